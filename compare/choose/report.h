@@ -2,6 +2,8 @@
 // A choice for people and scripts: in words, as JSON and as a page.
 #pragma once
 
+#include "compare/choose/common.h"
+#include "compare/choose/deciders.h"
 #include "compare/choose/search.h"
 #include "shared/frame/frame.h"
 
@@ -21,6 +23,14 @@ struct UnseenCamera {
     bool holds = true;  // within the error of the budget; without one, no more than half as large again
 };
 
+// --explain-choice: what of the scene decided between the paths.
+struct DecidersReport {
+    std::string chosen, other;            // Settings in words, of both paths
+    std::string chosen_path, other_path;  // names
+    bool other_fits = true;               // the budget
+    Deciders deciders;
+};
+
 struct ChoiceReport {
     std::string scene;
     std::vector<std::string> cameras;  // their titles
@@ -35,13 +45,48 @@ struct ChoiceReport {
     std::vector<std::string> notes{};
     // Effects on passes that earlier choices on this device taught.
     std::size_t known_effects = 0;
+    std::optional<DecidersReport> deciders{};
     double seconds = 0;
 };
+
+// Of several scenes: the Settings for all of them.
+struct CommonReport {
+    std::vector<std::string> scenes;
+    CommonChoice choice;
+    // Of each candidate; SCENE stands in the command for any of them.
+    std::vector<std::string> words, commands;
+    double seconds = 0;
+};
+
+struct Choices {
+    std::vector<ChoiceReport> scenes;  // at least one
+    std::optional<CommonReport> all;   // of several
+};
+
+// Of the only scene, or for all; nothing where nothing fits.
+std::optional<Settings> chosenSettings(const Choices& choices);
+
+// The best candidate of the path that was not chosen, of those that were drawn and fit: the fastest, or
+// without an error in the budget the most accurate.
+std::optional<std::size_t> bestOfOtherPath(const ChoiceReport& report);
 
 // "the fastest with FLIP at most 0.01"
 std::string goalInWords(const ChoiceReport& report);
 // For a terminal; ends with a new line.
 std::string inWords(const ChoiceReport& report);
+// `first`: any of its scenes, which says the budget.
+std::string inWords(const CommonReport& report, const ChoiceReport& first);
+// Of one candidate: time, error and memory; "raced".
+std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
+const char* fateInWords(Fate fate);
+// Why, who else, how sure, or by how much it is missed: a line each, without indentation.
+std::vector<std::string> reasonsInWords(const ChoiceReport& report);
+std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);
+// A line on what was compared, then one a property, with two spaces before it.
+std::vector<std::string> inWords(const DecidersReport& report);
+nlohmann::ordered_json toJson(const DecidersReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);
+// One scene's, or { "scenes": [...], "all": {...} } with the Settings for all as "settings".
+nlohmann::ordered_json toJson(const Choices& choices);
 
 }  // namespace diptych::choose

@@ -20,59 +20,38 @@ std::string percent(double ratio) {
     return fmt::format("{:.1f} %", 100 * (ratio - 1));
 }
 
-// Its time, error and memory.
-std::string figuresOf(const ChoiceReport& report, std::size_t i) {
-    const Candidate& candidate = report.choice.candidates[i];
-    const double ms = candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
-    std::string text =
-        candidate.timings > 0 ? fmt::format("{:.4g} ms", ms) : fmt::format("about {:.3g} ms", ms);
-    if (candidate.judged)
-        text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
-                            page::bytes(candidate.judged->bytes));
-    return text;
-}
-
 std::string standingOf(const ChoiceReport& report, std::size_t i) {
     const Standing& standing = *report.choice.candidates[i].standing;
     return fmt::format("{}: takes {} more ({} to {})", report.words[i], percent(standing.ratio),
                        percent(standing.low), percent(standing.high));
 }
 
-std::string missInWords(const ChoiceReport& report) {
+std::vector<std::string> missesInWords(const ChoiceReport& report) {
     const Choice& choice = report.choice;
-    if (!choice.nearest) return "nothing could be drawn\n";
+    if (!choice.nearest) return {};
     const Candidate& nearest = choice.candidates[*choice.nearest];
-    std::string text = fmt::format("nothing fits; the nearest is {}\n    {}\n", report.words[*choice.nearest],
-                                   figuresOf(report, *choice.nearest));
+    std::vector<std::string> lines;
     const Budget& budget = report.budget;
     const auto gap = [&](double value, double limit, const char* what) {
         if (value > limit)
-            text += fmt::format("    {} over the {} of {:.4g}\n", percent(value / limit), what, limit);
+            lines.push_back(fmt::format("{} over the {} of {:.4g}", percent(value / limit), what, limit));
     };
     if (budget.error) gap(nearest.judged->error, *budget.error, "error");
     if (budget.ms && nearest.timings > 0) gap(choice.ms, *budget.ms, "time, ms,");
     if (budget.bytes)
         gap(static_cast<double>(nearest.judged->bytes), static_cast<double>(*budget.bytes), "memory, bytes,");
-    return text;
+    return lines;
 }
 
-std::string tiesInWords(const ChoiceReport& report) {
-    std::string text;
-    for (const std::size_t i : report.choice.ties)
-        text += fmt::format("  as fast, as far as can be told: {}\n", standingOf(report, i));
-    return text;
-}
-
-std::string unseenInWords(const ChoiceReport& report) {
+void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
     if (report.unseen.empty())
-        return fmt::format("  not checked on a camera that it was not chosen on: the scene has no other{}\n",
-                           report.cameras.size() > 1 ? "" : " one");
-    std::string text;
+        lines.push_back(
+            fmt::format("not checked on a camera that it was not chosen on: the scene has no other{}",
+                        report.cameras.size() > 1 ? "" : " one"));
     for (const UnseenCamera& camera : report.unseen)
-        text +=
-            fmt::format("  from {}, which it was not chosen on: {} {:.4g}{}\n", camera.camera, report.figure,
-                        camera.error, camera.holds ? "" : ", which is too much: give --camera for both");
-    return text;
+        lines.push_back(fmt::format("from {}, which it was not chosen on: {} {:.4g}{}", camera.camera,
+                                    report.figure, camera.error,
+                                    camera.holds ? "" : ", which is too much: give --camera for both"));
 }
 
 // How the chosen Settings compare with the best of the other path that were drawn and fit, pass by pass.
@@ -81,15 +60,7 @@ std::string whyInWords(const ChoiceReport& report) {
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
-    const auto isBetter = [&](const Candidate& a, const Candidate& b) {
-        return forSpeed ? a.predicted.log_ms < b.predicted.log_ms : a.judged->error < b.judged->error;
-    };
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
-        if (const Candidate& candidate = choice.candidates[i];
-            candidate.settings.path != chosen.settings.path && candidate.isFit() &&
-            (!best || isBetter(candidate, choice.candidates[*best])))
-            best = i;
+    const std::optional<std::size_t> best = bestOfOtherPath(report);
     if (!best) return "of the other path nothing fits and was worth drawing";
     const Candidate& other = choice.candidates[*best];
     std::map<std::string, std::pair<double, double>> passes;  // chosen, other
@@ -113,18 +84,14 @@ std::string whyInWords(const ChoiceReport& report) {
     return line;
 }
 
-// "12 not better by the model"
+// "12 drawn and no better"
 std::string fatesInWords(const Choice& choice) {
     std::map<Fate, std::size_t> counts;
     for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
     std::vector<std::string> words;
-    for (const auto& [fate, name] : {std::pair{Fate::raced, "raced"},
-                                     {Fate::fits, "drawn and no better"},
-                                     {Fate::too_slow, "too slow"},
-                                     {Fate::misses, "over the error or the memory"},
-                                     {Fate::spoilt, "not drawn, as a change of theirs exceeds the error"},
-                                     {Fate::unseen, "not drawn, as they are no better by the model"}})
-        if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], name));
+    for (const Fate fate :
+         {Fate::raced, Fate::fits, Fate::too_slow, Fate::misses, Fate::spoilt, Fate::unseen})
+        if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], fateInWords(fate)));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -166,6 +133,66 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
 
 }  // namespace
 
+std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
+    const Candidate& candidate = report.choice.candidates[i];
+    const double ms = candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
+    std::string text =
+        candidate.timings > 0 ? fmt::format("{:.4g} ms", ms) : fmt::format("about {:.3g} ms", ms);
+    if (candidate.judged)
+        text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
+                            page::bytes(candidate.judged->bytes));
+    return text;
+}
+
+const char* fateInWords(Fate fate) {
+    switch (fate) {
+        case Fate::unseen:
+            return "not drawn, no better by the model";
+        case Fate::spoilt:
+            return "not drawn, a change of it exceeds the error";
+        case Fate::misses:
+            return "over the error or the memory";
+        case Fate::too_slow:
+            return "too slow";
+        case Fate::fits:
+            return "drawn and no better";
+        case Fate::raced:
+            return "raced";
+    }
+    return "";
+}
+
+std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    if (!choice.chosen) return missesInWords(report);
+    std::vector<std::string> lines{whyInWords(report)};
+    if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
+        lines.push_back("runner-up: " + standingOf(report, *choice.runner_up));
+    for (const std::size_t i : choice.ties)
+        lines.push_back("as fast, as far as can be told: " + standingOf(report, i));
+    if (choice.sure)
+        lines.push_back(fmt::format("sure: every other contender is slower, at {:.0f} %",
+                                    100 * (1 - RaceRules().false_winner)));
+    addUnseen(report, lines);
+    return lines;
+}
+
+std::optional<std::size_t> bestOfOtherPath(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    if (!choice.chosen) return {};
+    const auto isBetter = [&](const Candidate& a, const Candidate& b) {
+        return report.budget.isForSpeed() ? a.predicted.log_ms < b.predicted.log_ms
+                                          : a.judged->error < b.judged->error;
+    };
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+        if (const Candidate& candidate = choice.candidates[i];
+            candidate.settings.path != choice.candidates[*choice.chosen].settings.path && candidate.isFit() &&
+            (!best || isBetter(candidate, choice.candidates[*best])))
+            best = i;
+    return best;
+}
+
 std::string goalInWords(const ChoiceReport& report) {
     const Budget& budget = report.budget;
     std::vector<std::string> limits;
@@ -181,19 +208,15 @@ std::string inWords(const ChoiceReport& report) {
     std::string text =
         fmt::format("{}, {}x{}, {}: {}\n", report.scene, report.given.size.width, report.given.size.height,
                     fmt::join(report.cameras, "; "), goalInWords(report));
-    if (!choice.chosen) {
-        text += missInWords(report);
-    } else {
-        text += fmt::format("{}\n    {}\n", report.words[*choice.chosen], figuresOf(report, *choice.chosen));
-        text += fmt::format("  {}\n", whyInWords(report));
-        if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
-            text += fmt::format("  runner-up: {}\n", standingOf(report, *choice.runner_up));
-        text += tiesInWords(report);
-        if (choice.sure)
-            text += fmt::format("  sure: every other contender is slower, at {:.0f} %\n",
-                                100 * (1 - RaceRules().false_winner));
-        text += unseenInWords(report);
-    }
+    if (!choice.chosen && !choice.nearest) text += "nothing could be drawn\n";
+    if (!choice.chosen && choice.nearest)
+        text += fmt::format("nothing fits; the nearest is {}\n", report.words[*choice.nearest]);
+    if (choice.chosen) text += report.words[*choice.chosen] + "\n";
+    if (const auto shown = choice.chosen ? choice.chosen : choice.nearest)
+        text += fmt::format("    {}\n", figuresInWords(report, *shown));
+    for (const std::string& line : reasonsInWords(report)) text += "  " + line + "\n";
+    if (report.deciders)
+        for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
     text += fmt::format(
         "  {} candidates: {}\n  {} pictures judged, {} frames timed, {} effects known before, {:.1f} s\n",
         choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings, report.known_effects,
@@ -231,6 +254,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["ties"] = std::move(ties);
     json["sure"] = choice.sure;
     json["why"] = whyInWords(report);
+    if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
     json["frames_timed"] = choice.timings;

@@ -24,7 +24,7 @@ const Command commands[] = {
      "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
      "diptych explain helmet.glb --gbuffer compact -o helmet-causes", true},
     {"choose", "The fastest Settings within an error, or the most accurate within a time or a memory",
-     "diptych choose helmet.glb --max-error 0.02", true},
+     "diptych choose helmet.glb --max-error 0.02 -o helmet-choice", true},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
      false},
     {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
@@ -256,10 +256,10 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
     app.add_option("--max-bytes", parsed.max_bytes,
                    "a frame takes so much memory at most: bytes, or with KiB, MiB, GiB behind")
         ->type_name("B");
-    app.add_flag_callback(
-           "--explain-choice", [&parsed] { parsed.not_built.emplace_back("--explain-choice"); },
-           "what of the scene decided it")
-        ->group(later_group);
+    app.add_flag(
+        "--explain-choice", choose.explain,
+        "what of the scene decided between the paths: overdraw, lights a pixel, transparency, samples, "
+        "materials, triangles, size, and where each would turn it; a few hundred frames more");
 }
 
 // What a report holds.
@@ -378,7 +378,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
         addGrid(app, options, "each by itself, and declared pairs");
     } else if (command == "choose") {
-        addFiles(app, options, "X.json: the chosen Settings; without it nothing is written");
+        addFiles(app, options,
+                 "X.json: the chosen Settings, of several scenes those for all; else a folder with a page, "
+                 "choice.json and settings.json; without it nothing is written");
         addGrid(app, options, "each by itself, and those that help together");
     } else if (command == "explain") {
         addFiles(app, options, "folder of the page, the maps and the JSON; without it nothing is written");

@@ -25,6 +25,7 @@ struct ChooseOptions {
     std::optional<double> max_error, max_ms;
     std::optional<std::uint64_t> max_bytes;
     std::string figure = "flip";  // of tradeoff::errorFigures
+    bool explain = false;         // --explain-choice
 };
 
 struct Options {

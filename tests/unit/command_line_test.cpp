@@ -185,7 +185,6 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
 
 TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"choose", "--max-error", "0.1", "--explain-choice"}, "--explain-choice"},
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
     };

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "compare/choose/common.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace diptych::choose {
+
+namespace {
+
+// Errors within this ratio are alike to whoever sets a budget, as in a scene's own choice.
+constexpr double alikeErrors = 1.01;
+
+Settings withoutCamera(Settings settings) {
+    settings.camera.clear();
+    return settings;
+}
+
+double logMean(const std::vector<double>& times) {
+    double sum = 0;
+    for (const double ms : times) sum += std::log(std::max(ms, 1e-9));
+    return sum / static_cast<double>(times.size());
+}
+
+class CommonSearch {
+public:
+    CommonSearch(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
+                 const CommonOptions& options)
+        : own_(own), labOf_(labOf), options_(options), budget_(options.budget) {}
+
+    CommonChoice run() {
+        propose();
+        inEachScene(0, 0.5, "judged for all", [&](std::size_t scene) { judgeIn(scene); });
+        std::vector<std::size_t> fit;
+        for (std::size_t i = 0; i < all().size(); ++i)
+            if (worstMiss(i, false) <= 0) fit.push_back(i);
+        if (budget_.ms && !fit.empty()) {
+            timeAll(fit);
+            std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
+        }
+        while (!fit.empty()) {
+            raceFor(contendersOf(fit));
+            for (const std::size_t i : fit) all()[i].fits = true;
+            if (worstMiss(*found_.chosen, true) <= 0) break;
+            // Raced, it takes longer than it did before: it is no longer within the time.
+            all()[*found_.chosen].fits = false;
+            std::erase(fit, *found_.chosen);
+            found_.chosen.reset();
+        }
+        if (!found_.chosen) findNearest();
+        return std::move(found_);
+    }
+
+private:
+    std::vector<CommonCandidate>& all() { return found_.candidates; }
+
+    // Each scene in turn, and the next time in the reverse order: the last one is still at hand.
+    template <class Do>
+    void inEachScene(double from, double to, std::string_view what, const Do& act) {
+        for (std::size_t k = 0; k < own_.size(); ++k) {
+            const double part = static_cast<double>(k) / static_cast<double>(own_.size());
+            if (options_.progress) options_.progress(from + (to - from) * part, what);
+            act(backwards_ ? own_.size() - 1 - k : k);
+        }
+        backwards_ = !backwards_;
+    }
+
+    // A scene's proposals, the most wanted first: its path's first candidates, which change nothing; what it
+    // chose; what is the most accurate of what it drew, as others may need more; and who else fits, the
+    // fastest first. Tier by tier, so that no scene crowds out another.
+    std::vector<std::vector<std::size_t>> tiersOf(const Choice& choice) const {
+        std::vector<std::vector<std::size_t>> tiers(3);
+        std::vector<Path> paths;
+        std::optional<std::size_t> accurate;
+        std::vector<std::pair<double, std::size_t>> others;
+        for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+            const Candidate& candidate = choice.candidates[i];
+            if (std::ranges::count(paths, candidate.settings.path) == 0) {
+                paths.push_back(candidate.settings.path);
+                tiers[0].push_back(i);
+            }
+            if (!candidate.judged) continue;
+            if (!accurate || candidate.judged->error < choice.candidates[*accurate].judged->error)
+                accurate = i;
+            if (candidate.isFit() && i != choice.chosen)
+                others.emplace_back(
+                    candidate.standing ? std::log(candidate.standing->ms) : candidate.predicted.log_ms, i);
+        }
+        if (choice.chosen) tiers[1].push_back(*choice.chosen);
+        if (accurate) tiers[2].push_back(*accurate);
+        std::ranges::sort(others);
+        for (const auto& [time, i] : others) tiers.push_back({i});
+        return tiers;
+    }
+
+    void propose() {
+        std::vector<std::vector<std::vector<std::size_t>>> tiers;
+        std::size_t deepest = 0;
+        for (const Choice* choice : own_) {
+            tiers.push_back(tiersOf(*choice));
+            deepest = std::max(deepest, tiers.back().size());
+        }
+        for (std::size_t tier = 0; tier < deepest; ++tier) {
+            std::vector<CommonCandidate> proposed;
+            for (std::size_t scene = 0; scene < own_.size(); ++scene) {
+                if (tier >= tiers[scene].size()) continue;
+                for (const std::size_t i : tiers[scene][tier]) {
+                    const Settings settings = withoutCamera(own_[scene]->candidates[i].settings);
+                    if (auto there = std::ranges::find(all(), settings, &CommonCandidate::settings);
+                        there != all().end()) {
+                        ++there->proposed_by;
+                        continue;
+                    }
+                    auto again = std::ranges::find(proposed, settings, &CommonCandidate::settings);
+                    if (again == proposed.end())
+                        proposed.push_back({.settings = settings, .proposed_by = 1});
+                    else
+                        ++again->proposed_by;
+                }
+            }
+            std::ranges::stable_sort(proposed, std::greater{}, &CommonCandidate::proposed_by);
+            for (CommonCandidate& candidate : proposed)
+                if (all().size() < options_.most_candidates)
+                    all().push_back(std::move(candidate));
+                else
+                    ++found_.left_out;
+        }
+        for (CommonCandidate& candidate : all()) candidate.scenes.resize(own_.size());
+    }
+
+    void judgeIn(std::size_t scene) {
+        Lab* lab = nullptr;
+        for (CommonCandidate& candidate : all()) {
+            const Candidate* known = nullptr;
+            for (const Candidate& own : own_[scene]->candidates)
+                if (own.judged && withoutCamera(own.settings) == candidate.settings) known = &own;
+            InScene& in = candidate.scenes[scene];
+            if (known) {
+                in = {*known->judged, known->standing ? known->standing->ms : known->predicted.ms()};
+                continue;
+            }
+            if (!lab) lab = &labOf_(scene);
+            in.judged = lab->judge(candidate.settings);
+            ++found_.judged;
+        }
+    }
+
+    double missIn(std::size_t i, std::size_t scene, bool timed) const {
+        const InScene& in = found_.candidates[i].scenes[scene];
+        return missOf(in.judged, timed ? std::optional(in.ms) : std::nullopt, budget_);
+    }
+    double worstMiss(std::size_t i, bool timed) const {
+        double worst = 0;
+        for (std::size_t scene = 0; scene < own_.size(); ++scene)
+            worst = std::max(worst, missIn(i, scene, timed));
+        return worst;
+    }
+    double worstError(std::size_t i) const {
+        double worst = 0;
+        for (const InScene& in : found_.candidates[i].scenes) worst = std::max(worst, in.judged.error);
+        return worst;
+    }
+    double sumOfLogs(std::size_t i) const {
+        double sum = 0;
+        for (const InScene& in : found_.candidates[i].scenes) sum += std::log(std::max(in.ms, 1e-9));
+        return sum;
+    }
+
+    // Four frames of each in each scene, forth and back.
+    void timeAll(const std::vector<std::size_t>& which) {
+        std::vector<Settings> frames;
+        std::vector<std::size_t> order;
+        for (const std::size_t i : which) frames.push_back(all()[i].settings);
+        for (int round = 0; round < 2; ++round) {
+            for (std::size_t k = 0; k < which.size(); ++k) order.push_back(k);
+            for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
+        }
+        inEachScene(0.5, 0.7, "timed for all", [&](std::size_t scene) {
+            const std::vector<double> times = labOf_(scene).time(frames, order);
+            found_.timings += times.size();
+            std::vector<std::vector<double>> of(which.size());
+            for (std::size_t at = 0; at < order.size(); ++at) of[order[at]].push_back(times[at]);
+            for (std::size_t k = 0; k < which.size(); ++k)
+                all()[which[k]].scenes[scene].ms = std::exp(logMean(of[k]));
+        });
+        timed_ = true;
+    }
+
+    // Who may be the best of those that fit: all of them, or those whose worst error is the least. Of more
+    // than are raced the fastest.
+    std::vector<std::size_t> contendersOf(std::vector<std::size_t> fit) {
+        if (!budget_.isForSpeed()) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const std::size_t i : fit) least = std::min(least, worstError(i));
+            std::erase_if(fit, [&](std::size_t i) { return worstError(i) > least * alikeErrors; });
+        }
+        if (fit.size() > options_.most_contenders && !timed_) timeAll(fit);
+        std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return sumOfLogs(i); });
+        fit.resize(std::min(fit.size(), std::max<std::size_t>(options_.most_contenders, 1)));
+        return fit;
+    }
+
+    void raceFor(const std::vector<std::size_t>& contenders) {
+        const std::size_t n = contenders.size();
+        std::vector<Settings> frames;
+        for (const std::size_t i : contenders) frames.push_back(all()[i].settings);
+        // Of each scene the logarithms of each contender's times, and at the end those of its own choice, one
+        // a round.
+        std::vector<std::vector<std::vector<double>>> rounds(own_.size());
+        const auto draw = [&](std::span<const std::size_t> order) {
+            std::vector<double> logs(order.size(), 0.0);
+            inEachScene(0.7, 1, "race for all", [&](std::size_t scene) {
+                std::vector<Settings> drawn = frames;
+                // Its own choice goes first and last in each round, unless it is one of the contenders.
+                const bool chose = own_[scene]->chosen && ownPlace(scene, frames) == n;
+                if (chose)
+                    drawn.push_back(withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings));
+                std::vector<std::size_t> with;
+                const std::size_t around = chose ? 1 : 0, one = 2 * n + 2 * around;
+                for (std::size_t at = 0; at < order.size(); at += 2 * n) {
+                    if (chose) with.push_back(n);
+                    with.insert(with.end(), order.begin() + static_cast<std::ptrdiff_t>(at),
+                                order.begin() + static_cast<std::ptrdiff_t>(at + 2 * n));
+                    if (chose) with.push_back(n);
+                }
+                const std::vector<double> times = labOf_(scene).time(drawn, with);
+                found_.timings += times.size();
+                rounds[scene].resize(n + 1);
+                for (std::size_t round = 0; round < with.size() / one; ++round) {
+                    std::vector<double> sums(n + 1, 0.0);
+                    for (std::size_t k = 0; k < one; ++k) {
+                        const double log = std::log(std::max(times[round * one + k], 1e-9));
+                        sums[with[round * one + k]] += 0.5 * log;
+                        if (k >= around && k - around < 2 * n)
+                            logs[round * 2 * n + k - around] += log / static_cast<double>(own_.size());
+                    }
+                    for (std::size_t k = 0; k < n + around; ++k) rounds[scene][k].push_back(sums[k]);
+                }
+            });
+            for (double& log : logs) log = std::exp(log);
+            return logs;
+        };
+        RaceRules rules;
+        rules.rungs = {options_.rounds};
+        const Race result = race(n, draw, rules, options_.seed);
+        found_.sure = result.sure;
+        found_.chosen = contenders[result.winner];
+        found_.ties.clear();
+        std::optional<std::size_t> second;
+        for (std::size_t k = 0; k < n; ++k) {
+            CommonCandidate& candidate = all()[contenders[k]];
+            candidate.standing = result.standings[k];
+            for (std::size_t scene = 0; scene < own_.size(); ++scene)
+                candidate.scenes[scene].ms = std::exp(mean(rounds[scene][k]));
+            if (k == result.winner) continue;
+            if (!candidate.standing->isSlower()) found_.ties.push_back(contenders[k]);
+            if (!second || candidate.standing->ratio < result.standings[*second].ratio) second = k;
+        }
+        found_.runner_up = second ? std::optional(contenders[*second]) : std::nullopt;
+        found_.slower.assign(own_.size(), std::nullopt);
+        for (std::size_t scene = 0; scene < own_.size(); ++scene) {
+            if (!own_[scene]->chosen) continue;
+            const std::size_t place = ownPlace(scene, frames);
+            found_.slower[scene] = place == result.winner
+                                       ? Slowdown{}
+                                       : slowdown(rounds[scene][result.winner], rounds[scene][place]);
+        }
+    }
+    // Which of the contenders a scene chose itself; behind them all: none.
+    std::size_t ownPlace(std::size_t scene, const std::vector<Settings>& contenders) const {
+        const Settings own = withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings);
+        return static_cast<std::size_t>(std::ranges::find(contenders, own) - contenders.begin());
+    }
+
+    static double mean(const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+    static Slowdown slowdown(const std::vector<double>& of, const std::vector<double>& to) {
+        std::vector<double> ratios(of.size());
+        for (std::size_t k = 0; k < of.size(); ++k) ratios[k] = of[k] - to[k];
+        const double middle = mean(ratios);
+        double squares = 0;
+        for (const double ratio : ratios) squares += (ratio - middle) * (ratio - middle);
+        const auto n = static_cast<double>(ratios.size());
+        const double half = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
+                                              : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
+                                                    std::sqrt(squares / (n - 1) / n);
+        return {std::exp(middle), std::exp(middle - half), std::exp(middle + half)};
+    }
+
+    void findNearest() {
+        for (std::size_t i = 0; i < all().size(); ++i)
+            if (!found_.nearest || worstMiss(i, timed_) < worstMiss(*found_.nearest, timed_))
+                found_.nearest = i;
+        if (!found_.nearest) return;
+        for (std::size_t scene = 0; scene < own_.size(); ++scene)
+            if (missIn(*found_.nearest, scene, timed_) >
+                missIn(*found_.nearest, found_.nearest_scene, timed_))
+                found_.nearest_scene = scene;
+    }
+
+    std::span<const Choice* const> own_;
+    const std::function<Lab&(std::size_t)>& labOf_;
+    const CommonOptions& options_;
+    const Budget& budget_;
+    bool backwards_ = false, timed_ = false;
+    CommonChoice found_;
+};
+
+}  // namespace
+
+double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget) {
+    double miss = 0;
+    const auto add = [&](double value, double limit) {
+        if (value > limit) miss = std::max(miss, value / std::max(limit, 1e-12) - 1);
+    };
+    if (budget.error) add(judged.error, *budget.error);
+    if (budget.bytes) add(static_cast<double>(judged.bytes), static_cast<double>(*budget.bytes));
+    if (budget.ms && ms) add(*ms, *budget.ms);
+    return miss;
+}
+
+CommonChoice chooseForAll(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
+                          const CommonOptions& options) {
+    return CommonSearch(own, labOf, options).run();
+}
+
+}  // namespace diptych::choose

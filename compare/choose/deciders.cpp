@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "compare/choose/deciders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace diptych::choose {
+
+namespace {
+
+constexpr double doubted = 0.05;  // that the truth lies outside an interval
+constexpr int rangeSteps = 4000;  // in which a range is searched
+
+TimedValue timedValue(const Variation& variation, int rounds) {
+    std::vector<std::size_t> order;
+    for (int round = 0; round < rounds; ++round) {
+        const std::size_t first = static_cast<std::size_t>(round % 2);
+        for (const std::size_t i : {first, 1 - first, 1 - first, first}) order.push_back(i);
+    }
+    const std::vector<double> times = variation.draw(order);
+    TimedValue result{.value = variation.value};
+    std::vector<double> differences(static_cast<std::size_t>(rounds), 0.0);
+    const auto n = static_cast<double>(rounds);
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        result.ms[order[at]] += times[at] / (2 * n);
+        differences[at / 4] += (order[at] == 1 ? 0.5 : -0.5) * times[at];
+    }
+    result.difference = result.ms[1] - result.ms[0];
+    double squares = 0;
+    for (const double difference : differences)
+        squares += (difference - result.difference) * (difference - result.difference);
+    result.half = studentT(doubted, rounds - 1) * std::sqrt(squares / (n - 1) / n);
+    return result;
+}
+
+// The difference and half its interval at any value, on the lines through the measured ones.
+struct Lines {
+    std::span<const TimedValue> times;
+    std::pair<double, double> at(double value) const {
+        std::size_t k = 1;
+        while (k + 1 < times.size() && value > times[k].value) ++k;
+        const TimedValue &a = times[k - 1], &b = times[k];
+        const double u = (value - a.value) / (b.value - a.value);
+        return {a.difference + u * (b.difference - a.difference), std::hypot((1 - u) * a.half, u * b.half)};
+    }
+    bool isOpen(double value) const {
+        const auto [difference, half] = at(value);
+        return std::abs(difference) <= half;
+    }
+};
+
+// Geometric steps where all values are above 0.
+double stepped(double least, double most, int step) {
+    const double part = static_cast<double>(step) / rangeSteps;
+    return least > 0 ? least * std::pow(most / least, part) : least + part * (most - least);
+}
+
+double farOff(double a, double b) {
+    return a > 0 && b > 0 ? std::abs(std::log(a / b)) : std::abs(a - b);
+}
+
+}  // namespace
+
+std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double value, double least,
+                                   double most) {
+    if (times.size() < 2) return {};
+    const Lines lines{times};
+    std::optional<Crossing> nearest;
+    for (int step = 0; step < rangeSteps; ++step) {
+        double low = stepped(least, most, step), high = stepped(least, most, step + 1);
+        const double before = lines.at(low).first, after = lines.at(high).first;
+        if ((before < 0) == (after < 0)) continue;
+        for (int i = 0; i < 60; ++i) {
+            const double middle = 0.5 * (low + high);
+            ((lines.at(middle).first < 0) == (before < 0) ? low : high) = middle;
+        }
+        Crossing crossing{.value = high, .low = high, .high = high};
+        if (nearest && farOff(high, value) >= farOff(nearest->value, value)) continue;
+        crossing.extrapolated = high < times.front().value || high > times.back().value;
+        crossing.other_above = after < 0;
+        // As far as the lines leave it open; the step that ends it is within.
+        int down = step, up = step + 1;
+        while (down > 0 && lines.isOpen(stepped(least, most, down))) --down;
+        while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
+        crossing.low = stepped(least, most, down);
+        crossing.high = stepped(least, most, up);
+        if (down == 0 || up == rangeSteps) continue;
+        nearest = crossing;
+    }
+    return nearest;
+}
+
+Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
+                      const std::function<void(double, std::string_view)>& progress) {
+    Deciders deciders;
+    std::size_t all = 1, done = 0;
+    for (const Property& property : properties) all += property.others.size();
+    const auto measure = [&](const Variation& variation) {
+        deciders.frames += 4 * static_cast<std::size_t>(rounds);
+        return timedValue(variation, rounds);
+    };
+    const auto say = [&](std::string_view what) {
+        if (progress) progress(static_cast<double>(done++) / static_cast<double>(all), what);
+    };
+    say("what decides");
+    deciders.as_is = measure({0, asIs});
+    for (Property& property : properties) {
+        Decider decider;
+        decider.times.push_back(deciders.as_is);
+        decider.times.back().value = property.value;
+        for (const auto& make : property.others) {
+            say(property.name);
+            decider.times.push_back(measure(make()));
+        }
+        std::ranges::sort(decider.times, {}, &TimedValue::value);
+        // Two of one value, as where a variation changes nothing, draw no line.
+        const auto same = std::ranges::unique(decider.times, {}, &TimedValue::value);
+        decider.times.erase(same.begin(), same.end());
+        if (property.few_values) {
+            for (const TimedValue& at : decider.times)
+                if (at.value != property.value && at.isTold() && at.difference < 0)
+                    decider.turns_at = at.value;
+        } else if (decider.times.size() > 1) {
+            decider.crossing = crossingOf(decider.times, property.value, property.least, property.most);
+            const Lines lines{decider.times};
+            for (int step = 0; step <= rangeSteps && !decider.crossing; ++step) {
+                const double value = stepped(property.least, property.most, step);
+                if (!lines.isOpen(value)) continue;
+                if (!decider.open) decider.open = {value, value};
+                decider.open->second = value;
+            }
+        }
+        decider.property = std::move(property);
+        deciders.properties.push_back(std::move(decider));
+    }
+    const auto rank = [](const Decider& decider) {
+        const double at = decider.crossing ? decider.crossing->value : decider.turns_at.value_or(0);
+        return std::tuple(!decider.isTurned(), decider.crossing && decider.crossing->extrapolated,
+                          decider.isTurned() ? farOff(at, decider.property.value) : 0.0);
+    };
+    std::ranges::stable_sort(deciders.properties, {}, rank);
+    return deciders;
+}
+
+}  // namespace diptych::choose

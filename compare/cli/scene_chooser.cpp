@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/scene_chooser.h"
+
+#include "compare/cli/commands.h"
+#include "compare/cli/scene_lab.h"
+#include "compare/cli/scene_variations.h"
+#include "compare/page/text.h"
+#include "compare/render/frame_facts.h"
+#include "compare/run/command_text.h"
+#include "compare/run/version.h"
+#include "compare/tradeoff/felt.h"
+#include "compare/tradeoff/grid.h"
+#include "compare/tradeoff/sweep.h"
+#include "shared/vulkan/pipeline_cache.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::cli {
+
+using namespace choose;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::size_t figureOf(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < tradeoff::errorFigures.size(); ++i) {
+        if (tradeoff::errorFigures[i].name == name) return i;
+        names.push_back(tradeoff::errorFigures[i].name);
+    }
+    throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
+}
+
+// What may be chosen: with --grid what that says, else what a sweep tries of what the scene feels.
+std::vector<Settings> candidatesFor(const Options& options, const SceneView& view, const Scene& scene) {
+    const Settings& given = options.settings;
+    tradeoff::SweepRows sweep = tradeoff::makeSweepRows(
+        given, options.grid.empty() ? tradeoff::usualGrids(given) : tradeoff::readGrids(options.grid, given));
+    if (options.grid.empty()) sweep = tradeoff::rowsThatAreFelt(sweep, view.lights, &scene);
+    // What the command line says comes first of its path: the others are told by what they change of it.
+    std::ranges::stable_sort(sweep.rows, {},
+                             [&](const Settings& row) { return tradeoff::choicesOf(row, given).size(); });
+    return std::move(sweep.rows);
+}
+
+// A candidate of one path with changes; nothing where a sweep would not draw it.
+std::optional<Settings> combined(const Settings& given, const Settings& first,
+                                 std::span<const Change> changes) {
+    tradeoff::Grid grid{{"path", {std::string(nameOf(first.path))}}};
+    for (const Change& change : changes) grid.push_back({change.option, {change.to}});
+    try {
+        const tradeoff::SweepRows sweep = tradeoff::makeSweepRows(given, {grid});
+        for (const Change& change : changes)
+            if (sweep.rows.front().valueOf(change.option) != change.to) return {};
+        return sweep.rows.front();
+    } catch (const std::runtime_error&) {
+        return {};
+    }
+}
+
+std::vector<std::string> allCameras(const Scene& scene) {
+    std::vector<std::string> cameras;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) cameras.push_back(std::to_string(i));
+    return cameras.empty() ? std::vector<std::string>{""} : cameras;
+}
+
+// The scene's cameras that are not among `cameras`, which are named as the command line names them.
+std::vector<std::string> unseenCameras(const Scene& scene, const std::vector<std::string>& cameras) {
+    std::vector<std::string> unseen;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        if (std::ranges::count(cameras, std::to_string(i)) == 0 &&
+            std::ranges::count(cameras, scene.cameras[i].name) == 0)
+            unseen.push_back(std::to_string(i));
+    return unseen;
+}
+
+}  // namespace
+
+struct SceneChooser::Held {
+    Held(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
+        : where(std::move(name)), scene(std::move(read)), views(scene), renderer(device, views, pipelines) {}
+    std::string where;
+    Scene scene;
+    SceneViews views;
+    Renderer renderer;
+    std::optional<SceneLab> lab{};
+};
+
+SceneChooser::SceneChooser(const Options& options)
+    : options_(options),
+      figure_(figureOf(options.choose.figure)),
+      progress_(progressOutput(options)),
+      device_(deviceOptions(options)),
+      pipelines_(makePipelineSet(device_)),
+      calibration_file_(calibrationFile(userCacheFolder(), device_.info().name)),
+      calibration_(
+          readCalibration(calibration_file_, device_.info().name, device_.info().driver, commitName())) {
+    say(options, "on " + device_.info().name);
+}
+
+SceneChooser::~SceneChooser() = default;
+
+SceneChooser::Held& SceneChooser::hold(const std::string& scene, const Stage& progress) {
+    if (held_ && held_->where == scene) return *held_;
+    held_.reset();
+    held_ = std::make_unique<Held>(scene, loadShown(scene, options_.settings, progress), device_, pipelines_);
+    if (const auto references = references_.find(scene); references != references_.end())
+        held_->lab.emplace(held_->renderer, references->second, figure_, renderOptions(options_));
+    return *held_;
+}
+
+ChoiceReport SceneChooser::choose(const std::string& where) {
+    const Clock::time_point start = Clock::now();
+    const Stage stage(progress_, where);
+    Held& held = hold(where, stage.part(0, 0.05));
+    const std::vector<std::string> cameras =
+        options_.camera_given ? options_.cameras : allCameras(held.scene);
+    Settings given = options_.settings;
+    given.camera = cameras.front();
+    Options asked = options_;
+    asked.settings = given;
+    const std::vector<Settings> candidates =
+        candidatesFor(asked, held.views.at(viewRequest(given)), held.scene);
+
+    ChoiceReport report;
+    report.scene = where;
+    report.notes = held.scene.notes;
+    report.given = given;
+    report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
+    report.figure = tradeoff::errorFigures.at(figure_).title;
+    report.figure_name = tradeoff::errorFigures.at(figure_).name;
+    report.device = reportDevice(device_);
+    report.known_effects = calibration_.effects.size();
+
+    const Settings truth = tradeoff::truthFor(given, candidates);
+    RenderOptions drawing = renderOptions(options_);
+    drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
+    const tradeoff::ReferenceFrames& references =
+        references_
+            .insert_or_assign(where, tradeoff::drawReferenceFrames(held.renderer, truth, cameras,
+                                                                   pictureChoice(options_), drawing))
+            .first->second;
+    for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
+    held.lab.emplace(held.renderer, references, figure_, renderOptions(options_));
+
+    CostModel model(calibration_);
+    SearchOptions search;
+    search.budget = report.budget;
+    if (options_.grid.empty())
+        search.combine = [&](const Settings& first, std::span<const Change> changes) {
+            return combined(given, first, changes);
+        };
+    const Stage searching = stage.part(0.2, 0.95);
+    search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
+    report.choice = choose::search(candidates, *held.lab, model, search);
+    Calibration taught = calibration_;
+    model.teach(taught, where);
+    if (writeCalibration(calibration_file_, taught)) calibration_ = std::move(taught);
+
+    for (const Candidate& candidate : report.choice.candidates) {
+        report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
+        Settings drawn = candidate.settings;
+        drawn.camera = options_.settings.camera;
+        report.commands.push_back(shellLine(commandWords("render", where, drawn)));
+    }
+    if (report.choice.chosen)
+        for (const std::string& camera : unseenCameras(held.scene, cameras))
+            report.unseen.push_back(fromUnseen(held, truth, report, camera));
+    if (options_.choose.explain && report.choice.chosen)
+        report.deciders = decidersOf(held, report, stage.part(0.95, 1));
+    checkValidation(device_);
+    report.seconds = secondsSince(start);
+    progress_.wipe();
+    return report;
+}
+
+std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
+                                                       const Stage& progress) {
+    const Choice& choice = report.choice;
+    const Path chosen_path = choice.candidates[*choice.chosen].settings.path;
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+        if (choice.candidates[i].judged && choice.candidates[i].settings.path != chosen_path)
+            others.push_back(i);
+    if (others.empty()) return {};  // --grid has candidates of one path alone
+    const bool fits =
+        std::ranges::any_of(others, [&](std::size_t i) { return choice.candidates[i].isFit(); });
+    if (fits) std::erase_if(others, [&](std::size_t i) { return !choice.candidates[i].isFit(); });
+    std::ranges::sort(others, {}, [&](std::size_t i) {
+        return fits ? choice.candidates[i].predicted.log_ms : choice.candidates[i].judged->error;
+    });
+    // Of those that fit, the fastest by the model race: it may be off for what was not timed.
+    constexpr std::size_t raced = 4;
+    others.resize(std::min(others.size(), fits ? raced : 1));
+    std::vector<Settings> frames;
+    for (const std::size_t i : others) frames.push_back(choice.candidates[i].settings);
+    RaceRules rules;
+    rules.rungs = {2, 4};
+    const Race best = race(
+        frames.size(), [&](std::span<const std::size_t> order) { return held.lab->time(frames, order); },
+        rules, 1);
+    const std::size_t other = others[best.winner];
+    // Where nothing is blended, both may differ in how they would blend: not where a variation blends.
+    std::array<Settings, 2> compared{choice.candidates[*choice.chosen].settings, frames[best.winner]};
+    const tradeoff::ReferenceFrames& references = references_.at(report.scene);
+    if (std::ranges::all_of(references.frames,
+                            [](const Frame& frame) { return frame.blended.pixels() == 0; }))
+        for (const Field& field : settingFields())
+            for (Settings& each : compared)
+                if (field.option.starts_with("transparency"))
+                    each.set(field.option, options_.settings.valueOf(field.option));
+    const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
+    constexpr int rounds = 5;
+    DecidersReport deciders{
+        report.words[*choice.chosen],
+        report.words[other],
+        std::string(nameOf(chosen_path)),
+        std::string(nameOf(frames[best.winner].path)),
+        fits,
+        findDeciders(drawAsIs(varied), propertiesOf(varied), rounds,
+                     [&](double done, std::string_view what) { progress.at(done, std::string(what)); })};
+    deciders.deciders.frames += best.draws;
+    return deciders;
+}
+
+UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,
+                                      const std::string& camera) {
+    RenderOptions drawing = renderOptions(options_);
+    drawing.progress = {};
+    const tradeoff::ReferenceFrames references =
+        tradeoff::drawReferenceFrames(held.renderer, truth, {camera}, pictureChoice(options_), drawing);
+    SceneLab lab(held.renderer, references, figure_, drawing);
+    const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
+    const double error = lab.judge(chosen.settings).error;
+    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
+    return {page::cameraTitle(references.frames.front()), error, error <= most};
+}
+
+CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {
+    const Clock::time_point start = Clock::now();
+    const Stage stage(progress_, fmt::format("all {} scenes", reports.size()));
+    std::vector<const Choice*> own;
+    CommonReport all;
+    for (const ChoiceReport& report : reports) {
+        own.push_back(&report.choice);
+        all.scenes.push_back(report.scene);
+    }
+    CommonOptions common;
+    common.budget = reports.front().budget;
+    common.progress = [&](double done, std::string_view what) { stage.at(done, std::string(what)); };
+    const std::function<Lab&(std::size_t)> labOf = [&](std::size_t scene) -> Lab& {
+        return *hold(reports[scene].scene, Stage()).lab;
+    };
+    all.choice = choose::chooseForAll(own, labOf, common);
+    Settings given = options_.settings;
+    given.camera.clear();
+    for (CommonCandidate& candidate : all.choice.candidates) {
+        all.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
+        candidate.settings.camera = options_.settings.camera;
+        all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
+    }
+    checkValidation(device_);
+    all.seconds = secondsSince(start);
+    progress_.wipe();
+    return all;
+}
+
+}  // namespace diptych::cli

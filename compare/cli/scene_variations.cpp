@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/scene_variations.h"
+
+#include "compare/cli/scene_lab.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "compare/render/sample_counts.h"
+#include "forward_plus/prepass.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace diptych::cli {
+
+using namespace choose;
+
+namespace {
+
+constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
+              materialId = static_cast<int>(gpu::DEBUG_material_id);
+
+// The cameras of some references and nothing else of them. One that was chosen by how much it shows is named,
+// so that a variation is seen from there too.
+tradeoff::ReferenceFrames viewpointsOf(const Scene& scene, const tradeoff::ReferenceFrames& references) {
+    tradeoff::ReferenceFrames viewpoints;
+    for (const Frame& reference : references.frames) {
+        Frame& frame = viewpoints.frames.emplace_back();
+        frame.settings = reference.settings;
+        const FrameCamera& camera = reference.camera;
+        if (!frame.settings.camera.empty() || !scene.cameras.empty() || camera.fov_degrees <= 0) continue;
+        const auto point = [](const double(&p)[3]) {
+            return fmt::format("{:.9g},{:.9g},{:.9g}", p[0], p[1], p[2]);
+        };
+        frame.settings.camera = fmt::format("eye={} target={} fov={:.9g} near={:.9g}", point(camera.eye),
+                                            point(camera.target), camera.fov_degrees, camera.near);
+        if (std::isfinite(camera.far)) frame.settings.camera += fmt::format(" far={:.9g}", camera.far);
+    }
+    return viewpoints;
+}
+
+// A scene that was made of another, uploaded.
+struct MadeScene {
+    MadeScene(Scene made, const VariedScene& of, tradeoff::ReferenceFrames from)
+        : scene(std::move(made)),
+          views(scene),
+          renderer(of.device, views, of.pipelines),
+          viewpoints(std::move(from)),
+          lab(renderer, viewpoints, 0, {}) {}
+    Scene scene;
+    SceneViews views;
+    Renderer renderer;
+    tradeoff::ReferenceFrames viewpoints;
+    SceneLab lab;
+};
+
+// Sums over cameras.
+struct Figures {
+    double fragments = 0, covered = 0, triangles = 0;  // solid
+    double lights = 0, surface = 0;                    // evaluated, over the pixels that show a solid surface
+};
+
+Overdraw overdrawFrom(const VariedScene& of, SceneViews& views, const Settings& settings) {
+    SharedResources shared(of.device, views.scene(), of.pipelines);
+    const PreparedView view(of.device, shared, views.at(viewRequest(settings)), settings);
+    return measureOverdraw(view.inputs, static_cast<std::uint32_t>(settings.size.width),
+                           static_cast<std::uint32_t>(settings.size.height));
+}
+
+Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
+                  const tradeoff::ReferenceFrames& viewpoints, const std::array<Settings, 2>& settings) {
+    Figures figures;
+    for (const Frame& from : viewpoints.frames) {
+        Settings seen = settings[0].path == Path::forward_plus ? settings[0] : settings[1];
+        seen.camera = from.settings.camera;
+        const Overdraw overdraw = overdrawFrom(of, views, seen);
+        figures.fragments += static_cast<double>(overdraw.fragments);
+        figures.covered += static_cast<double>(overdraw.covered);
+        figures.triangles += static_cast<double>(overdraw.triangles);
+        RenderOptions drawing;
+        drawing.channels = {materialId, lightCount};
+        drawing.requested = drawing.channels;
+        drawing.runs = 0;
+        const Frame frame = renderer.draw(seen, drawing);
+        const Image &ids = frame.channels.at(materialId), &lights = frame.channels.at(lightCount);
+        for (std::size_t i = 0; i < ids.pixels(); ++i) {
+            if (ids.pixel(i)[0] < 0) continue;
+            figures.surface += 1;
+            figures.lights += lights.pixel(i)[0];
+        }
+    }
+    return figures;
+}
+
+double ratioOf(double a, double b) {
+    return b > 0 ? a / b : 0;
+}
+
+std::size_t materialsIn(const Scene& scene) {
+    std::set<int> used;
+    for (const Node& node : scene.nodes)
+        if (node.mesh >= 0)
+            for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+                used.insert(primitive.material);
+    return used.size();
+}
+
+// Shares of the pictures: blended over, and showing any surface.
+std::pair<double, double> blendedShare(const tradeoff::ReferenceFrames& references, double surface) {
+    double blended = 0, all = 0;
+    for (const Frame& frame : references.frames) {
+        all += static_cast<double>(frame.settings.size.width) * frame.settings.size.height;
+        for (std::size_t i = 0; i < frame.blended.pixels(); ++i) blended += frame.blended.pixel(i)[0] > 0;
+    }
+    return {ratioOf(blended, all), std::min(1.0, ratioOf(std::max(blended, surface), all))};
+}
+
+class Properties {
+public:
+    explicit Properties(const VariedScene& of)
+        : of_(of),
+          scene_(of.views.scene()),
+          viewpoints_(viewpointsOf(scene_, of.references)),
+          here_(figuresOf(of, of.views, of.renderer, viewpoints_, of.settings)) {}
+
+    std::vector<Property> all() const {
+        return {overdraw(), lights(), blended(), samples(), materials(), triangles(), size()};
+    }
+
+private:
+    // Both Settings changed, the scene as it is.
+    std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
+        return [this_of = of_, value, settings] {
+            const auto lab =
+                std::make_shared<SceneLab>(this_of.renderer, this_of.references, 0, RenderOptions());
+            return Variation{value, [lab, settings](std::span<const std::size_t> order) {
+                                 return lab->time(settings, order);
+                             }};
+        };
+    }
+    // Another scene; `valueOf` measures its value.
+    template <class Make, class ValueOf>
+    std::function<Variation()> withScene(Make make, ValueOf valueOf, bool bakedLights = false) const {
+        std::array<Settings, 2> settings = of_.settings;
+        if (bakedLights)
+            for (Settings& each : settings) each.lights.clear();
+        return [of = of_, viewpoints = viewpoints_, settings, make, valueOf] {
+            const auto made = std::make_shared<MadeScene>(make(of.views.scene()), of, viewpoints);
+            const double value = valueOf(*made, settings);
+            return Variation{value, [made, settings](std::span<const std::size_t> order) {
+                                 return made->lab.time(settings, order);
+                             }};
+        };
+    }
+    auto figured(double (*of_figures)(const Figures&)) const {
+        return [of = of_, of_figures](MadeScene& made, const std::array<Settings, 2>& settings) {
+            return of_figures(figuresOf(of, made.views, made.renderer, made.viewpoints, settings));
+        };
+    }
+
+    static double overdrawOf(const Figures& figures) { return ratioOf(figures.fragments, figures.covered); }
+    static double lightsOf(const Figures& figures) { return ratioOf(figures.lights, figures.surface); }
+    static double trianglesOf(const Figures& figures) { return figures.triangles; }
+
+    Property overdraw() const {
+        Property property{.name = "overdraw",
+                          .unit = "fragments a covered pixel",
+                          .how =
+                              "surfaces drawn once and three times more just below themselves first, with "
+                              "as many triangles more",
+                          .value = overdrawOf(here_),
+                          .least = 1,
+                          .most = 32};
+        if (property.value <= 0) property.not_varied = "this device counts no fragments, or nothing is solid";
+        for (const int copies : {1, 3})
+            if (property.not_varied.empty())
+                property.others.push_back(
+                    withScene([copies](const Scene& scene) { return withOverdraw(scene, copies); },
+                              figured(overdrawOf)));
+        return property;
+    }
+
+    Property lights() const {
+        Property property{.name = "light density",
+                          .unit = "lights a pixel",
+                          .how = "every other light, and each two and four times",
+                          .value = lightsOf(here_),
+                          .least = 0,
+                          .most = 1024};
+        Settings seen = of_.settings[0];
+        seen.camera = viewpoints_.frames.front().settings.camera;
+        const SceneView& view = of_.views.at(viewRequest(seen));
+        std::vector<Light> lights = view.lights;
+        if (view.sun && !lights.empty()) lights.pop_back();  // the environment's, which is taken out again
+        if (lights.empty()) property.not_varied = "there is none that could be fewer or more";
+        for (const double factor : {0.5, 2.0, 4.0}) {
+            if (lights.empty() || (factor < 1 && lights.size() < 2)) continue;
+            property.others.push_back(
+                withScene([lights, factor](const Scene& scene) { return withLights(scene, lights, factor); },
+                          figured(lightsOf), true));
+        }
+        return property;
+    }
+
+    Property blended() const {
+        const auto [share, surface] = blendedShare(of_.references, here_.surface);
+        Property property{.name = "transparency",
+                          .unit = "% of the pixels",
+                          .how = "every material opaque, and every one blended",
+                          .value = 100 * share,
+                          .least = 0,
+                          .most = 100};
+        const auto vary = [&](bool all, double value) {
+            property.others.push_back(
+                withScene([all](const Scene& scene) { return withBlends(scene, all); },
+                          [value](MadeScene&, const std::array<Settings, 2>&) { return value; }));
+        };
+        if (share > 0) vary(false, 0);
+        if (surface > share) vary(true, 100 * surface);
+        return property;
+    }
+
+    Property samples() const {
+        const int now = of_.settings[0].msaa, other = now > 1 ? 1 : 4;
+        Property property{.name = "MSAA",
+                          .unit = now == 1 ? "sample a pixel" : "samples a pixel",
+                          .how = "both paths' Settings with as many samples",
+                          .value = static_cast<double>(now),
+                          .least = 1,
+                          .most = 8,
+                          .few_values = true};
+        const std::array<Settings, 2> settings{withSamples(of_.settings[0], other),
+                                               withSamples(of_.settings[1], other)};
+        for (const Settings& each : settings)
+            if (const auto problem = each.problem()) property.not_varied = *problem;
+        const std::vector<int> can = sampleCounts(of_.device);
+        if (std::ranges::count(can, other) == 0)
+            property.not_varied = fmt::format("this device draws no {} samples", other);
+        if (property.not_varied.empty()) property.others.push_back(withSettings(other, settings));
+        return property;
+    }
+
+    Property materials() const {
+        const auto count = static_cast<double>(materialsIn(scene_));
+        Property property{.name = "materials",
+                          .unit = count == 1 ? "material" : "materials",
+                          .how = "one for all solid surfaces, and one for each part of a mesh",
+                          .value = count,
+                          .least = 1,
+                          .most = 1024};
+        const auto valueOf = [](MadeScene& made, const std::array<Settings, 2>&) {
+            return static_cast<double>(materialsIn(made.scene));
+        };
+        if (count > 1) property.others.push_back(withScene(withOneMaterial, valueOf));
+        if (materialsIn(withOwnMaterials(scene_)) > materialsIn(scene_))
+            property.others.push_back(withScene(withOwnMaterials, valueOf));
+        return property;
+    }
+
+    Property triangles() const {
+        Property property{.name = "triangles",
+                          .unit = "triangles drawn",
+                          .how = "each eight times more, which cover no pixel",
+                          .value = trianglesOf(here_),
+                          .least = 1,
+                          .most = 1e8};
+        property.others.push_back(
+            withScene([](const Scene& scene) { return withEmptyTriangles(scene, 8); }, figured(trianglesOf)));
+        return property;
+    }
+
+    Property size() const {
+        const Size& now = of_.references.frames.front().settings.size;
+        const double pixels = static_cast<double>(now.width) * now.height;
+        Property property{.name = "size",
+                          .unit = "pixels",
+                          .how = "half and twice the width and height",
+                          .value = pixels,
+                          .least = 16 * 9,
+                          .most = 7680.0 * 4320};
+        for (const double factor : {0.5, 2.0}) {
+            std::array<Settings, 2> settings = of_.settings;
+            for (Settings& each : settings) {
+                const auto scaled = [&](int length) {
+                    return std::max(1, static_cast<int>(std::lround(length * factor)));
+                };
+                each.size = {scaled(each.size.width), scaled(each.size.height)};
+            }
+            property.others.push_back(withSettings(pixels * factor * factor, settings));
+        }
+        return property;
+    }
+
+    const VariedScene& of_;
+    const Scene& scene_;
+    const tradeoff::ReferenceFrames viewpoints_;
+    const Figures here_;
+};
+
+}  // namespace
+
+DrawInOrder drawAsIs(const VariedScene& of) {
+    const auto lab = std::make_shared<SceneLab>(of.renderer, of.references, 0, RenderOptions());
+    return [lab, settings = of.settings](std::span<const std::size_t> order) {
+        return lab->time(settings, order);
+    };
+}
+
+std::vector<Property> propertiesOf(const VariedScene& of) {
+    return Properties(of).all();
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/scene_variations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace diptych::cli {
+
+namespace {
+
+glm::vec3 extentOf(const Primitive& primitive) {
+    glm::vec3 low = primitive.positions.front(), high = low;
+    for (const glm::vec3& position : primitive.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    return high - low;
+}
+
+float lengthOf(const glm::vec3& v) {
+    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+// Before each triangle `copies` of it, each a little deeper below the surface: drawn first, they are shaded
+// and covered again, unless a pre-pass has told that they will be.
+void addBelow(Primitive& primitive, int copies) {
+    constexpr float deeper = 1e-3f;  // of the primitive's extent; far more than depth resolves
+    const std::size_t count = primitive.positions.size();
+    const float step = deeper * lengthOf(extentOf(primitive));
+    std::vector<std::uint32_t> indices;
+    const std::vector<std::uint32_t> own = primitive.indices;
+    const Primitive surface = primitive;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (int copy = 0; copy < copies; ++copy) {
+        for (std::size_t i = 0; i < count; ++i)
+            primitive.positions.push_back(surface.positions[i] -
+                                          static_cast<float>(copies - copy) * step * surface.normals[i]);
+        append(primitive.normals, surface.normals);
+        append(primitive.tangents, surface.tangents);
+        for (int set = 0; set < 2; ++set) append(primitive.texcoords[set], surface.texcoords[set]);
+        append(primitive.colors, surface.colors);
+    }
+    for (std::size_t at = 0; at + 2 < own.size(); at += 3) {
+        for (int copy = 0; copy < copies; ++copy)
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                indices.push_back(own[at + corner] +
+                                  static_cast<std::uint32_t>(count * static_cast<std::size_t>(copy + 1)));
+        for (std::size_t corner = 0; corner < 3; ++corner) indices.push_back(own[at + corner]);
+    }
+    primitive.indices = std::move(indices);
+}
+
+}  // namespace
+
+Scene withLights(const Scene& scene, std::span<const Light> lights, double factor) {
+    Scene varied = scene;
+    varied.lights.clear();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        Light light = lights[i];
+        light.node = -1;  // `lights` are posed
+        light.source = -1;
+        if (factor >= 1) {
+            // As bright: --light-cutoff gives a darker one a smaller range.
+            varied.lights.push_back(light);
+            light.shadow = false;
+            for (int copy = 1; copy < static_cast<int>(factor); ++copy) varied.lights.push_back(light);
+        } else if (i % static_cast<std::size_t>(std::lround(1 / factor)) == 0) {
+            varied.lights.push_back(light);
+        }
+    }
+    return varied;
+}
+
+Scene withOverdraw(const Scene& scene, int copies) {
+    Scene varied = scene;
+    for (Mesh& mesh : varied.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            const bool moves = !primitive.joint_sets.empty() || !primitive.targets.empty();
+            if (!moves && !primitive.positions.empty() &&
+                !blends(scene.materials[static_cast<std::size_t>(primitive.material)]))
+                addBelow(primitive, copies);
+        }
+    return varied;
+}
+
+Scene withEmptyTriangles(const Scene& scene, int copies) {
+    Scene varied = scene;
+    for (Mesh& mesh : varied.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            const std::vector<std::uint32_t> own = primitive.indices;
+            for (int copy = 0; copy < copies; ++copy)
+                for (std::size_t at = 0; at + 2 < own.size(); at += 3)
+                    primitive.indices.insert(primitive.indices.end(), {own[at], own[at + 1], own[at + 1]});
+        }
+    return varied;
+}
+
+Scene withOneMaterial(const Scene& scene) {
+    Scene varied = scene;
+    std::optional<int> first;
+    for (Mesh& mesh : varied.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            if (blends(scene.materials[static_cast<std::size_t>(primitive.material)])) continue;
+            if (!first) first = primitive.material;
+            primitive.material = *first;
+        }
+    return varied;
+}
+
+Scene withOwnMaterials(const Scene& scene) {
+    Scene varied = scene;
+    std::vector<bool> used(scene.materials.size(), false);
+    for (Mesh& mesh : varied.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            const auto material = static_cast<std::size_t>(primitive.material);
+            if (used[material]) {
+                varied.materials.push_back(scene.materials[material]);
+                primitive.material = static_cast<int>(varied.materials.size()) - 1;
+            }
+            used[material] = true;
+        }
+    return varied;
+}
+
+Scene withBlends(const Scene& scene, bool all) {
+    Scene varied = scene;
+    for (Material& material : varied.materials) {
+        if (all && blends(material)) continue;
+        material.alpha_mode = all ? AlphaMode::blend : material.alpha_mode;
+        if (!all && material.alpha_mode == AlphaMode::blend) material.alpha_mode = AlphaMode::opaque;
+        if (!all) material.transmission = 0;
+    }
+    return varied;
+}
+
+}  // namespace diptych::cli
