@@ -62,33 +62,50 @@ public:
     }
 
 private:
-    // What of the change is the light's, as multiples of its term: one of the block, or one a pixel.
-    std::vector<double> factors(std::size_t light) const {
-        double along = 0, size = 0;
-        std::vector<double> of(pixels_.size());
+    // What of the change is the light's, as multiples of its term: of each colour one for the block, or of
+    // all colours one a pixel.
+    std::vector<Color> factors(std::size_t light) const {
+        Color along{}, size{};
+        std::vector<Color> of(pixels_.size());
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Color term = colorAt(terms_[light], pixels_[i]);
-            const double a = dot(left_[i], term), s = dot(term, term);
-            along += a, size += s;
-            if (how_ == LightChange::seen && s > 0) of[i] = std::clamp(a / s, -1.0, 1.0);
+            for (std::size_t c = 0; c < 3; ++c) {
+                along.at(c) += left_[i].at(c) * term.at(c);
+                size.at(c) += term.at(c) * term.at(c);
+            }
+            const double s = dot(term, term);
+            if (how_ == LightChange::seen && s > 0)
+                of[i].fill(std::clamp(dot(left_[i], term) / s, -1.0, 1.0));
         }
-        if (how_ == LightChange::factor) std::ranges::fill(of, size > 0 ? along / size : 0.0);
+        if (how_ == LightChange::factor) {
+            Color factor{};
+            for (std::size_t c = 0; c < 3; ++c)
+                factor.at(c) = size.at(c) > 0 ? along.at(c) / size.at(c) : 0.0;
+            std::ranges::fill(of, factor);
+        }
+        const double sign = std::copysign(1.0, along[0] + along[1] + along[2]);
         if (how_ == LightChange::whole)
             // Where it is there on both sides nothing has changed.
             for (std::size_t i = 0; i < pixels_.size(); ++i)
-                if (along != 0 && reduction(light, i, std::copysign(1.0, along)) > 0)
-                    of[i] = std::copysign(1.0, along);
+                if (reduction(light, i, {sign, sign, sign}) > 0) of[i].fill(sign);
         return of;
     }
 
-    // By how much the squared change at a pixel is less without this multiple of the light's term.
-    double reduction(std::size_t light, std::size_t i, double factor) const {
-        const Color term = colorAt(terms_[light], pixels_[i]);
-        return 2 * factor * dot(left_[i], term) - factor * factor * dot(term, term);
+    // What a light has of a pixel's change.
+    Color part(std::size_t light, std::size_t i, const Color& factor) const {
+        Color of = colorAt(terms_[light], pixels_[i]);
+        for (std::size_t c = 0; c < 3; ++c) of.at(c) *= factor.at(c);
+        return of;
+    }
+
+    // By how much the squared change at a pixel is less without that.
+    double reduction(std::size_t light, std::size_t i, const Color& factor) const {
+        const Color of = part(light, i, factor);
+        return 2 * dot(left_[i], of) - dot(of, of);
     }
 
     double account(std::size_t light) const {
-        const std::vector<double> of = factors(light);
+        const std::vector<Color> of = factors(light);
         double sum = 0;
         for (std::size_t i = 0; i < of.size(); ++i) sum += reduction(light, i, of[i]);
         return sum;
@@ -96,10 +113,10 @@ private:
 
     void take(std::size_t best, const std::vector<std::size_t>& alike,
               std::vector<std::vector<float>>& shares) {
-        const std::vector<double> of = factors(best);
+        const std::vector<Color> of = factors(best);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
-            const Color term = colorAt(terms_[best], pixels_[i]);
-            const double accounted = std::abs(of[i]) * std::sqrt(dot(term, term));
+            const Color taken = part(best, i, of[i]);
+            const double accounted = std::sqrt(dot(taken, taken));
             double sum = 0;
             std::vector<double> sizes;
             for (const std::size_t light : alike) {
@@ -109,7 +126,7 @@ private:
             }
             for (std::size_t k = 0; sum > 0 && k < alike.size(); ++k)
                 shares[alike[k]][pixels_[i]] += static_cast<float>(accounted * sizes[k] / sum);
-            for (std::size_t c = 0; c < 3; ++c) left_[i].at(c) -= of[i] * term.at(c);
+            for (std::size_t c = 0; c < 3; ++c) left_[i].at(c) -= taken.at(c);
         }
     }
 

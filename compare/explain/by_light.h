@@ -10,8 +10,9 @@
 
 namespace diptych {
 
-// What may have become of a light: it shines otherwise, by any factor; it is there in one picture and not in
-// the other; or more or less of it is seen, anywhere from none to all, at each pixel for itself.
+// What may have become of a light: it shines otherwise, by any factor, of each colour its own; it is there in
+// one picture and not in the other; or more or less of it is seen, anywhere from none to all, at each pixel
+// for itself.
 enum class LightChange { factor, whole, seen };
 
 // Each light's share of `change` at each pixel: for each light, in order, one value a pixel; they add up to

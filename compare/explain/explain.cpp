@@ -35,10 +35,14 @@ constexpr int litMode = static_cast<int>(gpu::DEBUG_lit), idMode = static_cast<i
               emissionMode = static_cast<int>(gpu::DEBUG_emission);
 constexpr int sampledOrderCount = 40;  // beyond mostExactCauses; each of as many subsets as there are causes
 constexpr double namedPair = 0.05;
-// Turned by so many degrees more an environment is tried, where what it lights is not as the test's Settings
-// say: what an axis that is taken for another does. It is believed where it leaves less than half of that.
+// Where the test's lit is not as its Settings say, others are tried: an environment turned by so many degrees
+// more, as by an axis that is taken for another; light from all around or haze that is a multiple of what is
+// said, or none. Believed are those that bring it nearer by at least half of what they change, and where no
+// term says so and the multiple is a guess, that leave less than half of the rest; as many as this together.
 constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
-constexpr double believedTurn = 0.5;
+constexpr double believedRest = 0.5;
+constexpr int mostBelieved = 3;
+constexpr double leastBrighter = 0.01;
 // Lights that are drawn alone: so many, and no more than a gigabyte of what two pictures of each hold.
 constexpr std::size_t mostLightsDrawn = 32, mostLightBytes = std::size_t{1} << 30;
 
@@ -165,7 +169,7 @@ public:
         found_.unexplained_map = imageOf(errors_);
         if (found_.distance > 0) {
             findExposure();
-            findTurn();
+            findUnsaid();
             findCauses();
             share();
         }
@@ -286,26 +290,168 @@ private:
         return rest;
     }
 
-    // An environment that is turned otherwise than the test's Settings say: they are taken to say it.
-    void findTurn() {
-        if (settings_[1].env == Settings().env || !restName().empty() || sameBits(rest_[0], rest_[1])) return;
-        std::vector<double> apart(errors_.size());
-        errorsOf(rest_[1], rest_[0], apart);
-        double least = believedTurn * meanOf(apart);
-        const Settings said = settings_[1];
-        for (const float turn : triedTurns) {
-            Settings turned = said;
-            turned.env_rotation += turn;
-            const Image own = shade(turned, ~0u);
-            const Image rest = restOf(own);
-            errorsOf(rest, rest_[0], apart);
-            if (!(meanOf(apart) < least)) continue;
-            least = meanOf(apart);
-            settings_[1] = turned;
-            turn_ = turn;
-            own_[1] = own;
-            rest_[1] = rest;
+    // A Setting that the test may have without saying so.
+    struct Unsaid {
+        std::string_view option;
+        Settings settings;
+        std::string shows;
+        bool guessed = false;  // a multiple that no term says
+    };
+
+    std::vector<Unsaid> triedSettings() {
+        std::vector<Unsaid> all;
+        const Settings& said = settings_[1];
+        const auto tryIt = [&](std::string_view option, std::string shows, bool guessed, const auto& change) {
+            if (std::ranges::any_of(unsaid_, [&](const Unsaid& one) { return one.option == option; })) return;
+            all.push_back({option, said, std::move(shows), guessed});
+            change(all.back().settings);
+        };
+        const bool lit_around = said.env != Settings().env && said.ibl_intensity > 0;
+        for (const float turn : triedTurns)
+            if (lit_around)
+                tryIt("env-rotation",
+                      fmt::format(
+                          "an environment that is turned by {} degrees more than the test's Settings say",
+                          turn),
+                      false, [&](Settings& s) { s.env_rotation += turn; });
+        const auto multiple = [](const char* what, double factor) {
+            return fmt::format("{} that is {:.4g} times what the test's Settings say", what, factor);
+        };
+        const TermFactors factors = factorsOfTerms();
+        const auto brighter = [&](std::string_view option, const char* what, std::optional<double> known,
+                                  const auto& change) {
+            Settings none = said;
+            change(none, 0.0f);
+            const double factor = known ? *known : brightness(none);
+            if (std::abs(factor - 1) > leastBrighter)
+                tryIt(option, multiple(what, factor), !known,
+                      [&](Settings& s) { change(s, static_cast<float>(factor)); });
+        };
+        const bool ambient = said.ambient.r > 0 || said.ambient.g > 0 || said.ambient.b > 0;
+        if (ambient && (!factors.known || factors.ambient))
+            brighter("ambient", "ambient light", factors.ambient, [](Settings& s, float by) {
+                s.ambient = {by * s.ambient.r, by * s.ambient.g, by * s.ambient.b};
+            });
+        if (lit_around)
+            brighter("ibl-intensity", "light of the environment", {},
+                     [](Settings& s, float by) { s.ibl_intensity *= by; });
+        if (said.haze && (!factors.known || factors.no_haze))
+            tryIt("haze", "no haze, although the test's Settings say so", !factors.known,
+                  [](Settings& s) { s.haze = false; });
+        if (said.haze && factors.haze)
+            tryIt("haze-density", multiple("density", *factors.haze), false,
+                  [&](Settings& s) { s.haze_density *= static_cast<float>(*factors.haze); });
+        return all;
+    }
+
+    // By how much brighter that light is which these Settings lack: the median of what is missing, as a
+    // multiple of what it adds, and 1.
+    double brightness(const Settings& without) {
+        const Image with = comparable(settings_[1], 1), none = comparable(without, 1);
+        std::vector<double> adds(with.data.size());
+        double sum = 0;
+        for (std::size_t i = 0; i < adds.size(); ++i) {
+            adds[i] = double{std::as_const(with).data[i]} - std::as_const(none).data[i];
+            if (std::isfinite(adds[i])) sum += std::abs(adds[i]);
         }
+        const double least = 1e-3 * sum / static_cast<double>(adds.size());
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < adds.size(); ++i) {
+            const double missing =
+                double{std::as_const(unlike_[1]).data[i]} - std::as_const(unlike_[0]).data[i];
+            if (adds[i] > least && std::isfinite(missing)) ratios.push_back(missing / adds[i]);
+        }
+        if (ratios.empty()) return 1;
+        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+        std::ranges::nth_element(ratios, middle);
+        const double factor = 1 + *middle;
+        return factor < leastBrighter ? 0.0 : factor;
+    }
+
+    // What the test's terms are of ours, where they are that alike everywhere.
+    struct TermFactors {
+        bool known = false;  // there are terms
+        bool no_haze = false;
+        std::optional<double> ambient{}, haze{};  // other than 1; haze: its density
+    };
+    TermFactors factorsOfTerms() {
+        if (!haveTerms(*frames_[0], *frames_[1])) return {};
+        light(settings_[1]);
+        const ChannelTerms terms = shading_->terms(~0u);
+        const auto theirs = [&](gpu::uint mode) -> const Image& {
+            return channelOf(*frames_[1], static_cast<int>(mode));
+        };
+        const Image& ids = channelOf(*frames_[1], idMode);
+        Image depth = theirs(gpu::DEBUG_transmittance), our_depth = terms.transmittance;
+        bool hazy = false, dark = true;
+        for (std::size_t i = 0; i < depth.data.size(); ++i) {
+            const bool surface = ids.pixel(i / 3)[0] >= 0;
+            // Density is what the logarithm of the transmittance is proportional to.
+            depth.data[i] = surface ? -std::log(depth.data[i]) : 0;
+            our_depth.data[i] = surface ? -std::log(our_depth.data[i]) : 0;
+            hazy = hazy || depth.data[i] != 0 || theirs(gpu::DEBUG_lit_haze).data[i] != 0;
+            dark = dark && theirs(gpu::DEBUG_lit_ambient).data[i] == 0;
+        }
+        return {true, !hazy,
+                dark ? std::optional(0.0)
+                     : exposureBetween(1.0, commonFactor(theirs(gpu::DEBUG_lit_ambient), terms.ambient)),
+                exposureBetween(1.0, commonFactor(depth, our_depth))};
+    }
+
+    // What is compared to tell Settings that are not said: a side's surfaces under some Settings as our terms
+    // add up, where both have terms, so that what is done with them afterwards does not matter; else our lit.
+    Image comparable(const Settings& settings, std::size_t side) {
+        const std::uint32_t sides = side == 0 ? 0u : ~0u;
+        if (!haveTerms(*frames_[0], *frames_[1])) return shade(settings, sides);
+        light(settings);
+        return sumOfTerms(shading_->terms(sides), channelOf(*frames_.at(side), emissionMode));
+    }
+    // What a side has beyond that.
+    Image beyond(const Image& ours, std::size_t side) const {
+        const Image theirs =
+            haveTerms(*frames_[0], *frames_[1]) ? sumOfTerms(*frames_.at(side)) : *lit_.at(side);
+        Image left(ours.width, ours.height, 3);
+        for (std::size_t i = 0; i < left.data.size(); ++i) {
+            const float more = theirs.data[i] - ours.data[i];
+            if (std::isfinite(more)) left.data[i] = more;
+        }
+        return left;
+    }
+
+    // Settings that the test has without saying so: they are taken to be said.
+    void findUnsaid() {
+        if (!restName().empty()) return;
+        for (std::size_t side = 0; side < 2; ++side)
+            unlike_.at(side) = beyond(comparable(settings_.at(side), side), side);
+        if (sameBits(unlike_[0], unlike_[1])) return;
+        std::vector<double> apart(errors_.size());
+        errorsOf(unlike_[1], unlike_[0], apart);
+        double left = meanOf(apart);
+        for (int believed = 0; believed < mostBelieved && left > 0; ++believed) {
+            double least = left;
+            std::optional<Unsaid> best;
+            const Image said = comparable(settings_[1], 1);
+            for (Unsaid& tried : triedSettings()) {
+                const Image ours = comparable(tried.settings, 1);
+                errorsOf(ours, said, apart);
+                const double changed = meanOf(apart);
+                errorsOf(beyond(ours, 1), unlike_[0], apart);
+                const double rest = meanOf(apart);
+                if (!(rest < least) || !(left - rest > believedRest * changed) ||
+                    (tried.guessed && !(rest < believedRest * left)))
+                    continue;
+                least = rest;
+                best = std::move(tried);
+            }
+            if (!best) break;
+            left = least;
+            settings_[1] = best->settings;
+            unlike_[1] = beyond(comparable(settings_[1], 1), 1);
+            unsaid_.push_back(std::move(*best));
+        }
+        if (unsaid_.empty()) return;
+        own_[1] = shade(settings_[1], ~0u);
+        rest_[1] = restOf(own_[1]);
     }
 
     // What the rest is where it is known what makes it; empty: it is what no cause explains.
@@ -326,8 +472,13 @@ private:
         std::array<LitSurfaces, 2> own;
         for (std::size_t side = 0; side < 2; ++side)
             own.at(side) = surfaces(settings_.at(side), side == 0 ? 0u : ~0u);
-        // Afterwards, because they need a frame of their own where anything is blended.
+        // Afterwards, because they need a frame of their own.
+        const bool blended = std::ranges::any_of(scene_.materials, blends);
         for (std::size_t side = 0; side < 2; ++side) {
+            if (!blended) {
+                own.at(side).unblended = own.at(side).lit;
+                continue;
+            }
             Settings bare = settings_.at(side);
             bare.transparency = Transparency::off;
             own.at(side).unblended = shade(bare, side == 0 ? 0u : ~0u);
@@ -350,12 +501,11 @@ private:
         for (const Field& field : settingFields()) {
             const std::string_view option = field.option;
             if (!lightsSurfaces(option) || a.valueOf(option) == b.valueOf(option)) continue;
-            const bool guessed = turn_ != 0 && option == "env-rotation";
+            const auto unsaid =
+                std::ranges::find(unsaid_, option, [](const Unsaid& one) { return one.option; });
             settings.push_back({Kind::setting, 0, std::string(option),
-                                guessed
-                                    ? fmt::format("an environment that is turned by {} degrees more than "
-                                                  "the test's Settings say",
-                                                  turn_)
+                                unsaid != unsaid_.end()
+                                    ? unsaid->shows
                                     : fmt::format("{} instead of {}", b.valueOf(option), a.valueOf(option))});
         }
         const std::vector<std::size_t> inert = inertChannels();
@@ -637,7 +787,8 @@ private:
     std::array<Image, 2> own_, rest_;  // our lighting of a side's own channels, and what it leaves
     float exposure_ = 1;               // factor on the test's lit
     Image unexposed_, exposed_;        // the test's lit without it, and with it; where there is any
-    float turn_ = 0;                   // degrees, of the test's environment beyond its Settings
+    std::array<Image, 2> unlike_;      // beyond(): what tells Settings that are not said
+    std::vector<Unsaid> unsaid_;       // what the test has without saying so
     std::optional<LightingStages> stages_;
     std::vector<std::size_t> channel_causes_;
     std::vector<Swapped> causes_;

@@ -137,6 +137,15 @@ Image sumOfTerms(const Frame& frame) {
     return sum;
 }
 
+Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
+    const Terms all = termsOf(terms);
+    Image sum(emission.width, emission.height, 3);
+    float* const out = sum.data.data();
+    // Without a surface all terms are 0, transmittance too.
+    forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(all, i), emission.data[i]); });
+    return sum;
+}
+
 LightingStages::LightingStages(const Frame& baseline, const Frame& test, const Image& lit,
                                const std::array<LitSurfaces, 2>& own) {
     const auto blank = [&] { return Image(lit.width, lit.height, 3); };

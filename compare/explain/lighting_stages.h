@@ -23,6 +23,8 @@ bool haveTerms(const Frame& baseline, const Frame& test);
 Image sumOfLobes(const LightChannels& of);
 // What a Frame that has them adds up to where it shows a surface, W x H x 3; 0 elsewhere.
 Image sumOfTerms(const Frame& frame);
+// The same of our terms of surfaces that emit so much.
+Image sumOfTerms(const ChannelTerms& terms, const Image& emission);
 
 // What our lighting makes of surfaces: lit; its terms before anything is blended; what they emit; and, where
 // it is asked which stages there are, lit without what is blended.

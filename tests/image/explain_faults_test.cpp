@@ -16,7 +16,7 @@
 namespace diptych::tests {
 namespace {
 
-constexpr std::size_t leastCases = 20;
+constexpr std::size_t leastCases = 20;  // and no more of each, as all of them take a minute
 
 bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
@@ -43,8 +43,11 @@ bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
 
 std::string listed(const Explanation& e) {
     std::string text;
-    for (const Cause& cause : e.causes)
+    for (const Cause& cause : e.causes) {
         text += fmt::format("{} {:.1f} %, ", cause.name, 100 * e.shareOf(cause.share));
+        for (const LightShare& light : cause.lights)
+            text += fmt::format("({} {:.1f} %) ", light.name, 100 * e.shareOf(light.share));
+    }
     return text + fmt::format("unexplained {:.1f} %", 100 * e.shareOf(e.unexplained));
 }
 
@@ -74,6 +77,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     for (const PlantedFault& fault : faults) {
         Tally tally;
         for (PlantedView* const view : plantedViews(fault.kind)) {
+            if (tally.cases == leastCases) break;
             const Frame test = view->with(fault);
             const Image &a = view->right.channels.at(lit), &b = test.channels.at(lit);
             if (!differsVisibly(a, b)) continue;
@@ -96,14 +100,16 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
         if (!fault.of_first_light) continue;
         Tally tally;
         for (PlantedView* const view : plantedViews(fault.kind)) {
+            if (tally.cases == leastCases) break;
             if (!view->feels(fault)) continue;
             const Explanation e = view->explained(view->with(fault));
-            std::map<std::size_t, double> parts;
+            std::map<std::string, double> parts;
             for (const Cause& cause : e.causes)
-                for (const LightShare& light : cause.lights) parts[light.light] += light.share;
+                for (const LightShare& light : cause.lights)
+                    parts[light.name + std::to_string(light.light)] += light.share;
             const auto most =
                 std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
-            const bool named = most != parts.end() && most->first == 0;
+            const bool named = most != parts.end() && most->first.starts_with(firstLight);
             tally.count(*view, e, named, named ? e.shareOf(most->second) : 0.0);
         }
         fmt::print("{}", tally.row(fault.means + ": which light"));
@@ -134,7 +140,7 @@ constexpr PlantedPair plantedPairs[] = {
     {"emission as BGR", "there are no shadows"},
     {"occlusion inverted", "points and spots cast no shadows"},
     {"position 5 cm off", "lit is BGR"},
-    {"ambient light is left out", "haze adds no light"},
+    {"ambient light is left out", "the specular lobe is left out"},
     {"a light is dropped from one tile", "ambient light is doubled"},
     {"exposure is doubled", "roughness squared twice"},
     {"exposure is halved", "ambient light is left out"},
@@ -143,16 +149,16 @@ constexpr PlantedPair plantedPairs[] = {
     {"an environment is turned by 90 degrees", "albedo as BGR"},
     {"an environment is turned by 180 degrees", "blended surfaces are left out"},
     // Both make lit brighter by a factor: either one taken back takes most of it.
-    {"albedo sRGB taken for linear", "the diffuse lobe lacks its pi", -1},
-    {"exposure is doubled", "the diffuse lobe lacks its pi", -1},
-    {"exposure is doubled", "ambient light is doubled", -1},
-    {"exposure is doubled", "emission doubled", -1},
+    {"albedo sRGB taken for linear", "exposure is doubled", -1},
+    {"emission doubled", "exposure is doubled", -1},
+    {"occlusion left out", "ambient light is doubled", -1},
+    {"the diffuse lobe lacks its pi", "exposure is doubled", -1},
     // One gives back what the other takes.
     {"albedo decoded twice", "the diffuse lobe lacks its pi", 1},
-    {"exposure is halved", "the diffuse lobe lacks its pi", 1},
-    {"exposure is doubled", "albedo decoded twice", 1},
+    {"the diffuse lobe lacks its pi", "exposure is halved", 1},
+    {"albedo decoded twice", "exposure is doubled", 1},
     {"occlusion squared", "ambient light is doubled", 1},
-    {"emission doubled", "emission is missing from the sum"},
+    {"emission doubled", "emission is missing from the sum", 1},
 };
 
 // The two causes with the largest shares, whatever their sign.
@@ -190,6 +196,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
         Tally tally;
         std::size_t redundant = 0, hiding = 0;
         for (PlantedView* const view : plantedViews(kind)) {
+            if (tally.cases == leastCases) break;
             if (!view->feels(first) || !view->feels(second)) continue;
             const std::array<const PlantedFault*, 2> both{&first, &second};
             const Explanation e = view->explained(view->with(both));

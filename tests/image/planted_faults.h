@@ -22,6 +22,9 @@ namespace diptych::tests {
 
 class PlantedView;
 
+// The name of the first of a view's lights, which alone has one.
+inline constexpr const char* firstLight = "the first";
+
 // What a view must have for a fault to be in it: light of lights, haze and ambient light on opaque surfaces;
 // or blended surfaces before an environment, in haze.
 enum class ViewKind { opaque, blended };
@@ -73,6 +76,9 @@ public:
 private:
     void shadeInto(Frame& frame, const Settings& drawn);
 
+    // The right picture's lighting, in which channels are replaced.
+    SurfaceImages images_;
+    std::optional<ChannelShading> shading_;
     std::map<std::string, bool> felt_;
 };
 
