@@ -14,6 +14,7 @@ namespace {
 constexpr int blockSide = 8;
 constexpr std::size_t mostLightsOfBlock = 3;
 constexpr double leastAccount = 0.05, toldApart = 0.02;
+constexpr double mostLeft = 0.1;
 
 using Color = std::array<double, 3>;
 
@@ -40,9 +41,34 @@ public:
     }
 
     void divide(std::vector<std::vector<float>>& shares) {
-        double all = 0;
-        for (const Color& c : left_) all += dot(c, c);
-        for (std::size_t taken = 0; all > 0 && taken < mostLightsOfBlock; ++taken) {
+        const std::vector<Color> change = left_;
+        const double all = squares();
+        std::vector<std::vector<double>> sizes = taken(all);
+        if (how_ == LightChange::factor && squares() > mostLeft * all) {
+            left_ = change;
+            each_color_ = true;
+            sizes = taken(all);
+        }
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            double sum = 0;
+            for (const std::vector<double>& light : sizes) sum += light[i];
+            for (std::size_t light = 0; sum > 0 && light < sizes.size(); ++light)
+                shares[light][pixels_[i]] = static_cast<float>(sizes[light][i] / sum);
+        }
+    }
+
+private:
+    // The squares of what is left of the change.
+    double squares() const {
+        double sum = 0;
+        for (const Color& c : left_) sum += dot(c, c);
+        return sum;
+    }
+
+    // Takes lights as long as each accounts for enough. How much each has at each pixel.
+    std::vector<std::vector<double>> taken(double all) {
+        std::vector<std::vector<double>> sizes(terms_.size(), std::vector<double>(pixels_.size()));
+        for (std::size_t count = 0; all > 0 && count < mostLightsOfBlock; ++count) {
             std::vector<double> accounts(terms_.size());
             for (std::size_t light = 0; light < terms_.size(); ++light) accounts[light] = account(light);
             const auto best = std::ranges::max_element(accounts);
@@ -50,18 +76,11 @@ public:
             std::vector<std::size_t> alike;
             for (std::size_t light = 0; light < accounts.size(); ++light)
                 if (accounts[light] >= (1 - toldApart) * *best) alike.push_back(light);
-            take(static_cast<std::size_t>(best - accounts.begin()), alike, shares);
+            take(static_cast<std::size_t>(best - accounts.begin()), alike, sizes);
         }
-        for (const std::size_t pixel : pixels_) {
-            double sum = 0;
-            for (const std::vector<float>& light : shares) sum += double{light[pixel]};
-            if (sum > 0)
-                for (std::vector<float>& light : shares)
-                    light[pixel] = static_cast<float>(double{light[pixel]} / sum);
-        }
+        return sizes;
     }
 
-private:
     // What of the change is the light's, as multiples of its term: of each colour one for the block, or of
     // all colours one a pixel.
     std::vector<Color> factors(std::size_t light) const {
@@ -78,6 +97,8 @@ private:
                 of[i].fill(std::clamp(dot(left_[i], term) / s, -1.0, 1.0));
         }
         if (how_ == LightChange::factor) {
+            if (!each_color_)
+                along.fill(along[0] + along[1] + along[2]), size.fill(size[0] + size[1] + size[2]);
             Color factor{};
             for (std::size_t c = 0; c < 3; ++c)
                 factor.at(c) = size.at(c) > 0 ? along.at(c) / size.at(c) : 0.0;
@@ -112,7 +133,7 @@ private:
     }
 
     void take(std::size_t best, const std::vector<std::size_t>& alike,
-              std::vector<std::vector<float>>& shares) {
+              std::vector<std::vector<double>>& taken_sizes) {
         const std::vector<Color> of = factors(best);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Color taken = part(best, i, of[i]);
@@ -125,13 +146,14 @@ private:
                 sum += sizes.back();
             }
             for (std::size_t k = 0; sum > 0 && k < alike.size(); ++k)
-                shares[alike[k]][pixels_[i]] += static_cast<float>(accounted * sizes[k] / sum);
+                taken_sizes[alike[k]][i] += accounted * sizes[k] / sum;
             for (std::size_t c = 0; c < 3; ++c) left_[i].at(c) -= taken.at(c);
         }
     }
 
     std::span<const Image> terms_;
     LightChange how_;
+    bool each_color_ = false;  // a factor of each colour
     std::vector<std::size_t> pixels_;
     std::vector<Color> left_;
 };

@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// What may have become of a light: it shines otherwise, by any factor, of each colour its own; it is there in
+// What may have become of a light: it shines otherwise, by any factor; it is there in
 // one picture and not in the other; or more or less of it is seen, anywhere from none to all, at each pixel
 // for itself.
 enum class LightChange { factor, whole, seen };
@@ -22,7 +22,8 @@ enum class LightChange { factor, whole, seen };
 // In blocks of 8x8 pixels the light that accounts for most of the squared change is taken, then that which
 // accounts for most of what is left, up to three and as long as each accounts for a twentieth. Lights that
 // account for as much to within a fiftieth cannot be told apart: they share what they account for as they add
-// to the picture.
+// to the picture. Factors are of light of all colours alike; where that leaves over a tenth, of each by
+// itself.
 std::vector<std::vector<float>> lightsOfChange(const Image& change, std::span<const Image> terms,
                                                LightChange how);
 

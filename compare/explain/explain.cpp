@@ -420,7 +420,7 @@ private:
 
     // Settings that the test has without saying so: they are taken to be said.
     void findUnsaid() {
-        if (!restName().empty()) return;
+        if (!restName().empty() || sameBits(rest_[0], rest_[1])) return;
         for (std::size_t side = 0; side < 2; ++side)
             unlike_.at(side) = beyond(comparable(settings_.at(side), side), side);
         if (sameBits(unlike_[0], unlike_[1])) return;

@@ -88,7 +88,7 @@ TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
 TEST(LightsOfChange, WhatOneLightLeavesIsTheNextOnes) {
     const std::vector<Image> lights = threeLights();
     Image change = lights[0];
-    for (std::size_t i = 0; i < change.data.size(); ++i) change.data[i] += lights[2].data[i];
+    for (std::size_t i = 0; i < change.data.size(); ++i) change.data[i] += 4 * lights[2].data[i];
     const auto parts = lightsOfChange(change, lights, LightChange::factor);
     const std::size_t between = 6 * width + 6;
     EXPECT_GT(parts[0][between], 0.2f);
