@@ -23,11 +23,12 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
 }
 
-// Shares and what is unexplained are the difference, and so are their maps at every pixel.
+// Shares and what is unexplained are the difference, of FLIP too, and so are their maps at every pixel.
 bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
-    double all = e.unexplained;
-    for (const Cause& cause : e.causes) all += cause.share;
+    double all = e.unexplained, flip = e.flip_unexplained;
+    for (const Cause& cause : e.causes) all += cause.share, flip += cause.flip;
     if (std::abs(all - e.distance) > 1e-6 * e.distance) return false;
+    if (std::abs(flip - e.flip) > 1e-6 * e.flip) return false;
     for (std::size_t p = 0; p < baseline.pixels(); ++p) {
         double difference = 0, sum = double{e.unexplained_map.pixel(p)[0]}, size = std::abs(sum);
         for (int c = 0; c < 3; ++c)
