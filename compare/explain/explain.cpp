@@ -406,6 +406,17 @@ private:
         light(settings);
         return sumOfTerms(shading_->terms(sides), channelOf(*frames_.at(side), emissionMode));
     }
+    bool bringsHazeNearer(const Settings& tried) {
+        if (!haveTerms(*frames_[0], *frames_[1])) return true;
+        const Image& theirs = channelOf(*frames_[1], static_cast<int>(gpu::DEBUG_lit_haze));
+        std::vector<double> apart(errors_.size());
+        const auto off = [&](const Settings& settings) {
+            light(settings);
+            errorsOf(shading_->terms(~0u).haze, theirs, apart);
+            return meanOf(apart);
+        };
+        return off(tried) <= off(settings_[1]);
+    }
     // What a side has beyond that.
     Image beyond(const Image& ours, std::size_t side) const {
         const Image theirs =
@@ -433,6 +444,9 @@ private:
             const Image said = comparable(settings_[1], 1);
             for (Unsaid& tried : triedSettings()) {
                 const Image ours = comparable(tried.settings, 1);
+                // Ambient light that is really another is in the air as well.
+                if (tried.option == "ambient" && settings_[1].haze && !bringsHazeNearer(tried.settings))
+                    continue;
                 errorsOf(ours, said, apart);
                 const double changed = meanOf(apart);
                 errorsOf(beyond(ours, 1), unlike_[0], apart);
