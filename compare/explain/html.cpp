@@ -18,8 +18,8 @@ using page::number;
 
 namespace {
 
-constexpr double shownMaterial = 0.05;  // of a cause's share
-constexpr std::size_t shownMaterials = 5;
+constexpr double shownPart = 0.05;  // of a cause's share: materials, lights
+constexpr std::size_t shownParts = 5;
 
 std::string percentOf(const Explanation& e, double share) {
     return fmt::format("{:.2f} %", 100 * e.shareOf(share));
@@ -59,43 +59,50 @@ std::string figure(const std::string& source, const std::string& alt, const std:
                                 markup(source), markup(alt), caption);
 }
 
-std::string materialsOf(const Cause& cause) {
+std::string partsOf(const Cause& cause, const auto& parts, const auto& nameOf) {
     std::string out;
-    for (std::size_t i = 0; cause.share != 0 && i < std::min(shownMaterials, cause.materials.size()); ++i) {
-        const double share = cause.materials[i].share / cause.share;
-        if (share < shownMaterial) break;
-        out +=
-            fmt::format("{}{:.0f} % {}", i == 0 ? "" : "; ", 100 * share, materialName(cause.materials[i]));
+    for (std::size_t i = 0; cause.share != 0 && i < std::min(shownParts, parts.size()); ++i) {
+        const double share = parts[i].share / cause.share;
+        if (share < shownPart) break;
+        out += fmt::format("{}{:.0f} % {}", i == 0 ? "" : "; ", 100 * share, nameOf(parts[i]));
     }
     return out;
 }
 
 std::string table(const Explanation& e) {
     const bool sampled = std::ranges::any_of(e.causes, [](const Cause& c) { return c.interval > 0; });
+    const bool lights = std::ranges::any_of(e.causes, [](const Cause& c) { return !c.lights.empty(); });
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"stack\"><thead><tr><th>cause</th><th "
-        "class=\"n\">share</th>{}<th class=\"n\">alone</th><th class=\"n\">last</th><th class=\"n\">counts "
+        "class=\"n\">share</th>{}<th class=\"n\">of FLIP</th><th class=\"n\">alone</th><th "
+        "class=\"n\">last</th><th class=\"n\">counts "
         "most at</th><th class=\"n\">worst pixel</th><th "
-        "class=\"n\">there</th><th>materials</th></tr></thead>\n<tbody>",
-        sampled ? "<th class=\"n\">95 % interval</th>" : "");
+        "class=\"n\">there</th><th>materials</th>{}</tr></thead>\n<tbody>",
+        sampled ? "<th class=\"n\">95 % interval</th>" : "", lights ? "<th>lights</th>" : "");
     for (std::size_t i = 0; i < e.causes.size(); ++i) {
         const Cause& cause = e.causes[i];
         out += fmt::format("<tr><td>{}{}</td>{}", swatch(i), markup(cause.name),
                            page::numberCell(cause.share, percentOf(e, cause.share)));
         if (sampled)
             out += page::numberCell(cause.interval, fmt::format("{:.2f} %", 100 * e.shareOf(cause.interval)));
-        out += page::numberCell(cause.alone, percentOf(e, cause.alone)) +
+        out += page::numberCell(cause.flip, fmt::format("{:.2f} %", 100 * e.shareOfFlip(cause.flip))) +
+               page::numberCell(cause.alone, percentOf(e, cause.alone)) +
                page::numberCell(cause.last, percentOf(e, cause.last)) +
                page::numberCell(dominatedShare(e, i), fmt::format("{:.1f} %", 100 * dominatedShare(e, i)));
-        out += fmt::format("<td class=\"n\">{},{}</td>{}<td class=\"whole\">{}</td></tr>\n", cause.worst_x,
+        out += fmt::format("<td class=\"n\">{},{}</td>{}<td class=\"whole\">{}</td>", cause.worst_x,
                            cause.worst_y, page::numberCell(cause.worst, number(cause.worst)),
-                           markup(materialsOf(cause)));
+                           markup(partsOf(cause, cause.materials, materialName)));
+        if (lights)
+            out +=
+                fmt::format("<td class=\"whole\">{}</td>", markup(partsOf(cause, cause.lights, lightName)));
+        out += "</tr>\n";
     }
     return out +
            fmt::format(
                "</tbody></table><p class=\"soft small\">Shares are Shapley values: what swapping the cause "
                "brings, in the mean over all orders of swapping, of the mean difference of lit. They and "
-               "what is unexplained add up to 100 %. Alone: swapped by itself; last: when all others are. "
+               "what is unexplained add up to 100 %. Of FLIP: the same of the mean of HDR-FLIP. Alone: "
+               "swapped by itself; last: when all others are. "
                "Counts most at: of the pixels where some cause counts, those where it is the largest. There: "
                "its share at its worst pixel, W/(sr m^2).</p></div>\n");
 }
@@ -111,6 +118,7 @@ std::string remarks(const Explanation& e, const ExplainedPictures& of) {
     if (!e.inert.empty())
         lines.push_back(fmt::format("Differs and changes no pixel: {}", fmt::join(e.inert, ", ")));
     if (const std::string line = reproductionLine(e, of); !line.empty()) lines.push_back(line);
+    if (const std::string line = lightsLine(e); !line.empty()) lines.push_back(line);
     if (e.nonfinite > 0)
         lines.push_back(
             fmt::format("{} pixels are NaN or infinite in one of the pictures and left out", e.nonfinite));

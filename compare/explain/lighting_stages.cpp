@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace diptych {
@@ -67,6 +68,39 @@ float shadowPart(float change, float value, float baseline, float test) {
     return std::abs(scaled) < std::abs(change) ? scaled : change;
 }
 
+// Pixels where our lighting of either side blends anything.
+std::vector<std::uint8_t> blendedIn(const std::array<LitSurfaces, 2>& own) {
+    std::vector<std::uint8_t> blended(own[0].lit.pixels());
+    for (const LitSurfaces& side : own)
+        for (std::size_t i = 0; i < side.lit.data.size(); ++i)
+            if (side.lit.data[i] != side.unblended.data[i]) blended[i / 3] = 1;
+    return blended;
+}
+
+// Components where a change beyond the sum of terms is as if emission, or a part of it, were added otherwise:
+// no more of it than is emitted on a side. Empty unless that is 99 % of what changes where nothing is
+// blended: where other surfaces change as well it is not emission that makes it.
+std::vector<std::uint8_t> changesWithEmission(const Image& change, const std::vector<std::uint8_t>& blended,
+                                              const std::array<LitSurfaces, 2>& own,
+                                              const std::array<Terms, 2>& terms) {
+    constexpr float rounding = 1.001f;
+    std::vector<std::uint8_t> with(change.data.size());
+    double all = 0, part = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        if (blended[i / 3] != 0 || change.data[i] == 0) continue;
+        float emitted = 0;
+        for (std::size_t side = 0; side < 2; ++side)
+            emitted = std::max(emitted, std::as_const(*own.at(side).emission).data[i] *
+                                            terms.at(side).at(transmittanceTerm)->data[i]);
+        const float size = std::abs(change.data[i]);
+        all += double{size};
+        with[i] = emitted > 0 && size <= rounding * emitted ? 1 : 0;
+        if (with[i] != 0) part += double{size};
+    }
+    if (!(part > 0) || part < 0.99 * all) with.clear();
+    return with;
+}
+
 bool isNothing(const Image& image) {
     return std::ranges::all_of(image.data, [](float value) { return value == 0; });
 }
@@ -85,23 +119,47 @@ bool haveTerms(const Frame& baseline, const Frame& test) {
     });
 }
 
-LightingStages::LightingStages(const Frame& baseline, const Frame& test,
+Image sumOfLobes(const LightChannels& of) {
+    Image sum = of.diffuse;
+    for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += std::as_const(of.specular).data[i];
+    return sum;
+}
+
+Image sumOfTerms(const Frame& frame) {
+    const Terms terms = termsOf(frame);
+    const Image &emission = *channelIn(frame, gpu::DEBUG_emission),
+                &ids = *channelIn(frame, gpu::DEBUG_material_id);
+    Image sum(terms[0]->width, terms[0]->height, 3);
+    float* const out = sum.data.data();
+    forEach(sum.data.size(), [&](std::size_t i) {
+        if (ids.pixel(i / 3)[0] >= 0) out[i] = sumOf(termsAt(terms, i), emission.data[i]);
+    });
+    return sum;
+}
+
+Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
+    const Terms all = termsOf(terms);
+    Image sum(emission.width, emission.height, 3);
+    float* const out = sum.data.data();
+    // Without a surface all terms are 0, transmittance too.
+    forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(all, i), emission.data[i]); });
+    return sum;
+}
+
+LightingStages::LightingStages(const Frame& baseline, const Frame& test, const Image& lit,
                                const std::array<LitSurfaces, 2>& own) {
-    const Image& lit = *channelIn(test, gpu::DEBUG_lit);
     const auto blank = [&] { return Image(lit.width, lit.height, 3); };
-    const std::array<const Frame*, 2> frames{&baseline, &test};
     const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
         ours{termsOf(own[0].terms), termsOf(own[1].terms)};
     // The rest of each term, and of lit: what stands beyond the sum of a side's terms, less the same of our
     // lighting, which is what lies behind surfaces and what is blended over them.
     std::array<std::array<Image, 6>, 2> rest;
-    Image blended = blank();  // not 0: where something lies behind or over surfaces
+    const std::vector<std::uint8_t> blended = blendedIn(own);
     for (std::size_t side = 0; side < 2; ++side) {
         for (Image& image : rest.at(side)) image = blank();
         std::array<float*, 6> out{};
         for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = rest.at(side).at(t).data.data();
-        const Image& seen = *channelIn(*frames.at(side), gpu::DEBUG_lit);
-        float* const over = blended.data.data();
+        const Image& seen = side == 0 ? *channelIn(baseline, gpu::DEBUG_lit) : lit;
         forEach(seen.data.size(), [&](std::size_t i) {
             const auto theirs = termsAt(files.at(side), i), mine = termsAt(ours.at(side), i);
             const float emission = std::as_const(*own.at(side).emission).data[i];
@@ -113,7 +171,6 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test,
             }
             const float left = beyond - our_beyond;
             out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
-            if (our_beyond != 0) over[i] = 1;
         });
     }
     // What a term changes by when it is the baseline's.
@@ -134,6 +191,10 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test,
         }
         if (!nothing) stages_.push_back({std::move(name), std::move(shows), std::move(adds)});
     };
+    // Of the stage that was added last.
+    const auto isOfLights = [&](const std::string& name, LightChange how) {
+        if (!stages_.empty() && stages_.back().name == name) stages_.back().lights = how;
+    };
     // Direct light that changes as what is seen of lights does, and where other lights are evaluated.
     const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
         const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
@@ -152,33 +213,60 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test,
     };
     share("shadow_visibility", "direct light that changes as what is seen of the sun does",
           gpu::DEBUG_shadow_visibility, shadowPart);
+    isOfLights("shadow_visibility", LightChange::seen);
     share("local_visibility", "direct light that changes as what is seen of points and spots does",
           gpu::DEBUG_local_visibility, shadowPart);
+    isOfLights("local_visibility", LightChange::seen);
     share("light_count", "direct light where another number of lights is evaluated", gpu::DEBUG_light_count,
           [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
+    isOfLights("light_count", LightChange::whole);
     const auto term = [&](std::string name, std::string shows, std::size_t t) {
         std::array<Image, 6> adds;
         adds.at(t) = std::move(change.at(t));
         add(std::move(name), std::move(shows), std::move(adds));
     };
     term("direct diffuse", "light of lights that the diffuse lobe reflects", diffuseTerm);
+    isOfLights("direct diffuse", LightChange::factor);
     term("direct specular", "light of lights that the specular lobe reflects", specularTerm);
+    isOfLights("direct specular", LightChange::factor);
     term("ambient light", "reflected ambient light and that of an environment", ambientTerm);
     std::array<Image, 6> air;
     air.at(hazeTerm) = std::move(change.at(hazeTerm));
     air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
     add("haze in the air", "what haze lets through and adds", std::move(air));
-    std::array<Image, 6> over, order;
-    over.at(wholeTerm) = blank();
-    order.at(wholeTerm) = blank();
-    for (std::size_t i = 0; i < lit.data.size(); ++i)
-        (std::as_const(blended).data[i] != 0 ? over : order).at(wholeTerm).data[i] =
-            std::as_const(change.at(wholeTerm)).data[i];
-    add("transparency", "what is blended over surfaces, and the background behind them", std::move(over));
+    std::array<Image, 6> behind, over, emitted, order;
+    for (std::array<Image, 6>* const stage : {&behind, &over, &emitted, &order})
+        stage->at(wholeTerm) = blank();
+    const std::array<const Image*, 2> ids{channelIn(baseline, gpu::DEBUG_material_id),
+                                          channelIn(test, gpu::DEBUG_material_id)};
+    const std::vector<std::uint8_t> emits = changesWithEmission(change.at(wholeTerm), blended, own, files);
+    for (std::size_t i = 0; i < lit.data.size(); ++i) {
+        const bool surface =
+            ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
+        std::array<Image, 6>& stage = !surface                          ? behind
+                                      : blended[i / 3] != 0             ? over
+                                      : !emits.empty() && emits[i] != 0 ? emitted
+                                                                        : order;
+        stage.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
+    }
+    add("background", "what is seen where there is no surface and nothing is blended", std::move(behind));
+    add("transparency", "what is blended over surfaces, and over what lies behind them", std::move(over));
+    add("sum with emission",
+        "what lit has otherwise than the sum of its terms where surfaces emit, and there alone",
+        std::move(emitted));
     add("sum of terms",
         "what lit has beyond the sum of its terms: another order, or a term that is none of them",
         std::move(order));
     rest_ = std::move(rest[1]);
+}
+
+Image LightingStages::directLight(const Stage& stage, const LightChannels& of) {
+    if (stage.adds.at(diffuseTerm).empty()) return of.specular;
+    return stage.adds.at(specularTerm).empty() ? of.diffuse : sumOfLobes(of);
+}
+
+LightChannels LightingStages::change(const Stage& stage) {
+    return {stage.adds.at(diffuseTerm), stage.adds.at(specularTerm)};
 }
 
 Image LightingStages::lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const {

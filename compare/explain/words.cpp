@@ -14,22 +14,28 @@ namespace diptych {
 
 namespace {
 
-constexpr std::size_t namedMaterials = 3;  // in words
-constexpr double namedMaterial = 0.01;     // of a cause's share, in JSON
+constexpr std::size_t namedParts = 3;  // materials, lights; in words
+constexpr double namedPart = 0.01;     // of a cause's share, in JSON
+
+// "78 % on material 12, Lantern glass; 9 % on background".
+std::string partsLine(const Cause& cause, const auto& parts, const char* preposition, const auto& nameOf) {
+    std::string line;
+    for (std::size_t i = 0; cause.share != 0 && i < std::min(namedParts, parts.size()); ++i)
+        line += fmt::format("{}{:.0f} % {} {}", i == 0 ? "" : "; ", 100 * parts[i].share / cause.share,
+                            preposition, nameOf(parts[i]));
+    return line.empty() ? line : fmt::format("{:>12}{}\n", "", line);
+}
 
 std::string causeLine(const Explanation& all, std::size_t place) {
     const Cause& cause = all.causes[place];
     std::string line = fmt::format("{:>8.2f} %", 100 * all.shareOf(cause.share));
     if (cause.interval > 0) line += fmt::format(" +- {:.2f}", 100 * all.shareOf(cause.interval));
-    line += fmt::format("  {:<18}  {}; most at {},{}; the largest at {:.0f} % of the pixels\n", cause.name,
-                        cause.shows, cause.worst_x, cause.worst_y, 100 * dominatedShare(all, place));
-    std::string materials;
-    for (std::size_t i = 0; cause.share != 0 && i < std::min(namedMaterials, cause.materials.size()); ++i)
-        materials +=
-            fmt::format("{}{:.0f} % on {}", i == 0 ? "" : "; ", 100 * cause.materials[i].share / cause.share,
-                        materialName(cause.materials[i]));
-    if (!materials.empty()) line += fmt::format("{:>12}{}\n", "", materials);
-    return line;
+    line +=
+        fmt::format("  {:<18}  {}; of FLIP {:.2f} %; most at {},{}; the largest at {:.0f} % of the pixels\n",
+                    cause.name, cause.shows, 100 * all.shareOfFlip(cause.flip), cause.worst_x, cause.worst_y,
+                    100 * dominatedShare(all, place));
+    return line + partsLine(cause, cause.materials, "on", materialName) +
+           partsLine(cause, cause.lights, "of", lightName);
 }
 
 }  // namespace
@@ -38,6 +44,16 @@ std::string materialName(const MaterialShare& material) {
     if (material.material < 0) return "background";
     return material.name.empty() ? fmt::format("material {}", material.material)
                                  : fmt::format("material {}, {}", material.material, material.name);
+}
+
+std::string lightName(const LightShare& light) {
+    return fmt::format("light {}, {}", light.light, light.name);
+}
+
+std::string lightsLine(const Explanation& e) {
+    if (e.lights_left_out == 0) return {};
+    return fmt::format("by light: the {} that send most were drawn alone, {} others were not", e.lights_drawn,
+                       e.lights_left_out);
 }
 
 double dominatedShare(const Explanation& explanation, std::size_t cause) {
@@ -92,6 +108,7 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
     for (const CausePair& pair : e.pairs) text += pairLine(e, pair) + "\n";
     if (!e.inert.empty()) text += fmt::format("differs and changes no pixel: {}\n", fmt::join(e.inert, ", "));
     if (const std::string line = reproductionLine(e, of); !line.empty()) text += line + "\n";
+    if (const std::string line = lightsLine(e); !line.empty()) text += line + "\n";
     return text + fmt::format("{} pictures shaded, {} frames drawn for them\n", e.subsets, e.frames);
 }
 
@@ -100,12 +117,16 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
     Json causes = Json::array(), pairs = Json::array();
     for (std::size_t i = 0; i < e.causes.size(); ++i) {
         const Cause& cause = e.causes[i];
-        Json materials = Json::array();
+        Json materials = Json::array(), lights = Json::array();
         for (const MaterialShare& material : cause.materials)
-            if (std::abs(material.share) >= namedMaterial * std::abs(cause.share))
+            if (std::abs(material.share) >= namedPart * std::abs(cause.share))
                 materials.push_back({{"id", material.material},
                                      {"name", material.name},
                                      {"share", e.shareOf(material.share)}});
+        for (const LightShare& light : cause.lights)
+            if (std::abs(light.share) >= namedPart * std::abs(cause.share))
+                lights.push_back(
+                    {{"place", light.light}, {"name", light.name}, {"share", e.shareOf(light.share)}});
         causes.push_back({{"name", cause.name},
                           {"share", e.shareOf(cause.share)},
                           {"interval", e.shareOf(cause.interval)},
@@ -114,7 +135,9 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
                           {"alone", e.shareOf(cause.alone)},
                           {"last", e.shareOf(cause.last)},
                           {"dominates", dominatedShare(e, i)},
-                          {"materials", std::move(materials)}});
+                          {"flip_share", e.shareOfFlip(cause.flip)},
+                          {"materials", std::move(materials)},
+                          {"lights", std::move(lights)}});
     }
     for (const CausePair& pair : e.pairs)
         pairs.push_back({{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
@@ -133,6 +156,8 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"inert", e.inert},
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
+            {"lights_drawn", e.lights_drawn},
+            {"lights_left_out", e.lights_left_out},
             {"nonfinite", e.nonfinite},
             {"drawn", e.frames},
             {"command", of.commands.empty() ? Json(nullptr) : Json(of.commands.front().line)}};

@@ -27,6 +27,10 @@ struct ExplainedPictures {
 inline constexpr double worthUnexplained = 0.05;
 
 std::string materialName(const MaterialShare& material);
+// "light 3, Lamp".
+std::string lightName(const LightShare& light);
+// How many lights were drawn alone, where some were left out; else empty.
+std::string lightsLine(const Explanation& explanation);
 std::string pairLine(const Explanation& explanation, const CausePair& pair);
 // How far the lighting of each side's own channels is off its lit; empty where it is not.
 std::string reproductionLine(const Explanation& explanation, const ExplainedPictures& of);

@@ -91,6 +91,7 @@ struct ChannelShading::State {
           const SurfaceImages::State& channels)
         : settings(litBy(given)),
           images(channels),
+          uploader(shared.uploader),
           frame(device, shared, view, settings),
           sets(std::make_shared<DescriptorSets>(device, shared.layouts.gbuffer, gbufferBindings(), 1)),
           nearest(shared.layouts.nearest.get()) {
@@ -109,8 +110,16 @@ struct ChannelShading::State {
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 
+    void drawTerms(std::uint32_t sides) {
+        PassList& passes = frame.passes;
+        if (!terms) terms = addChannelTerms(passes, frame.view.inputs, frame.images.depth, sets);
+        bind(sides);
+        passes.run(last, passes.size());
+    }
+
     const Settings settings;  // which the view refers to
     const SurfaceImages::State& images;
+    Uploader& uploader;
     PreparedFrame frame;
     std::shared_ptr<DescriptorSets> sets;
     VkSampler nearest;
@@ -135,16 +144,29 @@ Image ChannelShading::shade(std::uint32_t sides) {
 
 ChannelTerms ChannelShading::terms(std::uint32_t sides) {
     PassList& passes = state_->frame.passes;
-    if (!state_->terms)
-        state_->terms =
-            addChannelTerms(passes, state_->frame.view.inputs, state_->frame.images.depth, state_->sets);
-    state_->bind(sides);
-    passes.run(state_->last, passes.size());
+    state_->drawTerms(sides);
     std::vector<PassList::ReadBack> requests;
     for (const ImageRef term : *state_->terms) requests.push_back({term, 3});
     std::vector<Image> read = readImages(passes, requests);
     return {std::move(read[0]), std::move(read[1]), std::move(read[2]), std::move(read[3]),
             std::move(read[4])};
+}
+
+LightChannels ChannelShading::light(std::uint32_t sides, std::size_t place) {
+    PreparedView& view = state_->frame.view;
+    std::vector<gpu::Light> alone = view.lights.lights;
+    for (std::size_t i = 0; i < view.lights.sources.size(); ++i)
+        if (view.lights.sources[i] != place) alone[i].intensity = gpu::vec3(0);
+    view.buffers.replaceLights(state_->uploader, alone);
+    state_->drawTerms(sides);
+    view.buffers.replaceLights(state_->uploader, view.lights.lights);
+    const std::array<PassList::ReadBack, 2> requests{{{(*state_->terms)[0], 3}, {(*state_->terms)[1], 3}}};
+    std::vector<Image> read = readImages(state_->frame.passes, requests);
+    return {std::move(read[0]), std::move(read[1])};
+}
+
+const std::vector<Light>& ChannelShading::lights() const {
+    return state_->frame.view.scene.lights;
 }
 
 }  // namespace diptych

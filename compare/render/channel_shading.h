@@ -45,6 +45,11 @@ struct ChannelTerms {
     Image diffuse, specular, ambient, haze, transmittance;
 };
 
+// Direct light of one light, before any haze: W x H x 3 each.
+struct LightChannels {
+    Image diffuse, specular;
+};
+
 // One view under one Settings. What it is made of must outlive it.
 class ChannelShading {
 public:
@@ -60,6 +65,11 @@ public:
     Image shade(std::uint32_t sides);
     // The terms of the same, before anything is blended.
     ChannelTerms terms(std::uint32_t sides);
+    // Of these, what one light adds: all others are black, and shadow maps and lists are those of the whole
+    // picture. `place`: in lights().
+    LightChannels light(std::uint32_t sides, std::size_t place);
+    // The lights of the view, those of SceneView::lights.
+    const std::vector<Light>& lights() const;
 
 private:
     struct State;

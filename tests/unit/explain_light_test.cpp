@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Which light a change of direct light is of, and which factor lit has, held against changes that are made.
+#include "compare/explain/by_light.h"
+#include "compare/explain/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int width = 20, height = 12;
+
+// Light that falls off around a place, of a colour.
+Image lightAround(double x, double y, double r, double g, double b) {
+    Image image(width, height, 3);
+    for (int v = 0; v < height; ++v)
+        for (int u = 0; u < width; ++u) {
+            const double light = 1 / (1 + (u - x) * (u - x) + (v - y) * (v - y));
+            image.at(u, v, 0) = static_cast<float>(r * light);
+            image.at(u, v, 1) = static_cast<float>(g * light);
+            image.at(u, v, 2) = static_cast<float>(b * light);
+        }
+    return image;
+}
+
+std::vector<Image> threeLights() {
+    return {lightAround(3, 3, 1, 0.7, 0.4), lightAround(15, 6, 1, 0.7, 0.4), lightAround(9, 9, 0.3, 0.5, 1)};
+}
+
+Image times(const Image& image, const auto& factor) {
+    Image made = image;
+    for (std::size_t i = 0; i < made.data.size(); ++i)
+        made.data[i] *= static_cast<float>(factor(static_cast<int>(i / 3)));
+    return made;
+}
+
+// The share of the whole change that a light is said to have, weighted by its size.
+double shareOf(const std::vector<std::vector<float>>& parts, std::size_t light, const Image& change) {
+    double part = 0, all = 0;
+    for (std::size_t p = 0; p < change.pixels(); ++p) {
+        const double size = std::abs(double{change.pixel(p)[1]});
+        part += size * double{parts[light][p]};
+        all += size;
+    }
+    return part / all;
+}
+
+TEST(LightsOfChange, AFactorIsFoundByWhereTheLightIs) {
+    const std::vector<Image> lights = threeLights();
+    for (std::size_t light = 0; light < lights.size(); ++light) {
+        const Image change = times(lights[light], [](int) { return -0.3; });
+        const auto parts = lightsOfChange(change, lights, LightChange::factor);
+        EXPECT_GT(shareOf(parts, light, change), 0.999) << light;
+    }
+}
+
+TEST(LightsOfChange, ALightThatIsDroppedIsTheOneThatIsMissing) {
+    const std::vector<Image> lights = threeLights();
+    for (std::size_t light = 0; light < lights.size(); ++light) {
+        // In a tile that is no multiple of the blocks.
+        const Image change = times(lights[light], [](int p) { return p % width < 11 ? 1.0 : 0.0; });
+        const auto parts = lightsOfChange(change, lights, LightChange::whole);
+        EXPECT_GT(shareOf(parts, light, change), 0.99) << light;
+    }
+}
+
+TEST(LightsOfChange, AShadowIsOfTheLightWhoseColourItHas) {
+    const std::vector<Image> lights = threeLights();
+    const Image change = times(lights[2], [](int p) { return 0.5 + 0.5 * std::sin(p); });
+    EXPECT_GT(shareOf(lightsOfChange(change, lights, LightChange::seen), 2, change), 0.999);
+}
+
+// Of one colour and seen anywhere between not and all, either could have made it.
+TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
+    const std::vector<Image> lights{times(threeLights()[0], [](int) { return 1; }),
+                                    times(threeLights()[0], [](int) { return 2; })};
+    const Image change = times(lights[0], [](int p) { return 0.5 + 0.5 * std::sin(p); });
+    const auto parts = lightsOfChange(change, lights, LightChange::seen);
+    EXPECT_NEAR(shareOf(parts, 0, change), 1.0 / 3, 1e-5);
+    EXPECT_NEAR(shareOf(parts, 1, change), 2.0 / 3, 1e-5);
+}
+
+// Between two lights that both change each has a part.
+TEST(LightsOfChange, WhatOneLightLeavesIsTheNextOnes) {
+    const std::vector<Image> lights = threeLights();
+    Image change = lights[0];
+    for (std::size_t i = 0; i < change.data.size(); ++i) change.data[i] += 4 * lights[2].data[i];
+    const auto parts = lightsOfChange(change, lights, LightChange::factor);
+    const std::size_t between = 6 * width + 6;
+    EXPECT_GT(parts[0][between], 0.2f);
+    EXPECT_GT(parts[2][between], 0.2f);
+}
+
+TEST(LightsOfChange, PartsAddUpToOneOrNothing) {
+    const std::vector<Image> lights = threeLights();
+    Image change = times(lights[0], [](int) { return 0.4; });
+    for (std::size_t i = 0; i < change.data.size(); ++i) change.data[i] -= 0.2f * lights[1].data[i];
+    for (const LightChange how : {LightChange::factor, LightChange::whole, LightChange::seen}) {
+        const auto parts = lightsOfChange(change, lights, how);
+        for (std::size_t p = 0; p < change.pixels(); ++p) {
+            const double sum = double{parts[0][p]} + parts[1][p] + parts[2][p];
+            EXPECT_TRUE(sum == 0 || std::abs(sum - 1) < 1e-6) << sum;
+        }
+    }
+    const auto none = lightsOfChange(Image(width, height, 3), lights, LightChange::factor);
+    for (const float part : none[0]) EXPECT_EQ(part, 0);
+}
+
+TEST(ExposureBetween, IsTheFactorThatHalfOfThePictureHas) {
+    const Image right = threeLights()[0];
+    Image twice = times(right, [](int) { return 2.0; });
+    EXPECT_NEAR(commonFactor(twice, right).value(), 2, 1e-6);
+    // What else is wrong in less than half of it does not hide the factor.
+    for (std::size_t i = 0; i < twice.data.size() * 2 / 5; ++i) twice.data[i] *= 1.3f;
+    EXPECT_NEAR(commonFactor(twice, right).value(), 2, 1e-6);
+    for (std::size_t i = 0; i < twice.data.size(); ++i) twice.data[i] = std::sqrt(right.data[i]);
+    EXPECT_FALSE(commonFactor(twice, right).has_value());
+    EXPECT_FALSE(commonFactor(twice, Image(width, height, 3)).has_value()) << "black says nothing";
+}
+
+TEST(ExposureBetween, IsOfBothSides) {
+    EXPECT_NEAR(exposureBetween(0.5, 1).value(), 2, 1e-12);
+    EXPECT_FALSE(exposureBetween(3.0, 3.0).has_value());
+    EXPECT_FALSE(exposureBetween({}, 2.0).has_value());
+    EXPECT_FALSE(exposureBetween(1.0, 1.001).has_value()) << "halves round by as much";
+}
+
+}  // namespace
+}  // namespace diptych::tests
