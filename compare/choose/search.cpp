@@ -17,14 +17,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // An effect that is known so well is not measured anew.
 constexpr double knownEffect = 0.15;
 // So many standard deviations of its prediction a candidate may be better than predicted.
-constexpr double benefit = 1.75;
+constexpr double benefit = 2;
 // Errors of one picture are equal; those within this ratio are alike to whoever sets a budget.
 constexpr double alike = 1.01;
 // An error that two changes make together may be smaller than the larger of both by so much.
 constexpr double together = 0.8;
 // A change is worth combining if it takes off so much of the time, in logarithms.
 constexpr double worthTime = -0.02;
-constexpr std::size_t changesAtOnce = 3, timedAtOnce = 6;
+// What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
+// what is not faster by noise is not judged.
+constexpr double hopeless = 0.5, worthJudging = 0.1;
+// After so many that fit and were not faster by as much as matters, in logarithms, no more are drawn.
+constexpr double worthNoticing = 0.01;
+constexpr std::size_t mostInVain = 16;
+constexpr std::size_t changesAtOnce = 3;
 // A time this near to its budget, in standard deviations, is timed again, up to so many frames.
 constexpr double doubtful = 1;
 constexpr std::size_t mostAgain = 8;
@@ -134,34 +140,38 @@ private:
     }
     bool isSpoilt(std::size_t i) const { return budget_.error && guess(i).least > *budget_.error; }
 
-    // Draws some and times their passes, but for those of which a change exceeds the error by itself, in a
-    // random order and back.
-    void profile(std::vector<std::size_t> which, double from, double to) {
-        const auto part = [&](std::size_t k) {
-            return from + (to - from) * static_cast<double>(k) / static_cast<double>(which.size());
-        };
-        for (std::size_t k = 0; k < which.size(); ++k) {
-            say(0.7 * part(k), "effects");
-            judge(which[k]);
-        }
-        std::erase_if(which, [&](std::size_t i) { return !model_.changesOf(i).empty() && isSpoilt(i); });
+    // Times the passes of a candidate.
+    void profile(std::size_t i, int frames) {
+        auto times = lab_.profile(all_[i].settings, frames);
+        for (std::size_t repeat = 1; repeat < times.size(); ++repeat)
+            times.front() = least(std::move(times.front()), times[repeat]);
+        model_.observe(i, times.front());
+        all_[i].timings += times.size();
+        found_.timings += times.size();
+    }
+
+    // How much slower than its path's first candidate, a logarithm.
+    double slower(std::size_t i) const {
+        return model_.predict(i).log_ms - model_.predict(firsts_.at(all_[i].settings.path)).log_ms;
+    }
+
+    // Draws candidates that have a new change each in a random order, so that a drift of the device is no
+    // effect of a change; left out is what a known change rules out. Where the fastest is wanted and the
+    // first candidate is within the error, passes are timed first, and what makes a frame slower is not
+    // judged; else what is not timed is what exceeds the error by itself.
+    void measure(std::vector<std::size_t> which, double from, double to) {
         std::ranges::shuffle(which, random_);
-        for (std::size_t at = 0; at < which.size(); at += timedAtOnce) {
-            say(0.7 * from + 0.3 * part(at), "times of effects");
-            const std::size_t end = std::min(at + timedAtOnce, which.size());
-            std::vector<Settings> frames;
-            std::vector<std::size_t> order;
-            for (std::size_t k = at; k < end; ++k) {
-                order.push_back(frames.size());
-                frames.push_back(all_[which[k]].settings);
-            }
-            for (std::size_t k = end - at; k-- > 0;) order.push_back(k);
-            const auto times = lab_.profile(frames, order);
-            for (std::size_t k = 0; k < frames.size(); ++k) {
-                model_.observe(which[at + k], least(times[k], times[times.size() - 1 - k]));
-                all_[which[at + k]].timings += 2;
-            }
-            found_.timings += times.size();
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            const std::size_t i = which[k];
+            say(from + (to - from) * static_cast<double>(k) / static_cast<double>(which.size()), "effects");
+            // Where the first candidate exceeds the error, what makes it smaller is wanted at any time.
+            const bool is_first_fit = all_[firsts_.at(all_[i].settings.path)].isFit();
+            const bool is_for_time = budget_.isForSpeed() && is_first_fit;
+            if (is_first_fit && (isSpoilt(i) || (is_for_time && slower(i) > hopeless))) continue;
+            if (!is_for_time) judge(i);
+            if (all_[i].judged && isSpoilt(i)) continue;
+            profile(i, 1);
+            if (is_for_time && slower(i) < worthJudging) judge(i);
         }
     }
 
@@ -174,9 +184,15 @@ private:
         std::vector<std::size_t> firsts;
         for (const std::size_t i : order)
             if (model_.changesOf(i).empty()) firsts.push_back(i);
-        profile(firsts, 0, 0.1);
+        for (const std::size_t i : firsts) {
+            say(0, "effects");
+            firsts_[all_[i].settings.path] = i;
+            judge(i);
+            profile(i, 3);
+        }
         time(firsts);
-        std::vector<std::size_t> picks;
+        // By the number of changes, so that what needs another change is left out where that one is hopeless.
+        std::map<std::size_t, std::vector<std::size_t>> picks;
         std::set<Change> covered;
         for (const std::size_t i : order) {
             const std::vector<Change>& changes = model_.changesOf(i);
@@ -185,9 +201,14 @@ private:
             });
             if (!isNew) continue;
             covered.insert(changes.begin(), changes.end());
-            picks.push_back(i);
+            picks[changes.size()].push_back(i);
         }
-        profile(std::move(picks), 0.1, 0.6);
+        double from = 0.1;
+        for (auto& [changes, level] : picks) {
+            const double to = from + 0.5 * (0.6 - from);
+            measure(std::move(level), from, to);
+            from = to;
+        }
     }
 
     // Combinations of changes that help by themselves, per path.
@@ -248,30 +269,40 @@ private:
         return prediction.log_ms - benefit * prediction.deviation;
     }
 
+    // Of those that were not drawn and may fit, the one that may be the fastest, if that is faster than
+    // `best`, a logarithm; `none` where there is none.
+    std::size_t mostPromising(double best) {
+        std::size_t next = none;
+        for (std::size_t i = 0; i < all_.size(); ++i) {
+            if (all_[i].judged) continue;
+            if (isSpoilt(i)) {
+                all_[i].fate = Fate::spoilt;
+                continue;
+            }
+            const double time = leastTime(i);
+            if (time >= best) continue;
+            best = time;
+            next = i;
+        }
+        return next;
+    }
+
     void findFastest() {
+        std::size_t in_vain = 0;  // drawn since the last one that was faster
         for (std::size_t seen = 0;; ++seen) {
             std::vector<std::size_t> fit = fitting();
             if (!fit.empty() && all_[fit.front()].timings == 0) {
                 time({fit.front()});
                 continue;
             }
-            std::size_t next = none;
-            double least = fit.empty() ? infinity : model_.predict(fit.front()).log_ms;
-            for (std::size_t i = 0; i < all_.size(); ++i) {
-                if (all_[i].judged) continue;
-                if (isSpoilt(i)) {
-                    all_[i].fate = Fate::spoilt;
-                    continue;
-                }
-                if (const double time = leastTime(i); time < least) {
-                    least = time;
-                    next = i;
-                }
-            }
+            const double best = fit.empty() ? infinity : model_.predict(fit.front()).log_ms;
+            const std::size_t next = in_vain < mostInVain || fit.empty() ? mostPromising(best) : none;
             if (next == none) break;
             say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
             judge(next);
             if (all_[next].isFit()) time({next});
+            if (!all_[next].isFit()) continue;
+            in_vain = model_.predict(next).log_ms < best - worthNoticing ? 0 : in_vain + 1;
         }
         const std::vector<std::size_t> fit = fitting();
         if (fit.empty()) return;
@@ -416,6 +447,7 @@ private:
     const Budget& budget_;
     std::mt19937_64 random_;
     std::vector<Candidate> all_;
+    std::map<Path, std::size_t> firsts_;
     std::map<Path, double> first_errors_;
     std::map<Change, double> errors_;
     std::vector<double> repeats_;

@@ -41,9 +41,9 @@ public:
     // Draws `frames` in an order, one frame for each of its entries: their times, ms.
     virtual std::vector<double> time(std::span<const Settings> frames,
                                      std::span<const std::size_t> order) = 0;
-    // Likewise, each pass by itself.
-    virtual std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
-                                                       std::span<const std::size_t> order) = 0;
+    // The passes of some frames of one candidate, each pass by itself, ms: for effects, so that one camera
+    // may stand for all.
+    virtual std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) = 0;
 };
 
 // Settings with some changes of one path's first candidate; nothing where that has no meaning.

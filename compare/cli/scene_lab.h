@@ -7,13 +7,14 @@
 #include "compare/tradeoff/measure.h"
 
 #include <cstddef>
+#include <list>
 #include <span>
 #include <vector>
 
 namespace diptych::cli {
 
 // Of one scene, from every camera of the reference frames: errors are of all their pixels together, times the
-// mean over them, memory that of the camera that takes most.
+// mean over them, memory that of the camera that takes most; passes are those of the first camera.
 class SceneLab final : public choose::Lab {
 public:
     // `figure`: of tradeoff::errorFigures. The renderer and the references must outlive it.
@@ -23,18 +24,26 @@ public:
 
     choose::Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
-    std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
-                                               std::span<const std::size_t> order) override;
+    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override;
 
 private:
     std::size_t cameras() const { return references_.frames.size(); }
-    // Of each Settings a frame a camera, side by side, all drawn once.
-    PreparedFrames prepared(std::span<const Settings> frames);
+    choose::Judged judgeCaptured(const Settings& settings);
+    // Frames of Settings with their cameras, drawn once; those that are there already are taken, so that what
+    // was judged is timed without being made anew, and all others are dropped.
+    void prepare(std::span<const Settings> seen);
+    PreparedFrames& drawn(const Settings& seen);  // that were prepared
+
+    struct Drawn {
+        Settings settings;
+        PreparedFrames frames;
+    };
 
     Renderer& renderer_;
     const tradeoff::ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
+    std::list<Drawn> drawn_;
 };
 
 }  // namespace diptych::cli

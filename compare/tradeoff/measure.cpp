@@ -118,6 +118,17 @@ FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
     return result;
 }
 
+void ErrorsOfCameras::add(const FrameErrors& camera) {
+    pixels_.insert(pixels_.end(), camera.pixels.begin(), camera.pixels.end());
+    flip_sum_ += camera.flip_sum;
+    flip_pixels_ += static_cast<double>(camera.flip_pixels);
+}
+
+Errors ErrorsOfCameras::errors() const {
+    const RelativeErrors relative = relativeErrors(pixels_);
+    return {flip_pixels_ > 0 ? knownOrInfinite(flip_sum_ / flip_pixels_) : 0, relative.rmse, relative.p99};
+}
+
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
     return small(channelPicture(debugMode(LIT), frame, scaleFor(debugMode(LIT), exposure, frames)));
@@ -131,8 +142,7 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
     TradeoffRow& row = measured.row;
     row.settings = settings;
     row.settings.camera = references.frames.front().settings.camera;
-    std::vector<double> pixels;
-    double flipSum = 0, flipPixels = 0;
+    ErrorsOfCameras all_errors;
     for (std::size_t i = 0; i < references.frames.size(); ++i) {
         const Frame& reference = references.frames[i];
         const double from = static_cast<double>(i), all = static_cast<double>(references.frames.size());
@@ -161,15 +171,12 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
         camera.errors = errors.errors;
         camera.pixels = errors.pixels.size();
         row.cameras.push_back(std::move(camera));
-        pixels.insert(pixels.end(), errors.pixels.begin(), errors.pixels.end());
-        flipSum += errors.flip_sum;
-        flipPixels += static_cast<double>(errors.flip_pixels);
+        all_errors.add(errors);
         if (i > 0) continue;
         measured.picture = thumbnail(frame, references.exposure);
         measured.errors = small(errorPicture(errors.flip, 1));
     }
-    const RelativeErrors relative = relativeErrors(std::move(pixels));
-    row.errors = {flipPixels > 0 ? knownOrInfinite(flipSum / flipPixels) : 0, relative.rmse, relative.p99};
+    row.errors = all_errors.errors();
     if (references.frames.size() == 1) row.errors = row.cameras.front().errors;
     return measured;
 }

@@ -38,6 +38,17 @@ struct FrameErrors {
 };
 FrameErrors errorsOf(const Frame& reference, const Frame& frame);
 
+// Errors over several cameras, all of whose pixels count alike.
+class ErrorsOfCameras {
+public:
+    void add(const FrameErrors& camera);
+    Errors errors() const;
+
+private:
+    std::vector<double> pixels_;
+    double flip_sum_ = 0, flip_pixels_ = 0;
+};
+
 struct MeasuredRow {
     TradeoffRow row;
     Image8 picture, errors;  // of the first camera

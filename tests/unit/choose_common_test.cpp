@@ -46,11 +46,9 @@ public:
                             std::exp(std::normal_distribution<double>(0, deviation_)(random_)));
         return times;
     }
-    std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
-                                               std::span<const std::size_t> order) override {
-        std::vector<std::vector<PassTime>> passes;
-        for (const std::size_t i : order) passes.push_back({{"shade", find(frames[i]).ms}});
-        return passes;
+    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
+        return std::vector<std::vector<PassTime>>(static_cast<std::size_t>(frames),
+                                                  {{"shade", find(settings).ms}});
     }
     std::size_t judged = 0;
 

@@ -74,11 +74,10 @@ std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::spa
     return times;
 }
 
-std::vector<std::vector<PassTime>> RecordedLab::profile(std::span<const Settings> frames,
-                                                        std::span<const std::size_t> order) {
+std::vector<std::vector<PassTime>> RecordedLab::profile(const Settings& settings, int frames) {
     std::vector<std::vector<PassTime>> times;
-    for (const std::size_t i : order) {
-        times.push_back(sweep_.find(frames[i]).passes);
+    for (int i = 0; i < frames; ++i) {
+        times.push_back(sweep_.find(settings).passes);
         const double all = slower();
         for (PassTime& pass : times.back()) pass.ms *= all;
     }

@@ -41,8 +41,7 @@ public:
 
     choose::Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
-    std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
-                                               std::span<const std::size_t> order) override;
+    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override;
 
     // How much slower the device was so many timings ago than it was recorded, but for what differs from
     // frame to frame.
