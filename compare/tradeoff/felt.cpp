@@ -19,14 +19,14 @@ bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
-// What a scene's surfaces reflect by, whether it has an environment, whether its harmonics are windowed, and
-// whether joints or targets move vertices.
+// What a scene's surfaces reflect by, whether it has an environment, whether its harmonics are windowed,
+// whether joints or targets move vertices, and whether a material lets light through.
 struct Reflectors {
-    bool base = true, specular = true, environment = true, windowed = true, deformed = true;
+    bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true;
 };
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, scene->environment.has_value(), true, false};
+    Reflectors found{false, false, scene->environment.has_value(), true, false, false};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
@@ -34,6 +34,7 @@ Reflectors reflectorsOf(const Scene* scene) {
             const Material material = primitive.material < 0
                                           ? Material{}
                                           : scene->materials[static_cast<std::size_t>(primitive.material)];
+            found.blended = found.blended || blends(material);
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
             found.base = found.base || material.metallic < 1 || textured;
@@ -67,6 +68,9 @@ public:
             (!surfaces.environment || row_.ibl_intensity == 0 || row_.ibl == Ibl::sampled))
             reset("specular-albedo", "nothing asks what is reflected of light from everywhere");
         if (!surfaces.deformed) reset("skinning", "no joint and no morph target moves a vertex");
+        if (!surfaces.blended)
+            for (const std::string_view option : {"transparency", "transparency-layers"})
+                reset(option, "no material has alphaMode BLEND or lets light through");
         noteHaze();
     }
     const Settings& row() const { return row_; }

@@ -149,6 +149,27 @@ TEST(TradeoffFelt, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     EXPECT_EQ(valuesOf(felt(), "skinning").size(), 2u);
 }
 
+TEST(TradeoffFelt, TransparencyIsVariedWhereSomethingIsBlended) {
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives.resize(1);
+    scene.materials.resize(1);
+    scene.meshes[0].primitives[0].material = 0;
+    Material& material = scene.materials[0];
+    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    EXPECT_EQ(valuesOf(felt(), "transparency"), std::set<std::string>{"sorted"});
+    EXPECT_EQ(valuesOf(felt(), "transparency-layers").size(), 1u);
+    EXPECT_EQ(reasonOf(felt(), "transparency", "weighted"),
+              "no material has alphaMode BLEND or lets light through");
+    material.alpha_mode = AlphaMode::blend;
+    material.unlit = true;
+    EXPECT_GT(valuesOf(felt(), "transparency").size(), 3u);
+    EXPECT_GT(valuesOf(felt(), "transparency-layers").size(), 1u);
+    material = {};
+    material.transmission = 0.5f;
+    EXPECT_GT(valuesOf(felt(), "transparency").size(), 3u);
+}
+
 TEST(TradeoffFelt, HazeIsMarchedThroughWhereThereIsSome) {
     Settings given;
     given.haze = true;
