@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 
 namespace diptych::choose {
@@ -112,8 +113,14 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
         decider.times.back().value = property.value;
         for (const auto& make : property.others) {
             say(property.name);
-            decider.times.push_back(measure(make()));
+            // A picture of twice the size may be too large for the device: no reason to lose the choice.
+            try {
+                decider.times.push_back(measure(make()));
+            } catch (const std::runtime_error& error) {
+                property.not_varied = error.what();
+            }
         }
+        if (decider.times.size() > 1) property.not_varied.clear();
         std::ranges::sort(decider.times, {}, &TimedValue::value);
         // Two of one value, as where a variation changes nothing, draw no line.
         const auto same = std::ranges::unique(decider.times, {}, &TimedValue::value);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// An effect that is known so well is not measured anew.
+// An effect on time that is known so well is not measured anew; errors are of a scene and are.
 constexpr double knownEffect = 0.15;
 // So many standard deviations of its prediction a candidate may be better than predicted.
 constexpr double benefit = 2;
@@ -25,7 +25,7 @@ constexpr double together = 0.8;
 // A change is worth combining if it takes off so much of the time, in logarithms.
 constexpr double worthTime = -0.02;
 // What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
-// what is not faster by noise is not judged.
+// what is slower by so much is not judged.
 constexpr double hopeless = 0.5, worthJudging = 0.1;
 // After so many that fit and were not faster by as much as matters, in logarithms, no more are drawn.
 constexpr double worthNoticing = 0.01;
@@ -58,6 +58,8 @@ public:
         for (std::size_t i = 0; i < all_.size(); ++i) {
             all_[i].predicted = model_.predict(i);
             all_[i].passes = model_.passesOf(i);
+            if (all_[i].fate == Fate::fits && all_[i].predicted.log_ms > limit())
+                all_[i].fate = Fate::too_slow;
         }
         if (!found_.chosen) findNearest();
         found_.candidates = std::move(all_);
@@ -170,7 +172,9 @@ private:
             if (is_first_fit && (isSpoilt(i) || (is_for_time && slower(i) > hopeless))) continue;
             if (!is_for_time) judge(i);
             if (all_[i].judged && isSpoilt(i)) continue;
-            profile(i, 1);
+            const bool is_known = std::ranges::all_of(
+                model_.changesOf(i), [&](const Change& change) { return model_.knows(change, knownEffect); });
+            if (!is_known) profile(i, 1);
             if (is_for_time && slower(i) < worthJudging) judge(i);
         }
     }
@@ -196,9 +200,8 @@ private:
         std::set<Change> covered;
         for (const std::size_t i : order) {
             const std::vector<Change>& changes = model_.changesOf(i);
-            const bool isNew = std::ranges::any_of(changes, [&](const Change& change) {
-                return covered.count(change) == 0 && !model_.knows(change, knownEffect);
-            });
+            const bool isNew = std::ranges::any_of(
+                changes, [&](const Change& change) { return covered.count(change) == 0; });
             if (!isNew) continue;
             covered.insert(changes.begin(), changes.end());
             picks[changes.size()].push_back(i);
@@ -422,6 +425,10 @@ private:
         }
     }
 
+    // As raced, or else as predicted by all that was timed.
+    static double msOf(const Candidate& candidate) {
+        return candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
+    }
     // How far a candidate is from the budget, 0 where it is within.
     double missOf(std::size_t i) const {
         const Candidate& candidate = all_[i];
@@ -430,15 +437,14 @@ private:
         if (budget_.error) add(candidate.judged->error, std::max(*budget_.error, 1e-12));
         if (budget_.bytes)
             add(static_cast<double>(candidate.judged->bytes), static_cast<double>(*budget_.bytes));
-        if (budget_.ms && candidate.timings > 0) add(candidate.predicted.ms(), *budget_.ms);
+        if (budget_.ms) add(msOf(candidate), *budget_.ms);
         return miss;
     }
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
-            if (all_[i].judged && (!budget_.ms || all_[i].timings > 0) &&
-                (!found_.nearest || missOf(i) < missOf(*found_.nearest)))
+            if (all_[i].judged && (!found_.nearest || missOf(i) < missOf(*found_.nearest)))
                 found_.nearest = i;
-        if (found_.nearest) found_.ms = all_[*found_.nearest].predicted.ms();
+        if (found_.nearest) found_.ms = msOf(all_[*found_.nearest]);
     }
 
     Lab& lab_;

@@ -63,7 +63,7 @@ enum class Fate {
     unseen,    // the model says that it is no better
     spoilt,    // one of its changes exceeds the error by itself
     misses,    // drawn: exceeds the error or the memory
-    too_slow,  // timed: exceeds the time
+    too_slow,  // drawn: exceeds the time, as timed or as the model says
     fits,      // drawn, and not better by the model
     raced,
 };

@@ -169,11 +169,11 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     model.teach(taught, where);
     if (writeCalibration(calibration_file_, taught)) calibration_ = std::move(taught);
 
-    for (const Candidate& candidate : report.choice.candidates) {
+    for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
-        Settings drawn = candidate.settings;
-        drawn.camera = options_.settings.camera;
-        report.commands.push_back(shellLine(commandWords("render", where, drawn)));
+        // Of all cameras, and of other scenes perhaps.
+        candidate.settings.camera = options_.settings.camera;
+        report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
     if (report.choice.chosen)
         for (const std::string& camera : unseenCameras(held.scene, cameras))
@@ -189,7 +189,8 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
                                                        const Stage& progress) {
     const Choice& choice = report.choice;
-    const Path chosen_path = choice.candidates[*choice.chosen].settings.path;
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    const Path chosen_path = chosen.settings.path;
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i)
         if (choice.candidates[i].judged && choice.candidates[i].settings.path != chosen_path)
@@ -198,6 +199,12 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
     const bool fits =
         std::ranges::any_of(others, [&](std::size_t i) { return choice.candidates[i].isFit(); });
     if (fits) std::erase_if(others, [&](std::size_t i) { return !choice.candidates[i].isFit(); });
+    // Where the most accurate is wanted, one of its accuracy.
+    if (const std::optional<std::size_t> best = bestOfOtherPath(report);
+        best && fits && !report.budget.isForSpeed())
+        std::erase_if(others, [&](std::size_t i) {
+            return choice.candidates[i].judged->error > choice.candidates[*best].judged->error;
+        });
     std::ranges::sort(others, {}, [&](std::size_t i) {
         return fits ? choice.candidates[i].predicted.log_ms : choice.candidates[i].judged->error;
     });
@@ -213,7 +220,7 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
         rules, 1);
     const std::size_t other = others[best.winner];
     // Where nothing is blended, both may differ in how they would blend: not where a variation blends.
-    std::array<Settings, 2> compared{choice.candidates[*choice.chosen].settings, frames[best.winner]};
+    std::array<Settings, 2> compared{chosen.settings, frames[best.winner]};
     const tradeoff::ReferenceFrames& references = references_.at(report.scene);
     if (std::ranges::all_of(references.frames,
                             [](const Frame& frame) { return frame.blended.pixels() == 0; }))

@@ -646,7 +646,7 @@ private:
         return shares;
     }
 
-    // The places of the lights that are drawn alone, those first that send most. `seen`: of a stage of
+    // The places of the lights that are drawn alone, those first that send most. `of`: of a stage of
     // shadows, those that its channel is of: the suns, or points and spots; of these the ones that cast, if
     // any does.
     std::vector<std::size_t> drawnLights(const std::vector<Light>& lights, std::string_view of) {

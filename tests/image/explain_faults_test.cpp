@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often an explanation names what was planted: more than fifty single faults, and pairs of them, each in
-// at least twenty views that feel it.
+// How often an explanation names what was planted: more than fifty single faults, each in at least twenty
+// views that feel it, and pairs of them.
 #include "tests/image/planted_faults.h"
 
 #include <fmt/format.h>

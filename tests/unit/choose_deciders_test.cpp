@@ -70,6 +70,23 @@ TEST(ChooseDeciders, ACrossingBeyondTheMeasurementsIsInItsInterval) {
     expectHolds(laws, 8, {4, 16}, 24, true);
 }
 
+TEST(ChooseDeciders, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
+    const Law laws[2] = {{2, 1}, {10, 0.5}};  // as long at 16
+    std::mt19937_64 random(1);
+    const auto fails = []() -> Variation { throw std::runtime_error("too large for this device"); };
+    Property lost{.name = "lost", .unit = "things", .how = "more", .value = 8, .least = 1, .most = 100};
+    lost.others = {fails};
+    Property kept = lost;
+    kept.name = "kept";
+    kept.others.push_back([&] { return lawful(laws, 32, 0.001, random); });
+    const Deciders deciders = findDeciders(lawful(laws, 8, 0.001, random).draw, {lost, kept}, 5);
+    for (const Decider& decider : deciders.properties) {
+        const bool is_kept = decider.property.name == "kept";
+        EXPECT_EQ(decider.property.not_varied, is_kept ? "" : "too large for this device");
+        EXPECT_EQ(decider.crossing.has_value(), is_kept);
+    }
+}
+
 TEST(ChooseDeciders, WhereNoValueTurnsItNoneIsSaid) {
     const Law laws[2] = {{2, 1}, {4, 1}};
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
