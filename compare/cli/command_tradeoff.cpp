@@ -78,10 +78,11 @@ double weightOf(const Settings& settings) {
 
 // Timed frames of each visit of a row: the first when it is drawn, the others once all are.
 std::vector<int> visitsOf(int runs) {
-    constexpr int mostAtOnce = 4;
-    std::vector<int> visits{std::min((runs + 1) / 2, mostAtOnce)};
+    constexpr int most = 5;  // each makes the row's images anew
+    const int at_once = std::max(4, (runs + most - 1) / most);
+    std::vector<int> visits{std::min((runs + 1) / 2, at_once)};
     for (int left = runs - visits.front(); left > 0; left -= visits.back())
-        visits.push_back(std::min(left, mostAtOnce));
+        visits.push_back(std::min(left, at_once));
     return visits;
 }
 
