@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace diptych::choose {
 
 namespace {
-
-// Errors within this ratio are alike to whoever sets a budget, as in a scene's own choice.
-constexpr double alikeErrors = 1.01;
 
 Settings withoutCamera(Settings settings) {
     settings.camera.clear();
@@ -42,13 +40,12 @@ public:
         }
         while (!fit.empty()) {
             raceFor(contendersOf(fit));
-            for (const std::size_t i : fit) all()[i].fits = true;
-            if (worstMiss(*found_.chosen, true) <= 0) break;
-            // Raced, it takes longer than it did before: it is no longer within the time.
-            all()[*found_.chosen].fits = false;
-            std::erase(fit, *found_.chosen);
-            found_.chosen.reset();
+            // Raced, some may take longer than they did before.
+            std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
+            if (std::ranges::count(fit, *found_.chosen) > 0) break;
+            forgetRace();
         }
+        for (const std::size_t i : fit) all()[i].fits = true;
         if (!found_.chosen) findNearest();
         return std::move(found_);
     }
@@ -84,9 +81,7 @@ private:
             if (!candidate.judged) continue;
             if (!accurate || candidate.judged->error < choice.candidates[*accurate].judged->error)
                 accurate = i;
-            if (candidate.isFit() && i != choice.chosen)
-                others.emplace_back(
-                    candidate.standing ? std::log(candidate.standing->ms) : candidate.predicted.log_ms, i);
+            if (candidate.isFit() && i != choice.chosen) others.emplace_back(candidate.ms(), i);
         }
         if (choice.chosen) tiers[1].push_back(*choice.chosen);
         if (accurate) tiers[2].push_back(*accurate);
@@ -95,39 +90,35 @@ private:
         return tiers;
     }
 
+    // Tier by tier, of each those first that most scenes propose in any.
     void propose() {
-        std::vector<std::vector<std::vector<std::size_t>>> tiers;
-        std::size_t deepest = 0;
-        for (const Choice* choice : own_) {
-            tiers.push_back(tiersOf(*choice));
-            deepest = std::max(deepest, tiers.back().size());
-        }
-        for (std::size_t tier = 0; tier < deepest; ++tier) {
-            std::vector<CommonCandidate> proposed;
-            for (std::size_t scene = 0; scene < own_.size(); ++scene) {
-                if (tier >= tiers[scene].size()) continue;
-                for (const std::size_t i : tiers[scene][tier]) {
+        struct Proposal {
+            Settings settings;
+            std::size_t tier = 0;
+            std::set<std::size_t> scenes;
+        };
+        std::vector<Proposal> proposals;
+        for (std::size_t scene = 0; scene < own_.size(); ++scene) {
+            const std::vector<std::vector<std::size_t>> tiers = tiersOf(*own_[scene]);
+            for (std::size_t tier = 0; tier < tiers.size(); ++tier)
+                for (const std::size_t i : tiers[tier]) {
                     const Settings settings = withoutCamera(own_[scene]->candidates[i].settings);
-                    if (auto there = std::ranges::find(all(), settings, &CommonCandidate::settings);
-                        there != all().end()) {
-                        ++there->proposed_by;
-                        continue;
-                    }
-                    auto again = std::ranges::find(proposed, settings, &CommonCandidate::settings);
-                    if (again == proposed.end())
-                        proposed.push_back({.settings = settings, .proposed_by = 1});
-                    else
-                        ++again->proposed_by;
+                    auto there = std::ranges::find(proposals, settings, &Proposal::settings);
+                    if (there == proposals.end())
+                        there = proposals.insert(proposals.end(), {settings, tier, {}});
+                    there->tier = std::min(there->tier, tier);
+                    there->scenes.insert(scene);
                 }
-            }
-            std::ranges::stable_sort(proposed, std::greater{}, &CommonCandidate::proposed_by);
-            for (CommonCandidate& candidate : proposed)
-                if (all().size() < options_.most_candidates)
-                    all().push_back(std::move(candidate));
-                else
-                    ++found_.left_out;
         }
-        for (CommonCandidate& candidate : all()) candidate.scenes.resize(own_.size());
+        std::ranges::stable_sort(proposals, {}, [](const Proposal& proposal) {
+            return std::pair(proposal.tier, std::numeric_limits<std::size_t>::max() - proposal.scenes.size());
+        });
+        const std::size_t taken = std::min(proposals.size(), options_.most_candidates);
+        found_.left_out = proposals.size() - taken;
+        for (std::size_t i = 0; i < taken; ++i)
+            all().push_back({.settings = proposals[i].settings,
+                             .proposed_by = proposals[i].scenes.size(),
+                             .scenes = std::vector<InScene>(own_.size())});
     }
 
     void judgeIn(std::size_t scene) {
@@ -138,7 +129,7 @@ private:
                 if (own.judged && withoutCamera(own.settings) == candidate.settings) known = &own;
             InScene& in = candidate.scenes[scene];
             if (known) {
-                in = {*known->judged, known->standing ? known->standing->ms : known->predicted.ms()};
+                in = {*known->judged, known->ms()};
                 continue;
             }
             if (!lab) lab = &labOf_(scene);
@@ -149,7 +140,7 @@ private:
 
     double missIn(std::size_t i, std::size_t scene, bool timed) const {
         const InScene& in = found_.candidates[i].scenes[scene];
-        return missOf(in.judged, timed ? std::optional(in.ms) : std::nullopt, budget_);
+        return missOf(in.judged, timed && in.ms > 0 ? std::optional(in.ms) : std::nullopt, budget_);
     }
     double worstMiss(std::size_t i, bool timed) const {
         double worst = 0;
@@ -290,6 +281,14 @@ private:
         return {std::exp(middle), std::exp(middle - half), std::exp(middle + half)};
     }
 
+    void forgetRace() {
+        found_.chosen.reset();
+        found_.runner_up.reset();
+        found_.ties.clear();
+        found_.slower.clear();
+        found_.sure = false;
+    }
+
     void findNearest() {
         for (std::size_t i = 0; i < all().size(); ++i)
             if (!found_.nearest || worstMiss(i, timed_) < worstMiss(*found_.nearest, timed_))
@@ -310,17 +309,6 @@ private:
 };
 
 }  // namespace
-
-double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget) {
-    double miss = 0;
-    const auto add = [&](double value, double limit) {
-        if (value > limit) miss = std::max(miss, value / std::max(limit, 1e-12) - 1);
-    };
-    if (budget.error) add(judged.error, *budget.error);
-    if (budget.bytes) add(static_cast<double>(judged.bytes), static_cast<double>(*budget.bytes));
-    if (budget.ms && ms) add(*ms, *budget.ms);
-    return miss;
-}
 
 CommonChoice chooseForAll(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
                           const CommonOptions& options) {

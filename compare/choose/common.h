@@ -69,8 +69,4 @@ struct CommonChoice {
 CommonChoice chooseForAll(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
                           const CommonOptions& options);
 
-// By how much it exceeds the budget where it does so most, relative; 0: it is within. `ms`: nothing where it
-// was not timed.
-double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget);
-
 }  // namespace diptych::choose

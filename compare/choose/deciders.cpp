@@ -52,10 +52,11 @@ struct Lines {
     }
 };
 
-// Geometric steps where all values are above 0.
+// Geometric steps; from 0 the first one is to a hundred-thousandth of the range.
 double stepped(double least, double most, int step) {
-    const double part = static_cast<double>(step) / rangeSteps;
-    return least > 0 ? least * std::pow(most / least, part) : least + part * (most - least);
+    if (least <= 0 && step == 0) return 0;
+    const double from = least > 0 ? least : 1e-5 * most, part = static_cast<double>(step) / rangeSteps;
+    return from * std::pow(most / from, part);
 }
 
 double farOff(double a, double b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/html.h"
 
+#include "compare/choose/page/page.h"
 #include "compare/choose/plot.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
@@ -17,39 +18,6 @@ using page::markup;
 using page::number;
 
 namespace {
-
-constexpr const char* choiceStyle = R"css(
-svg.chart { display: block; width: 100%; height: auto; } .chart .budget { stroke: var(--fail); stroke-width: 1.5; stroke-dasharray: 6 4; }
-.chart .untimed .mark { fill-opacity: 0; stroke: currentColor; stroke-width: 1.5; } .chart .point[tabindex] { outline: 0; }
-.chart .point:focus-visible .mark, .chart .point[tabindex]:hover .mark { stroke: var(--accent); stroke-width: 3; }
-.choice { margin-top: 20px; display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1.3fr); gap: 16px; align-items: start; }
-.choice h3 { overflow-wrap: anywhere; } .choice li, .choice p { overflow-wrap: anywhere; } .choice ul { margin: 12px 0 0; padding-left: 18px; font-size: 14px; }
-.choice .figures { font-size: 16px; margin-top: 6px; } .swatch.deferred { background: var(--first); border-radius: 50%; } .swatch.forward_plus { background: var(--second); }
-.again code { display: block; margin: 3px 0 4px; overflow-wrap: anywhere; } .again button { margin: 0; }
-.rows table { font-size: 14px; } .rows th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
-.rows th[aria-sort=ascending]::after { content: " \2191"; } .rows th[aria-sort=descending]::after { content: " \2193"; }
-.box + .rows { margin-top: 16px; }
-h3.part { margin: 26px 0 10px; }
-.rows tr.chosen td { background: var(--well); font-weight: 600; }
-@media (max-width: 900px) { .choice { grid-template-columns: minmax(0, 1fr); } }
-@media (max-width: 600px) { .chart { font-size: 15px; } .chart .name { font-size: 17px; } }
-)css";
-
-constexpr const char* choiceScript = R"js(
-addEventListener('click', async event => {
-  const button = event.target.closest('button[data-do=copy]');
-  if (!button) return;
-  const code = button.parentElement.querySelector('code');
-  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
-  try {
-    await navigator.clipboard.writeText(code.textContent);
-    button.textContent = 'copied';
-  } catch {
-    button.textContent = 'selected';
-  }
-});
-for (const table of document.querySelectorAll('.rows table')) sortable(table, false);
-)js";
 
 std::string commandLine(const char* what, const std::string& command) {
     return fmt::format(
@@ -89,13 +57,14 @@ std::string choiceBox(const ChoiceReport& report) {
 
 std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
-    const double ms = candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
+    const double ms = candidate.ms();
     std::string out = fmt::format("<tr{}><td class=\"whole\">{}{}</td>",
                                   i == report.choice.chosen ? " class=\"chosen\"" : "",
                                   pathSwatch(candidate.settings), markup(report.words[i]));
     out += page::numberCell(ms, fmt::format("{:.4g}", ms));
     out += fmt::format("<td>{}</td>", candidate.standing      ? "raced"
-                                      : candidate.timings > 0 ? fmt::format("{} frames", candidate.timings)
+                                      : candidate.timings > 0 ? fmt::format("{} frame{}", candidate.timings,
+                                                                            candidate.timings == 1 ? "" : "s")
                                                               : std::string("model"));
     if (candidate.judged) {
         out += page::numberCell(candidate.judged->error, number(candidate.judged->error));
@@ -151,6 +120,8 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",
                            markup(lines.front()), listOf({lines.begin() + 1, lines.end()}));
     }
+    if (!report.notes.empty())
+        out += "<h3 class=\"part\">Notes</h3><div class=\"box says\">" + listOf(report.notes) + "</div>\n";
     return out + candidateTable(report);
 }
 
@@ -209,8 +180,8 @@ std::string choiceHtml(const Choices& choices, const std::vector<std::string>& f
     for (const ChoiceReport& report : choices.scenes) out += sceneSection(report, choices.all.has_value());
     out += "<footer><p>";
     for (const std::string& file : files) out += fmt::format("<a href=\"{0}\">{0}</a> ", file);
-    return out +
-           fmt::format("</p></footer><script>{}{}</script>\n</body></html>\n", page::tables, choiceScript);
+    return out + fmt::format("</p></footer><script>{}{}{}</script>\n</body></html>\n", page::tables,
+                             page::copying, choiceScript);
 }
 
 }  // namespace diptych::choose

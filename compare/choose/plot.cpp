@@ -2,8 +2,8 @@
 #include "compare/choose/plot.h"
 
 #include "compare/page/text.h"
+#include "compare/plot/error_over_time.h"
 #include "compare/plot/labels.h"
-#include "compare/plot/log_axis.h"
 
 #include <fmt/format.h>
 
@@ -20,23 +20,18 @@ namespace {
 // Of the drawing, in its own units.
 constexpr double plotWidth = 720, plotHeight = 440, leftEdge = 74, rightEdge = 16, topEdge = 54,
                  bottomEdge = 56;
-constexpr double zeroLane = 26;  // the strip for errors that a logarithmic axis cannot show
+constexpr PlotBox axesBox{leftEdge, topEdge, plotWidth - rightEdge, plotHeight - bottomEdge};
 
 class ChoicePlot {
 public:
     explicit ChoicePlot(const ChoiceReport& report)
-        : report_(report), choice_(report.choice), time_(times()), error_(errors()) {
-        for (std::size_t i = 0; i < choice_.candidates.size(); ++i) {
-            if (!choice_.candidates[i].judged) continue;
-            drawn_.push_back(i);
-            const double error = choice_.candidates[i].judged->error;
-            zeros_ = zeros_ || !(error > 0);
-            infinities_ = infinities_ || !std::isfinite(error);
-        }
-    }
+        : report_(report),
+          choice_(report.choice),
+          drawn_(drawn(report.choice)),
+          axes_(axesBox, times(), errors(), pointErrors()) {}
 
     std::string svg(PlotPlace place) const {
-        std::string out = axes() + limits() + frontLine();
+        std::string out = axes_.axes(report_.figure + " against the reference") + limits() + frontLine();
         const bool file = place == PlotPlace::file;
         for (const bool raced : {false, true})  // the contenders on top
             for (const std::size_t i : drawn_)
@@ -48,61 +43,42 @@ public:
     }
 
 private:
-    static double msOf(const Candidate& candidate) {
-        return candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
-    }
     // The interval of a contender's time, by its ratio to the fastest's.
     std::pair<double, double> intervalOf(const Candidate& candidate) const {
-        const double best = msOf(candidate) / candidate.standing->ratio;
+        const double best = candidate.ms() / candidate.standing->ratio;
         const auto known = [&](double ratio) { return std::isfinite(ratio) ? best * ratio : 0.0; };
         return {known(candidate.standing->low), known(candidate.standing->high)};
     }
+    static std::vector<std::size_t> drawn(const Choice& choice) {
+        std::vector<std::size_t> all;
+        for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+            if (choice.candidates[i].judged) all.push_back(i);
+        return all;
+    }
     std::vector<double> times() const {
         std::vector<double> all;
-        for (const Candidate& candidate : choice_.candidates) {
-            if (!candidate.judged) continue;
-            all.push_back(msOf(candidate));
+        for (const std::size_t i : drawn_) {
+            const Candidate& candidate = choice_.candidates[i];
+            all.push_back(candidate.ms());
             if (!candidate.standing) continue;
-            const auto [low, up_ms] = intervalOf(candidate);
-            all.push_back(low);
-            all.push_back(up_ms);
+            const auto [low, high] = intervalOf(candidate);
+            all.insert(all.end(), {low, high});
         }
         if (report_.budget.ms) all.push_back(*report_.budget.ms);
         return all;
     }
-    std::vector<double> errors() const {
+    std::vector<double> pointErrors() const {
         std::vector<double> all;
-        for (const Candidate& candidate : choice_.candidates)
-            if (candidate.judged) all.push_back(candidate.judged->error);
+        for (const std::size_t i : drawn_) all.push_back(choice_.candidates[i].judged->error);
+        return all;
+    }
+    std::vector<double> errors() const {
+        std::vector<double> all = pointErrors();
         if (report_.budget.error) all.push_back(*report_.budget.error);
         return all;
     }
-    double x(double ms) const { return leftEdge + time_.place(ms) * (plotWidth - leftEdge - rightEdge); }
-    double y(double error) const {
-        const double low = plotHeight - bottomEdge - (zeros_ ? zeroLane : 0),
-                     up = topEdge + (infinities_ ? zeroLane : 0);
-        if (!(error > 0)) return zeros_ ? plotHeight - bottomEdge - zeroLane / 2 : low;
-        if (!std::isfinite(error)) return topEdge + zeroLane / 2;
-        return low - error_.place(error) * (low - up);
-    }
-
-    std::string axes() const {
-        const double foot = plotHeight - bottomEdge;
-        Drawing drawing;
-        drawing.axes(
-            {leftEdge, topEdge, plotWidth - rightEdge, foot}, time_.ticks(),
-            [this](double ms) { return x(ms); }, "time of a frame, ms", error_.ticks(),
-            [this](double error) { return y(error); }, report_.figure + " against the reference");
-        if (zeros_) {
-            drawing.line("gap", leftEdge, foot - zeroLane, plotWidth - rightEdge, foot - zeroLane);
-            drawing.text("tick end", leftEdge - 8, y(0) + 4, "0");
-        }
-        if (infinities_) {
-            drawing.line("gap", leftEdge, topEdge + zeroLane, plotWidth - rightEdge, topEdge + zeroLane);
-            drawing.text("tick end", leftEdge - 8, topEdge + zeroLane / 2 + 4, "\u221e");
-        }
-        return drawing.group();
-    }
+    double x(double ms) const { return axes_.x(ms); }
+    double y(double error) const { return axes_.y(error); }
 
     std::string limits() const {
         std::string out;
@@ -125,28 +101,25 @@ private:
         std::vector<std::pair<double, double>> points;
         for (const std::size_t i : drawn_)
             if (const Candidate& candidate = choice_.candidates[i]; candidate.timings > 0)
-                points.emplace_back(msOf(candidate), candidate.judged->error);
+                points.emplace_back(candidate.ms(), candidate.judged->error);
         std::ranges::sort(points);
         double least = std::numeric_limits<double>::infinity();
-        std::string line;
+        std::vector<std::pair<double, double>> front;
         for (const auto& [ms, error] : points) {
             if (!(error < least)) continue;
             least = error;
-            line += line.empty()
-                        ? fmt::format("M{} {}V{}", svgNumber(x(ms)), svgNumber(topEdge), svgNumber(y(error)))
-                        : fmt::format("H{}V{}", svgNumber(x(ms)), svgNumber(y(error)));
+            front.emplace_back(ms, error);
         }
-        if (line.empty()) return {};
-        return fmt::format("<path class=\"front\" d=\"{}H{}\"/>", line, svgNumber(plotWidth - rightEdge));
+        return axes_.front(front);
     }
 
     std::string point(std::size_t i, bool file) const {
         const Candidate& candidate = choice_.candidates[i];
-        const double px = x(msOf(candidate)), py = y(candidate.judged->error);
+        const double px = x(candidate.ms()), py = y(candidate.judged->error);
         const bool raced = candidate.fate == Fate::raced;
         const std::string words = fmt::format(
             "{}; {}{:.4g} ms, {} {:.4g}; {}", report_.words[i], candidate.timings > 0 ? "" : "about ",
-            msOf(candidate), report_.figure, candidate.judged->error, fateInWords(candidate.fate));
+            candidate.ms(), report_.figure, candidate.judged->error, fateInWords(candidate.fate));
         std::string out = fmt::format(
             "<g class=\"point {}{}{}\" data-row=\"{}\"{}><title>{}</title>", nameOf(candidate.settings.path),
             raced ? " best" : "", candidate.timings > 0 ? "" : " untimed", i + 1,
@@ -159,7 +132,7 @@ private:
                                    svgNumber(x(low)), svgNumber(py - 4), svgNumber(py + 4), svgNumber(py),
                                    svgNumber(x(up)));
         }
-        return out + mark(candidate.settings.path, px, py, raced ? 6 : 4.5) + "</g>";
+        return out + pathMark(candidate.settings.path, px, py, raced ? 6 : 4.5) + "</g>";
     }
 
     // Of the chosen one, the runner-up and, where nothing fits, the nearest.
@@ -171,15 +144,14 @@ private:
         std::vector<Label> labels;
         std::vector<PlotBox> marks;
         for (const std::size_t i : drawn_) {
-            const double px = x(msOf(choice_.candidates[i])), py = y(choice_.candidates[i].judged->error);
+            const double px = x(choice_.candidates[i].ms()), py = y(choice_.candidates[i].judged->error);
             marks.push_back({px - 5, py - 5, px + 5, py + 5});
         }
         constexpr double letter = 8, line = 17;
         for (const auto& [i, word] : named)
-            labels.push_back({x(msOf(choice_.candidates[i])), y(choice_.candidates[i].judged->error),
+            labels.push_back({x(choice_.candidates[i].ms()), y(choice_.candidates[i].judged->error),
                               letter * static_cast<double>(word.size()), line});
-        const std::vector<PlotBox> places =
-            placeLabels(labels, marks, {leftEdge, topEdge, plotWidth - rightEdge, plotHeight - bottomEdge});
+        const std::vector<PlotBox> places = placeLabels(labels, marks, axesBox);
         std::string out;
         for (std::size_t k = 0; k < places.size(); ++k) {
             const double px = (places[k].left + places[k].right) / 2;
@@ -190,16 +162,6 @@ private:
                                svgNumber(places[k].bottom - 4), named[k].second);
         }
         return "<g class=\"rows-named\">" + out + "</g>";
-    }
-
-    // Paths differ in shape as well as in colour.
-    static std::string mark(Path path, double px, double py, double r) {
-        if (path == Path::deferred)
-            return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(px),
-                               svgNumber(py), svgNumber(r));
-        return fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-                           svgNumber(px - 0.9 * r), svgNumber(py - 0.9 * r), svgNumber(1.8 * r),
-                           svgNumber(1.8 * r));
     }
 
     // Above the plot, from the right: what there is of paths, contenders, others and limits.
@@ -220,26 +182,25 @@ private:
         const auto isDrawn = [&](const auto& what) { return std::ranges::any_of(drawn_, what); };
         if (isDrawn([&](std::size_t i) { return choice_.candidates[i].timings == 0; }))
             entry("not timed: by the model", "untimed",
-                  [](double at, double up) { return mark(Path::deferred, at, up, 4.5); });
+                  [](double at, double up) { return pathMark(Path::deferred, at, up, 4.5); });
         if (isDrawn([&](std::size_t i) { return choice_.candidates[i].fate == Fate::raced; }))
             entry("raced, with its interval", "best", [](double at, double up) {
                 return fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
                                    svgNumber(at - 9), svgNumber(up - 4), svgNumber(up + 4), svgNumber(up),
                                    svgNumber(at + 9)) +
-                       mark(Path::deferred, at, up, 5);
+                       pathMark(Path::deferred, at, up, 5);
             });
         for (const Path path : drawn_paths)
             if (isDrawn([&](std::size_t i) { return choice_.candidates[i].settings.path == path; }))
                 entry(std::string(nameOf(path)), std::string(nameOf(path)),
-                      [path](double at, double up) { return mark(path, at, up, 4.5); });
+                      [path](double at, double up) { return pathMark(path, at, up, 4.5); });
         return out;
     }
 
     const ChoiceReport& report_;
     const Choice& choice_;
-    const LogAxis time_, error_;
-    std::vector<std::size_t> drawn_;
-    bool zeros_ = false, infinities_ = false;
+    const std::vector<std::size_t> drawn_;  // of the candidates
+    const ErrorOverTime axes_;
 };
 
 }  // namespace

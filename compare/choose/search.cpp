@@ -18,8 +18,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double knownEffect = 0.15;
 // So many standard deviations of its prediction a candidate may be better than predicted.
 constexpr double benefit = 2;
-// Errors of one picture are equal; those within this ratio are alike to whoever sets a budget.
-constexpr double alike = 1.01;
 // An error that two changes make together may be smaller than the larger of both by so much.
 constexpr double together = 0.8;
 // A change is worth combining if it takes off so much of the time, in logarithms.
@@ -228,7 +226,7 @@ private:
             const auto error = errors_.find(changes.front());
             const auto before = first_errors_.find(all_[i].settings.path);
             const bool better = error != errors_.end() && before != first_errors_.end() &&
-                                error->second < before->second / alike;
+                                error->second < before->second / alikeErrors;
             if (faster < worthTime || better) helpful[all_[i].settings.path].push_back(changes.front());
         }
         for (const auto& [path, changes] : helpful) {
@@ -414,7 +412,7 @@ private:
             std::vector<std::size_t> equals;
             for (std::size_t i = 0; i < all_.size(); ++i)
                 if (all_[i].isFit() && (i == best || model_.predict(i).log_ms <= limit()) &&
-                    all_[i].judged->error <= all_[best].judged->error * alike)
+                    all_[i].judged->error <= all_[best].judged->error * alikeErrors)
                     equals.push_back(i);
             raceFor(equals);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
@@ -425,26 +423,14 @@ private:
         }
     }
 
-    // As raced, or else as predicted by all that was timed.
-    static double msOf(const Candidate& candidate) {
-        return candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
-    }
-    // How far a candidate is from the budget, 0 where it is within.
-    double missOf(std::size_t i) const {
-        const Candidate& candidate = all_[i];
-        double miss = 0;
-        const auto add = [&](double value, double limit) { miss = std::max(miss, value / limit - 1); };
-        if (budget_.error) add(candidate.judged->error, std::max(*budget_.error, 1e-12));
-        if (budget_.bytes)
-            add(static_cast<double>(candidate.judged->bytes), static_cast<double>(*budget_.bytes));
-        if (budget_.ms) add(msOf(candidate), *budget_.ms);
-        return miss;
+    double missBy(const Candidate& candidate) const {
+        return missOf(*candidate.judged, candidate.ms(), budget_);
     }
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
-            if (all_[i].judged && (!found_.nearest || missOf(i) < missOf(*found_.nearest)))
+            if (all_[i].judged && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
                 found_.nearest = i;
-        if (found_.nearest) found_.ms = msOf(all_[*found_.nearest]);
+        if (found_.nearest) found_.ms = all_[*found_.nearest].ms();
     }
 
     Lab& lab_;
@@ -461,6 +447,17 @@ private:
 };
 
 }  // namespace
+
+double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget) {
+    double miss = 0;
+    const auto add = [&](double value, double limit) {
+        if (value > limit) miss = std::max(miss, value / std::max(limit, 1e-12) - 1);
+    };
+    if (budget.error) add(judged.error, *budget.error);
+    if (budget.bytes) add(static_cast<double>(judged.bytes), static_cast<double>(*budget.bytes));
+    if (budget.ms && ms) add(*ms, *budget.ms);
+    return miss;
+}
 
 Choice search(std::span<const Settings> candidates, Lab& lab, CostModel& model,
               const SearchOptions& options) {

@@ -24,6 +24,9 @@ struct Budget {
     bool isForSpeed() const { return error.has_value(); }
 };
 
+// Errors of one picture are equal; those within this ratio are alike to whoever sets a budget.
+inline constexpr double alikeErrors = 1.01;
+
 // What repeats exactly.
 struct Judged {
     double error = 0;
@@ -76,8 +79,14 @@ struct Candidate {
     Prediction predicted{};              // by all that was timed
     std::vector<PassTime> passes{};      // likewise
     std::optional<Standing> standing{};  // of the race
+    // As raced, or else as predicted.
+    double ms() const { return standing ? standing->ms : predicted.ms(); }
     bool isFit() const { return fate == Fate::fits || fate == Fate::raced; }
 };
+
+// By how much a candidate exceeds the budget where it does so most, relative; 0: it is within. `ms`: nothing
+// where that does not count.
+double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget);
 
 struct Choice {
     std::vector<Candidate> candidates;

@@ -77,9 +77,12 @@ std::string whyInWords(const ChoiceReport& report) {
             parts.emplace_back(-std::abs(ms.first - ms.second),
                                fmt::format("{} {:.3g} against {:.3g}", name, ms.second, ms.first));
     std::ranges::sort(parts);
-    std::string line =
-        fmt::format("of the other path the {} that was drawn and fits, {}, takes about {:.3g} ms",
-                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.predicted.ms());
+    std::string line = fmt::format("of the other path the {} that was drawn and fits, {}, takes {}{:.3g} ms",
+                                   forSpeed ? "fastest" : "most accurate", report.words[*best],
+                                   other.standing ? "" : "about ", other.ms());
+    if (!forSpeed)
+        line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
+                            chosen.judged->error);
     for (std::size_t i = 0; i < parts.size(); ++i) line += (i == 0 ? ": " : ", ") + parts[i].second;
     return line;
 }
@@ -119,7 +122,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"words", report.words[i]},
               {"command", report.commands[i]},
               {"fate", nameOf(candidate.fate)},
-              {"ms", candidate.standing ? candidate.standing->ms : candidate.predicted.ms()},
+              {"ms", candidate.ms()},
               {"frames_timed", candidate.timings}};
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
@@ -135,9 +138,8 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
 
 std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
-    const double ms = candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
-    std::string text =
-        candidate.timings > 0 ? fmt::format("{:.4g} ms", ms) : fmt::format("about {:.3g} ms", ms);
+    std::string text = candidate.timings > 0 ? fmt::format("{:.4g} ms", candidate.ms())
+                                             : fmt::format("about {:.3g} ms", candidate.ms());
     if (candidate.judged)
         text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
                             page::bytes(candidate.judged->bytes));
@@ -181,8 +183,7 @@ std::optional<std::size_t> bestOfOtherPath(const ChoiceReport& report) {
     const Choice& choice = report.choice;
     if (!choice.chosen) return {};
     const auto isBetter = [&](const Candidate& a, const Candidate& b) {
-        return report.budget.isForSpeed() ? a.predicted.log_ms < b.predicted.log_ms
-                                          : a.judged->error < b.judged->error;
+        return report.budget.isForSpeed() ? a.ms() < b.ms() : a.judged->error < b.judged->error;
     };
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i)

@@ -84,7 +84,8 @@ int runChoose(const Options& options) {
         writeChoice(choices, options.out, options.force);
         tell((options.out / "index.html").string() + "\n");
     }
-    if (options.json) fmt::print("{}\n", toJson(choices).dump(2));
+    if (options.json)
+        fmt::print("{}\n", toJson(choices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return settings ? 0 : 1;
 }
 

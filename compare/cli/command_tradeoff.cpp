@@ -3,7 +3,6 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/render/frame_facts.h"
-#include "compare/render/left_out.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/color.h"
 #include "compare/run/interruption.h"
@@ -128,10 +127,7 @@ public:
         const ReferenceFrames references = drawReferenceFrames(renderer, tradeoff_.given, options_.cameras,
                                                                pictureChoice(options_), drawing);
         tradeoff_.cost.reference = msSince(uploaded);
-        for (const Frame& frame : references.frames)
-            for (const std::string& line : frame.notes)
-                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
-        noteLeftOut(views.at(viewRequest(options_.settings)).needs);
+        addNotes(tradeoff_.notes, references, sweep_.rows, views.at(viewRequest(options_.settings)).needs);
         SweepState state(folder_, keyOf(options_, tradeoff_, references));
         if (state.isRenewed())
             note(options_,
@@ -183,17 +179,6 @@ private:
                 tradeoff_.rows.push_back(std::move(measured.row));
             }
             if (prints()) print(table.line(tradeoff_, tradeoff_.rows.size() - 1));
-        }
-    }
-
-    // What of the scene's light the rows' paths leave out, which is part of their error.
-    void noteLeftOut(const Requirements& needs) {
-        std::vector<Path> told;
-        for (const Settings& row : sweep_.rows) {
-            if (std::ranges::count(told, row.path) > 0) continue;
-            told.push_back(row.path);
-            for (const std::string& line : leftOutLight(row.path, needs))
-                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
         }
     }
 

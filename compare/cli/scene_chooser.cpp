@@ -153,6 +153,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
                                                                    pictureChoice(options_), drawing))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
+    tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
     held.lab.emplace(held.renderer, references, figure_, renderOptions(options_));
 
     CostModel model(calibration_);
@@ -175,6 +176,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
+    held.lab->release();  // others draw from here on
     if (report.choice.chosen)
         for (const std::string& camera : unseenCameras(held.scene, cameras))
             report.unseen.push_back(fromUnseen(held, truth, report, camera));

@@ -24,6 +24,8 @@ public:
 
     choose::Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
+    // Drops the frames that it keeps: each has images of its own.
+    void release() { drawn_.clear(); }
     std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override;
 
 private:

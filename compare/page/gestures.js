@@ -77,17 +77,6 @@ const actions = {
   previous: card => card.step(-1),
 };
 
-async function copy(button) {
-  const code = button.parentElement.querySelector('code');
-  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
-  try {
-    await navigator.clipboard.writeText(code.textContent);
-    button.textContent = 'copied';
-  } catch {
-    button.textContent = 'selected';
-  }
-}
-
 addEventListener('click', event => {
   const link = event.target.closest('[data-pixel]'), button = event.target.closest('button');
   const card = cardOf(event.target);

@@ -302,8 +302,9 @@ std::string reportHtml(const Report& report, const ReportLayout& layout) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
         "</head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
-        "channels</a>{}{}<script>{}{}</script>\n</body></html>\n",
-        markup(verdictLine(report)), page::style, body, footer(report, layout), page::tables, page::script);
+        "channels</a>{}{}<script>{}{}{}</script>\n</body></html>\n",
+        markup(verdictLine(report)), page::style, body, footer(report, layout), page::tables, page::copying,
+        page::script);
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {

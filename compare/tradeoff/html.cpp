@@ -208,10 +208,10 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
         "<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
-        "table</a>{}{}{}{}{}{}{}<script>{}{}</script>\n</body></html>\n",
+        "table</a>{}{}{}{}{}{}{}<script>{}{}{}</script>\n</body></html>\n",
         markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
         plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff) + inHtml(tradeoff, sampleTable(tradeoff)),
-        skips(tradeoff), how(tradeoff), page::tables, tradeoffScript);
+        skips(tradeoff), how(tradeoff), page::tables, page::copying, tradeoffScript);
 }
 
 }  // namespace diptych::tradeoff

@@ -2,6 +2,7 @@
 #include "compare/tradeoff/measure.h"
 
 #include "compare/page/text.h"
+#include "compare/render/left_out.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/upsample.h"
 #include "compare/verdict/measurement.h"
@@ -116,6 +117,17 @@ FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
     const RelativeErrors relative = relativeErrors(result.pixels);
     result.errors = {knownOrInfinite(flip.mean), relative.rmse, relative.p99};
     return result;
+}
+
+void addNotes(std::vector<std::string>& notes, const ReferenceFrames& references,
+              std::span<const Settings> rows, const Requirements& needs) {
+    const auto add = [&](const std::vector<std::string>& lines) {
+        for (const std::string& line : lines)
+            if (std::ranges::count(notes, line) == 0) notes.push_back(line);
+    };
+    for (const Frame& frame : references.frames) add(frame.notes);
+    for (const Path path : drawn_paths)
+        if (std::ranges::count(rows, path, &Settings::path) > 0) add(leftOutLight(path, needs));
 }
 
 void ErrorsOfCameras::add(const FrameErrors& camera) {

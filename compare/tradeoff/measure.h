@@ -5,6 +5,7 @@
 #include "compare/picture/picture.h"
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
+#include "shared/scene/requirements.h"
 
 #include <span>
 #include <string>
@@ -37,6 +38,11 @@ struct FrameErrors {
     std::uint64_t flip_pixels = 0;
 };
 FrameErrors errorsOf(const Frame& reference, const Frame& frame);
+
+// Adds what the reference frames say and what of the scene's light the rows' paths leave out, which is part
+// of their errors; a line that is among `notes` is not said again.
+void addNotes(std::vector<std::string>& notes, const ReferenceFrames& references,
+              std::span<const Settings> rows, const Requirements& needs);
 
 // Errors over several cameras, all of whose pixels count alike.
 class ErrorsOfCameras {

@@ -2,9 +2,8 @@
 #include "compare/tradeoff/plot.h"
 
 #include "compare/page/text.h"
-#include "compare/plot/drawing.h"
+#include "compare/plot/error_over_time.h"
 #include "compare/plot/labels.h"
-#include "compare/plot/log_axis.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +22,7 @@ constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bot
 constexpr double digitWidth = 11.5,
                  digitHeight = 17;  // of a row's number, where the style makes text largest
 constexpr double farLabel = 40;     // from its point to the middle of its number
-constexpr double lane = 26;  // the strip for errors that a logarithmic axis cannot show, 0 and infinity
+constexpr PlotBox axesBox{left, top, width - right, height - bottom};
 
 class Plot {
 public:
@@ -33,21 +32,14 @@ public:
           path_(path),
           rows_(rowsOf(tradeoff, path)),
           front_(frontOf(tradeoff, figure, path)),
-          time_(timesOf()),
-          error_(errorsOf()) {
-        for (const std::size_t row : rows_) {
-            const double error = errorOf(tradeoff.rows[row], figure).value;
-            zeros_ = zeros_ || !(error > 0);
-            infinities_ = infinities_ || !std::isfinite(error);
-        }
-    }
+          axes_(axesBox, timesOf(), errorsOf(), pointErrors()) {}
 
     std::string svg(PlotPlace place) const {
         const bool file = place == PlotPlace::file;
         const std::string title =
             fmt::format("{} over time, {}{}", errorFigures[figure_].title, tradeoff_.scene,
                         path_ ? ", " + std::string(nameOf(*path_)) : "");
-        std::string out = axes() + frontLine();
+        std::string out = axes_.axes(std::string(errorFigures[figure_].title)) + frontLine();
         for (const bool front : {false, true})  // the front on top
             for (const std::size_t row : rows_)
                 if ((std::ranges::count(front_, row) > 0) == front) out += point(row, front, file);
@@ -74,43 +66,19 @@ private:
         }
         return all;
     }
-    double x(double time) const { return left + time_.place(time) * (width - left - right); }
-    double y(double error) const {
-        const double low = height - bottom - (zeros_ ? lane : 0), high = top + (infinities_ ? lane : 0);
-        if (!(error > 0)) return zeros_ ? height - bottom - lane / 2 : low;
-        if (!std::isfinite(error)) return top + lane / 2;
-        return low - error_.place(error) * (low - high);
+    std::vector<double> pointErrors() const {
+        std::vector<double> all;
+        for (const std::size_t row : rows_) all.push_back(errorOf(tradeoff_.rows[row], figure_).value);
+        return all;
     }
+    double x(double time) const { return axes_.x(time); }
+    double y(double error) const { return axes_.y(error); }
 
-    std::string axes() const {
-        const double foot = height - bottom;
-        Drawing drawing;
-        drawing.axes(
-            {left, top, width - right, foot}, time_.ticks(), [this](double ms) { return x(ms); },
-            "time of a frame, ms", error_.ticks(), [this](double error) { return y(error); },
-            std::string(errorFigures[figure_].title));
-        if (zeros_) {
-            drawing.line("gap", left, foot - lane, width - right, foot - lane);
-            drawing.text("tick end", left - 8, y(0) + 4, "0");
-        }
-        if (infinities_) {
-            drawing.line("gap", left, top + lane, width - right, top + lane);
-            drawing.text("tick end", left - 8, top + lane / 2 + 4, "\u221e");
-        }
-        return drawing.group();
-    }
-
-    // The least error that is reached within a time: a step line, lower only from the next point on.
     std::string frontLine() const {
-        if (front_.empty()) return {};
-        std::string line;
-        for (const std::size_t row : front_) {
-            const double px = x(timeOf(tradeoff_.rows[row]).value),
-                         py = y(tradeoff_.rows[row].errors[figure_]);
-            line += line.empty() ? fmt::format("M{} {}V{}", svgNumber(px), svgNumber(top), svgNumber(py))
-                                 : fmt::format("H{}V{}", svgNumber(px), svgNumber(py));
-        }
-        return fmt::format("<path class=\"front\" d=\"{}H{}\"/>", line, svgNumber(width - right));
+        std::vector<std::pair<double, double>> points;
+        for (const std::size_t row : front_)
+            points.emplace_back(timeOf(tradeoff_.rows[row]).value, tradeoff_.rows[row].errors[figure_]);
+        return axes_.front(points);
     }
 
     std::string point(std::size_t index, bool front, bool file) const {
@@ -129,7 +97,7 @@ private:
                            svgNumber(x(time.high)));
         if (error.low < error.value || error.high > error.value)
             out += fmt::format("M{} {}V{}", svgNumber(px), svgNumber(y(error.low)), svgNumber(y(error.high)));
-        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) +
+        return out + "\"/>" + pathMark(row.settings.path, px, py, front ? 6 : 4.5) +
                fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", svgNumber(px),
                            svgNumber(py));
     }
@@ -148,8 +116,7 @@ private:
             labels.push_back(
                 {x(timeOf(tradeoff_.rows[index]).value), y(tradeoff_.rows[index].errors[figure_]),
                  digitWidth * static_cast<double>(fmt::formatted_size("{}", index + 1)), digitHeight});
-        const std::vector<PlotBox> places =
-            placeLabels(labels, marks, {left, top, width - right, height - bottom});
+        const std::vector<PlotBox> places = placeLabels(labels, marks, axesBox);
         std::string out;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const double px = (places[i].left + places[i].right) / 2,
@@ -167,16 +134,6 @@ private:
         return "<g class=\"rows-named\">" + out + "</g>";
     }
 
-    // Paths differ in shape as well as in colour.
-    static std::string mark(Path path, double px, double py, double r) {
-        if (path == Path::deferred)
-            return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(px),
-                               svgNumber(py), svgNumber(r));
-        return fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-                           svgNumber(px - 0.9 * r), svgNumber(py - 0.9 * r), svgNumber(1.8 * r),
-                           svgNumber(1.8 * r));
-    }
-
     std::string legend() const {
         std::string out;
         double px = width - right - 8;
@@ -184,8 +141,8 @@ private:
             const std::string name(nameOf(path));
             px -= 10.0 * static_cast<double>(name.size()) + 22;
             out += fmt::format("<g class=\"point {}\">{}<text class=\"tick\" x=\"{}\" y=\"{}\">{}</text></g>",
-                               name, mark(path, px, top - 17, 4.5), svgNumber(px + 9), svgNumber(top - 12),
-                               name);
+                               name, pathMark(path, px, top - 17, 4.5), svgNumber(px + 9),
+                               svgNumber(top - 12), name);
         }
         return out;
     }
@@ -194,8 +151,7 @@ private:
     const std::size_t figure_;
     const std::optional<Path> path_;
     const std::vector<std::size_t> rows_, front_;
-    const LogAxis time_, error_;
-    bool zeros_ = false, infinities_ = false;
+    const ErrorOverTime axes_;
 };
 
 }  // namespace

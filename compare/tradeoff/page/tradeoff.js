@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// After compare/page/tables.js.
+// After compare/page/tables.js and copy.js.
 const $ = (selector, from = document) => from.querySelector(selector);
 const $$ = (selector, from = document) => [...from.querySelectorAll(selector)];
 
@@ -32,17 +32,6 @@ addEventListener('keydown', event => {
   event.preventDefault();
   keep(rowOf(event));
 });
-
-async function copy(button) {
-  const code = $('code', button.parentElement);
-  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
-  try {
-    await navigator.clipboard.writeText(code.textContent);
-    button.textContent = 'copied';
-  } catch {
-    button.textContent = 'selected';
-  }
-}
 
 // ---- Which error is shown.
 
