@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
 
+#include "compare/audit/quantity.h"
 #include "compare/cli/command_options.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -216,6 +218,26 @@ void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
         throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", *choose.max_ms));
 }
 
+void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
+    audit::quantitiesOf(audit.quantities);  // throws where there is none of a name
+    for (const std::string& words : parsed.require) {
+        const std::size_t at = words.find('=');
+        double magnitude = 0;
+        std::size_t end = 0;
+        try {
+            if (at != std::string::npos) magnitude = std::stod(words.substr(at + 1), &end);
+        } catch (const std::exception&) {
+            end = 0;
+        }
+        if (end == 0 || at + 1 + end != words.size() || !(magnitude >= 0) || !std::isfinite(magnitude))
+            throw std::runtime_error(
+                fmt::format("--require {}: is NAME=MAGNITUDE, 0 or more, as offset=1e7", words));
+        const std::string name = words.substr(0, at);
+        audit::quantitiesOf(std::array{name}, "--require");
+        audit.required.emplace_back(name, magnitude);
+    }
+}
+
 Keep keepOf(const std::string& word) {
     for (const auto& [keep, name] :
          {std::pair{Keep::all, "all"}, {Keep::failing, "failing"}, {Keep::none, "none"}})
@@ -244,8 +266,12 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
     options.cameras = parsed.cameras.empty() ? std::vector{options.settings.camera} : parsed.cameras;
     options.camera_given = !options.settings.camera.empty();
-    options.path_given =
-        std::ranges::any_of(parsed.settings, [](const auto& pair) { return pair.first == "path"; });
+    const auto isGiven = [&](std::string_view option) {
+        return std::ranges::any_of(parsed.settings, [&](const auto& pair) { return pair.first == option; });
+    };
+    options.path_given = isGiven("path");
+    options.size_given = isGiven("size") || !parsed.settings_file.empty();
+    options.shadows_given = isGiven("shadows") || !parsed.settings_file.empty();
     options.debug_given = !parsed.debug.empty();
     if (options.debug_given) options.shown = channelNumber(parsed.debug, "--debug");
     if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
@@ -259,7 +285,6 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (options.picture.ev100 && !std::isfinite(*options.picture.ev100))
         throw std::runtime_error(fmt::format("--ev100 {}: finite", *options.picture.ev100));
     resolveTimes(options, parsed);
-    if (!parsed.not_built.empty()) throw std::runtime_error(parsed.not_built.front() + " is not built yet");
     options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);
     resolveTest(options, parsed);
@@ -267,6 +292,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);
     resolveChoose(options.choose, parsed);
+    resolveAudit(options.audit, parsed);
 }
 
 // CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".

@@ -25,8 +25,8 @@ const Command commands[] = {
      "diptych explain helmet.glb --gbuffer compact -o helmet-causes", true},
     {"choose", "The fastest Settings within an error, or the most accurate within a time or a memory",
      "diptych choose helmet.glb --max-error 0.02 -o helmet-choice", true},
-    {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
-     false},
+    {"audit", "Pushes scene and camera to numerical extremes: where does each path break?",
+     "diptych audit helmet.glb --quantity near,fov", true},
     {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
      "diptych plan helmet.glb --gbuffer compact", true},
     {"view", "A window with both paths live", "diptych view helmet.glb", false},
@@ -40,18 +40,6 @@ const char* const picture_group = "Channels and pictures";
 const char* const output_group = "Output";
 const char* const selection_group = "What counts";
 const char* const device_group = "Device and timing";
-const char* const later_group = "Not built yet";
-
-// An option of the contract that cannot be done yet.
-void addLater(CLI::App& app, ParsedOptions& parsed, const std::string& option, const std::string& type,
-              const std::string& help) {
-    app.add_option_function<std::string>(
-           option,
-           [&parsed, option](const std::string& value) { parsed.not_built.push_back(option + " " + value); },
-           help)
-        ->type_name(type)
-        ->group(later_group);
-}
 
 void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except = "") {
     app.option_defaults()->group(pixel_group);
@@ -214,7 +202,6 @@ void hideGroup(CLI::App& app, const std::string& group) {
 }
 
 void hideUnread(CLI::App& app, const std::string& command) {
-    hideGroup(app, later_group);
     if (command != "render") hide(app, {"--frames", "--fps"});
     if (command == "compare") {
         hide(app, {"--debug", "--heat"});
@@ -225,8 +212,8 @@ void hideUnread(CLI::App& app, const std::string& command) {
     if (command == "explain") {
         hide(app, {"--path", "--runs"});
     }
-    if (command == "bench" || command == "choose") hideGroup(app, picture_group);
-    if (command == "choose") hide(app, {"--path", "--runs"});
+    if (command == "bench" || command == "choose" || command == "audit") hideGroup(app, picture_group);
+    if (command == "choose" || command == "audit") hide(app, {"--path", "--runs"});
     if (command == "devices" || command == "plan") {
         hideGroup(app, picture_group);
         hide(app, {"--out", "--force", "--runs"});
@@ -260,6 +247,21 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
         "--explain-choice", choose.explain,
         "what of the scene decided between the paths: overdraw, lights a pixel, transparency, samples, "
         "materials, triangles, size, and where each would turn it; a few hundred frames more");
+}
+
+void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
+    app.option_defaults()->group("What is pushed");
+    app.add_option("--quantity", audit.quantities,
+                   "names of what is pushed: offset, scale, near, fov, intensity, ... (all)")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--require", parsed.require,
+                   "exit code 1 where a path's error is not below 1e-2 as far as this magnitude, from the "
+                   "scene as it is; several times")
+        ->type_name("NAME=MAGNITUDE,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
 }
 
 // What a report holds.
@@ -404,10 +406,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     if (command == "bench") addBench(app, parsed);
     addOutput(app, options);
     if (command == "choose") addChoose(app, options.choose, parsed);
-    if (command == "audit") {
-        addLater(app, parsed, "--quantity", "NAME,...", "what to push");
-        addLater(app, parsed, "--require", "NAME=MAGNITUDE", "how far each must go");
-    }
+    if (command == "audit") addAudit(app, options.audit, parsed);
 }
 
 }  // namespace

@@ -31,13 +31,13 @@ struct ParsedOptions {
     std::string baseline = "deferred", crop, metric;
     std::optional<std::string> pixel;
     std::optional<double> tolerance;
-    std::vector<std::string> not_built;  // options that parse but cannot be done
     std::optional<int> frames;
     std::optional<double> fps;
     std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts;
     std::string bench_table = "modes", kernels = "on", keep = "all";
     double max_ms = 2000;
     std::string max_bytes;
+    std::vector<std::string> require;  // audit: NAME=MAGNITUDE
 };
 
 // Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.

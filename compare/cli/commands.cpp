@@ -45,7 +45,7 @@ int runCommand(const Options& options) {
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
         {"compare", runCompare},   {"render", runRender},   {"diff", runDiff},
         {"tradeoff", runTradeoff}, {"explain", runExplain}, {"choose", runChoose},
-        {"bench", runBench},       {"plan", runPlan},       {"devices", runDevices}};
+        {"audit", runAudit},       {"bench", runBench},       {"plan", runPlan},       {"devices", runDevices}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::runtime_error(options.command + " is not built yet");

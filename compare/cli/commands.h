@@ -33,6 +33,7 @@ int runTradeoff(const Options& options);
 int runBench(const Options& options);
 int runExplain(const Options& options);
 int runChoose(const Options& options);
+int runAudit(const Options& options);
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

@@ -28,6 +28,13 @@ struct ChooseOptions {
     bool explain = false;         // --explain-choice
 };
 
+// audit
+struct AuditOptions {
+    std::vector<std::string> quantities;  // names; empty: all
+    // Magnitudes that must be reached, by quantity: --require.
+    std::vector<std::pair<std::string, double>> required;
+};
+
 struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
     std::string command;  // "compare"
@@ -39,6 +46,7 @@ struct Options {
     double fps = 30;                       // and so many a second
     bool camera_given = false;             // --camera stood on the command line or in --settings
     bool path_given = false;               // --path stood on the command line
+    bool size_given = false, shadows_given = false;  // likewise, or in --settings
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture
     bool debug_given = false;              // --debug stood on the command line
@@ -72,6 +80,7 @@ struct Options {
     PictureDiffOptions diff;           // diff; without rules
     bench::BenchOptions bench;
     ChooseOptions choose;
+    AuditOptions audit;
     std::string grid;  // tradeoff, choose: a file or JSON; empty: usualGrids()
 };
 

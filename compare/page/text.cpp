@@ -113,6 +113,21 @@ std::string cameraTitle(const Frame& frame) {
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
 }
 
+std::string csvLine(const std::vector<std::string>& fields) {
+    std::string out;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (i > 0) out += ',';
+        if (fields[i].find_first_of(",\"\r\n") == std::string::npos) {
+            out += fields[i];
+            continue;
+        }
+        out += '"';
+        for (const char c : fields[i]) out += c == '"' ? "\"\"" : std::string(1, c);
+        out += '"';
+    }
+    return out + "\r\n";
+}
+
 std::string numberCell(double value, std::string_view text) {
     return fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", std::isfinite(value) ? value : 1e300,
                        markup(text));

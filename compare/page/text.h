@@ -36,6 +36,10 @@ std::string breakable(std::string_view name);
 // last.
 std::string numberCell(double value, std::string_view text);
 
+// A line of comma-separated values with its end (RFC 4180): a field is quoted where it holds a comma, a quote
+// or a line break.
+std::string csvLine(const std::vector<std::string>& fields);
+
 // The camera's name, else --camera as given, else "default view".
 std::string cameraTitle(const Frame& frame);
 

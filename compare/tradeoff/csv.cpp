@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/page/text.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <fmt/format.h>
@@ -9,22 +10,7 @@
 namespace diptych::tradeoff {
 namespace {
 
-// Quoted if the text contains a comma, a quote or a line break (RFC 4180).
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-}
-
-std::string line(const std::vector<std::string>& fields) {
-    std::string out;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (i > 0) out += ',';
-        out += quoted(fields[i]);
-    }
-    return out + "\r\n";
-}
+using page::csvLine;
 
 // All digits; what is infinite is "inf".
 std::string digits(double value) {
@@ -69,7 +55,7 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
     const std::vector<std::string> passes = passNames(tradeoff);
     std::array<std::vector<std::size_t>, errorFigures.size()> fronts;
     for (std::size_t f = 0; f < fronts.size(); ++f) fronts[f] = frontOf(tradeoff, f);
-    std::string out = line(head(passes));
+    std::string out = csvLine(head(passes));
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         std::vector<std::string> fields{fmt::format("{}", i + 1), std::string(nameOf(row.settings.path))};
@@ -102,7 +88,7 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
         for (const std::string& warning : row.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
         fields.insert(fields.end(), {warnings, row.picture, measuringCommand(tradeoff, row),
                                      renderingCommand(tradeoff, row), comparingCommand(tradeoff, row)});
-        out += line(fields);
+        out += csvLine(fields);
     }
     return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "compare/files/kept_folder.h"
 #include "compare/tradeoff/measure.h"
 
 #include <nlohmann/json.hpp>
@@ -11,33 +12,25 @@
 
 namespace diptych::tradeoff {
 
-// The rows that a sweep has measured so far, in ".NAME.sweep" beside its output folder NAME. Each row is
-// stored by itself, its JSON after its pictures, so that the next program can resume however this one ends.
-// One program at a time may hold it. Throws std::runtime_error naming the folder.
+// The rows that a sweep has measured so far (KeptFolder). Each row is stored by itself, its JSON after its
+// pictures.
 class SweepState {
 public:
-    // `key`: everything that rows depend on besides their Settings. Rows of another key are removed.
+    // `key`: everything that rows depend on besides their Settings. Throws as KeptFolder does.
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
-    ~SweepState();
-    SweepState(const SweepState&) = delete;
-    SweepState& operator=(const SweepState&) = delete;
 
-    bool isRenewed() const { return renewed_; }  // whether rows of another key were removed
+    bool isRenewed() const { return kept_.isRenewed(); }  // whether rows of another key were removed
     std::optional<TradeoffRow> find(const Settings& settings) const;
     void keep(MeasuredRow& measured);    // names the row's pictures
     void renew(const TradeoffRow& row);  // of one that is kept
     // The path of a file of a kept row.
-    std::filesystem::path operator/(const std::string& file) const { return folder_ / file; }
+    std::filesystem::path operator/(const std::string& file) const { return kept_ / file; }
     void remove();  // all of it: the sweep is done
 
     static std::filesystem::path folderOf(const std::filesystem::path& out);
 
 private:
-    void clear();
-
-    std::filesystem::path folder_;
-    int lock_ = -1;
-    bool renewed_ = false;
+    KeptFolder kept_;
 };
 
 // 64 bits, FNV-1a (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace diptych::audit {
+
+namespace {
+
+// So many copies of every local light, which share its intensity: the picture stays the same.
+void pushLights(Case& pushed, const Subject&, double copies) {
+    const auto count = static_cast<std::size_t>(copies);
+    std::vector<Light> lights;
+    for (Light light : pushed.scene.lights) {
+        if (light.kind == LightKind::directional) {
+            lights.push_back(std::move(light));
+            continue;
+        }
+        light.intensity = static_cast<float>(light.intensity / copies);
+        lights.insert(lights.end(), count, light);
+    }
+    pushed.scene.lights = std::move(lights);
+}
+
+std::size_t triangleCount(const Scene& scene) {
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
+    return triangles;
+}
+
+template <class Value>
+Value blended(const std::vector<Value>& of, const std::uint32_t* corners, const glm::vec3& weights) {
+    return of[corners[0]] * weights.x + of[corners[1]] * weights.y + of[corners[2]] * weights.z;
+}
+
+// Cuts every triangle into n x n of its shape.
+Primitive divided(const Primitive& whole, int n) {
+    Primitive parts;
+    parts.material = whole.material;
+    parts.flat = whole.flat;
+    for (std::size_t t = 0; t + 2 < whole.indices.size(); t += 3) {
+        const std::uint32_t* const corners = &whole.indices[t];
+        const auto first = static_cast<std::uint32_t>(parts.positions.size());
+        for (int row = 0; row <= n; ++row)
+            for (int column = 0; column <= row; ++column) {
+                const auto down = static_cast<float>(row) / static_cast<float>(n),
+                           across = static_cast<float>(column) / static_cast<float>(n);
+                const glm::vec3 weights{1 - down, down - across, across};
+                parts.positions.push_back(blended(whole.positions, corners, weights));
+                parts.normals.push_back(glm::normalize(blended(whole.normals, corners, weights)));
+                glm::vec4 tangent = blended(whole.tangents, corners, weights);
+                tangent.w = whole.tangents[corners[0]].w;
+                parts.tangents.push_back(tangent);
+                for (std::size_t set = 0; set < 2; ++set)
+                    if (!whole.texcoords[set].empty())
+                        parts.texcoords[set].push_back(blended(whole.texcoords[set], corners, weights));
+                if (!whole.colors.empty()) parts.colors.push_back(blended(whole.colors, corners, weights));
+            }
+        const auto at = [&](int row, int column) {
+            return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + column);
+        };
+        for (int row = 0; row < n; ++row)
+            for (int column = 0; column <= row; ++column) {
+                parts.indices.insert(parts.indices.end(),
+                                     {at(row, column), at(row + 1, column), at(row + 1, column + 1)});
+                if (column < row)
+                    parts.indices.insert(parts.indices.end(),
+                                         {at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+            }
+    }
+    return parts;
+}
+
+bool isDivisible(const Primitive& primitive) {
+    return primitive.joint_sets.empty() && primitive.targets.empty();
+}
+
+void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
+    const double each = triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.given.scene), 1));
+    const int n = static_cast<int>(std::lround(std::sqrt(std::max(each, 1.0))));
+    if (n < 2) return;
+    for (Mesh& mesh : pushed.scene.meshes)
+        for (Primitive& primitive : mesh.primitives)
+            if (isDivisible(primitive)) primitive = divided(primitive, n);
+}
+
+double usualTriangles(const Subject& subject) {
+    return static_cast<double>(triangleCount(subject.given.scene));
+}
+
+std::string lacksRigid(const Subject& subject) {
+    for (const Mesh& mesh : subject.given.scene.meshes)
+        if (std::ranges::any_of(mesh.primitives, isDivisible)) return {};
+    return "the scene has no mesh that is neither skinned nor morphed";
+}
+
+void pushSize(Case& pushed, const Subject& subject, double height) {
+    const double aspect = static_cast<double>(subject.view.width) / subject.view.height;
+    const auto side = [](double pixels) { return std::max(1, static_cast<int>(std::lround(pixels))); };
+    pushed.settings.size = {side(aspect * height), side(height)};
+}
+
+double usualSize(const Subject& subject) {
+    return static_cast<double>(subject.view.height);
+}
+
+void pushTime(Case& pushed, const Subject&, double seconds) {
+    pushed.settings.time = seconds;
+}
+
+double usualTime(const Subject& subject) {
+    return subject.given.settings.time;
+}
+
+std::string lacksMotion(const Subject& subject) {
+    return subject.moves ? "" : "nothing in the scene is animated";
+}
+
+}  // namespace
+
+std::vector<Quantity> amountQuantities() {
+    std::vector<double> sizes = {1, 2, 4, 9, 18, 45, 90, 180, 360, 720};
+    std::vector<double> times = ladder(1e-3, 1e6);
+    times.insert(times.begin(), 0);
+    return {{.name = "lights",
+             .unit = "",
+             .what = "copies of every local light, which share its intensity",
+             .magnitudes = ladder(1, 1e4),
+             .usual = usualOne,
+             .lacks = lacksLocalLight,
+             .push = pushLights,
+             .variants = {{"assign", "tiled"}, {"assign", "every"}},
+             .same_picture = true,
+             .whole = true},
+            {.name = "triangles",
+             .unit = "",
+             .what = "triangles, by cutting up the scene's own",
+             .magnitudes = ladder(1e2, 1e6),
+             .usual = usualTriangles,
+             .lacks = lacksRigid,
+             .push = pushTriangles,
+             .whole = true},
+            {.name = "size",
+             .unit = "pixels",
+             .what = "the height of the picture, whose shape stays",
+             .magnitudes = sizes,
+             .usual = usualSize,
+             .lacks = lacksNothing,
+             .push = pushSize,
+             .whole = true},
+            {.name = "time",
+             .unit = "s",
+             .what = "the animation time",
+             .magnitudes = times,
+             .usual = usualTime,
+             .lacks = lacksMotion,
+             .push = pushTime}};
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr double resolved = 1.25;       // a reach is known to this factor
+constexpr std::size_t mostAdded = 16;   // steps of a quantity beyond its own
+constexpr double agreement = 2;
+
+double errorOf(const Outcome& outcome) {
+    return outcome.error();
+}
+double flipOf(const Outcome& outcome) {
+    return outcome.flip;
+}
+double nonfiniteOf(const Outcome& outcome) {
+    return outcome.failed.empty() ? static_cast<double>(outcome.nonfinite) : 0;
+}
+
+// The steps in an order that leads away from the usual one.
+Reach reachOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
+              std::size_t usual, int way) {
+    Reach reach{.last = steps[usual].magnitude};
+    for (auto i = static_cast<std::ptrdiff_t>(usual) + way; i >= 0 && i < std::ssize(steps); i += way) {
+        const Step& step = steps[static_cast<std::size_t>(i)];
+        if (!holds(criterion, step.outcomes[series])) {
+            reach.first = step.magnitude;
+            reach.broken = true;
+            return reach;
+        }
+        reach.last = step.magnitude;
+    }
+    return reach;
+}
+
+// Between two magnitudes: by ratios, as they are tried.
+double between(double a, double b) {
+    return std::sqrt(a * b);
+}
+
+}  // namespace
+
+const std::array<Criterion, criterionCount> criteria{
+    {{"1e-3", "error below 1e-3", 1e-3, errorOf},
+     {"1e-2", "error below 1e-2", 1e-2, errorOf},
+     {"visible", "not visible (HDR-FLIP below 0.05)", 0.05, flipOf},
+     {"finite", "every pixel a number", 0.5, nonfiniteOf}}};
+
+bool holds(const Criterion& criterion, const Outcome& outcome) {
+    return criterion.figure(outcome) < criterion.limit;
+}
+
+bool agrees(const Reach& reach, double predicted, bool up, double tried) {
+    if (!reach.broken) return up ? predicted * agreement >= tried : predicted / agreement <= tried;
+    const double measured = reach.last > 0 ? between(reach.last, reach.first) : reach.first;
+    return predicted > 0 && std::max(measured / predicted, predicted / measured) <= agreement;
+}
+
+std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& steps, std::size_t series,
+                                                      double usual) {
+    std::array<std::vector<Hold>, criterionCount> all;
+    const auto at = static_cast<std::size_t>(
+        std::ranges::lower_bound(steps, usual, {}, &Step::magnitude) - steps.begin());
+    for (std::size_t c = 0; c < criterionCount; ++c)
+        for (std::size_t s = 0; s < series; ++s) {
+            Hold hold;
+            hold.usual = at < steps.size() && holds(criteria[c], steps[at].outcomes[s]);
+            if (hold.usual) {
+                hold.up = reachOf(criteria[c], steps, s, at, 1);
+                hold.down = reachOf(criteria[c], steps, s, at, -1);
+            }
+            all[c].push_back(hold);
+        }
+    return all;
+}
+
+std::optional<double> nextMagnitude(const QuantityAudit& audit) {
+    if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + mostAdded) return {};
+    for (const std::vector<Hold>& of : audit.holds)
+        for (const Hold& hold : of)
+            for (const Reach* reach : {&hold.up, &hold.down}) {
+                if (!hold.usual || !reach->broken || reach->last == 0 || reach->first == 0) continue;
+                if (std::max(reach->last / reach->first, reach->first / reach->last) <= resolved) continue;
+                const double next = between(reach->last, reach->first);
+                return audit.quantity->whole ? std::round(next) : next;
+            }
+    return {};
+}
+
+QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
+                            const std::function<Step(std::span<const Series>, double magnitude)>& step) {
+    QuantityAudit audit;
+    audit.quantity = &quantity;
+    audit.lacks = quantity.lacks(subject);
+    if (!audit.lacks.empty()) return audit;
+    audit.usual = quantity.usual(subject);
+    audit.series = seriesOf(quantity, subject);
+    std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
+    magnitudes.insert(audit.usual);
+    const auto measure = [&](double magnitude) {
+        Step measured = step(audit.series, magnitude);
+        const auto after = std::ranges::lower_bound(audit.steps, magnitude, {}, &Step::magnitude);
+        audit.steps.insert(after, std::move(measured));
+    };
+    for (const double magnitude : magnitudes) measure(magnitude);
+    for (;;) {
+        audit.holds = holdsOf(audit.steps, audit.series.size(), audit.usual);
+        const std::optional<double> next = nextMagnitude(audit);
+        if (!next || std::ranges::count(audit.steps, *next, &Step::magnitude) > 0) break;
+        measure(*next);
+    }
+    for (std::size_t c = 0; c < audit.predicted.size(); ++c)
+        for (const Series& series : audit.series)
+            audit.predicted[c].push_back(
+                quantity.predict ? quantity.predict(subject, series.applied(subject.given.settings),
+                                                    criteria[c].limit)
+                                 : Predicted{});
+    return audit;
+}
+
+Requirement judge(const QuantityAudit& audit, double magnitude) {
+    Requirement requirement{.quantity = std::string(audit.quantity->name), .magnitude = magnitude};
+    if (!audit.lacks.empty()) {
+        requirement.because = "not pushed: " + audit.lacks;
+        return requirement;
+    }
+    requirement.met = true;
+    for (const Path path : drawn_paths) {
+        // The best of the path: a G-buffer that rounds is a choice, not a limit.
+        bool met = false;
+        std::string reached;
+        for (std::size_t s = 0; s < audit.series.size(); ++s) {
+            if (audit.series[s].path != path) continue;
+            const Hold& hold = audit.holds[requiredCriterion][s];
+            const Reach& reach = magnitude >= audit.usual ? hold.up : hold.down;
+            const bool far = magnitude >= audit.usual ? reach.last >= magnitude : reach.last <= magnitude;
+            met = met || (hold.usual && far);
+            reached = hold.usual ? fmt::format("the error is below 1e-2 as far as {:.3g}", reach.last)
+                                 : "the error is not below 1e-2 as the scene is";
+            if (met) break;
+        }
+        requirement.met = requirement.met && met;
+        if (!met) requirement.because += fmt::format("{}{}: {}", requirement.because.empty() ? "" : "; ",
+                                                     nameOf(path), reached);
+    }
+    return requirement;
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+#include "shared/scene/default_view.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+std::string lacksPerspective(const Subject& subject) {
+    return subject.view.camera.orthographic ? "the camera is orthographic" : "";
+}
+
+// A far plane that holds all of the scene, m.
+double farOf(const Subject& subject) {
+    const double reach = glm::distance(subject.bounds.centre(), subject.view.eye()) + subject.bounds.radius();
+    return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * reach;
+}
+
+double usualNear(const Subject& subject) {
+    return farOf(subject) / subject.view.camera.near;
+}
+
+void pushNear(Case& pushed, const Subject& subject, double ratio) {
+    pushed.camera().far = farOf(subject);
+    pushed.camera().near = pushed.camera().far / ratio;
+}
+
+double usualFov(const Subject& subject) {
+    return glm::degrees(subject.view.camera.yfov);
+}
+
+void pushFov(Case& pushed, const Subject&, double degrees) {
+    pushed.camera().yfov = glm::radians(degrees);
+}
+
+// The eye goes round the point in the middle of the picture, as far from it as it was, until it sees the
+// surface there under this angle.
+void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
+    const glm::dvec3 to_eye = subject.view.eye() - subject.point;
+    glm::dvec3 along = to_eye - glm::dot(to_eye, subject.normal) * subject.normal;
+    if (!(glm::length(along) > 1e-6 * glm::length(to_eye)))
+        along = glm::cross(subject.normal, std::abs(subject.normal.y) < 0.9 ? glm::dvec3(0, 1, 0)
+                                                                            : glm::dvec3(1, 0, 0));
+    const double angle = glm::radians(degrees);
+    const glm::dvec3 direction = std::cos(angle) * glm::normalize(along) + std::sin(angle) * subject.normal;
+    const glm::dvec3 eye = subject.point + glm::length(to_eye) * direction;
+    pushed.camera().world_from_camera = lookAt(eye, subject.point);
+}
+
+double usualGrazing(const Subject& subject) {
+    const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
+    return glm::degrees(std::asin(std::clamp(glm::dot(to_eye, subject.normal), 0.0, 1.0)));
+}
+
+}  // namespace
+
+std::vector<Quantity> cameraQuantities() {
+    std::vector<double> fovs = ladder(0.01, 10);
+    for (const double wide : {30.0, 60.0, 90.0, 120.0, 150.0, 170.0, 179.0}) fovs.push_back(wide);
+    std::vector<double> grazes = ladder(0.001, 10);
+    for (const double steep : {30.0, 60.0, 90.0}) grazes.push_back(steep);
+    return {{.name = "near",
+             .unit = "",
+             .what = "the far plane's distance over the near plane's, which is drawn nearer",
+             .magnitudes = ladder(1e2, 1e9),
+             .usual = usualNear,
+             .lacks = lacksNothing,
+             .push = pushNear},
+            {.name = "fov",
+             .unit = "degrees",
+             .what = "the vertical field of view, from the same eye",
+             .magnitudes = fovs,
+             .usual = usualFov,
+             .lacks = lacksPerspective,
+             .push = pushFov},
+            {.name = "grazing",
+             .unit = "degrees",
+             .what = "the angle between the view and the surface in the middle of the picture",
+             .magnitudes = grazes,
+             .usual = usualGrazing,
+             .lacks = lacksSurface,
+             .push = pushGrazing}};
+}
+
+}  // namespace diptych::audit

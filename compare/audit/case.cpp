@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/case.h"
+
+#include "compare/render/frame_facts.h"
+#include "shared/scene/visible_surface.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr int probedAcross = 32;  // rays across and down that look for a surface near the middle
+
+// The direction through a place of the picture, (-1, -1) to (1, 1), from the bottom left: unit, world.
+glm::dvec3 directionAt(const View& view, double x, double y) {
+    const double t = std::tan(view.camera.yfov / 2), aspect = static_cast<double>(view.width) / view.height;
+    return glm::normalize(view.right() * (x * t * aspect) + view.up() * (y * t) - view.backward());
+}
+
+void findSurface(Subject& subject, const Scene& scene, const Pose& pose) {
+    if (subject.view.camera.orthographic || subject.bounds.empty()) return;
+    const VisibleSurface surface(scene, pose, subject.bounds);
+    double nearest = 0;
+    for (int row = 0; row <= probedAcross; ++row)
+        for (int column = 0; column <= probedAcross; ++column) {
+            const double x = 2.0 * column / probedAcross - 1, y = 2.0 * row / probedAcross - 1;
+            const double away = x * x + y * y;
+            if (subject.seen && away >= nearest) continue;
+            const glm::dvec3 along = directionAt(subject.view, x, y);
+            const auto hit = surface.nearest(subject.view.eye(), along);
+            if (!hit) continue;
+            subject.seen = true;
+            nearest = away;
+            subject.point = subject.view.eye() + along * hit->distance;
+            subject.normal = hit->normal;
+        }
+}
+
+}  // namespace
+
+Subject makeSubject(const Scene& scene, const Settings& settings) {
+    SceneViews views(scene);
+    const SceneView& view = views.at(viewRequest(settings));
+    Subject subject;
+    subject.given = {scene, settings};
+    subject.view = view.view;
+    subject.view_name = view.default_view.empty() ? view.view.camera.name : view.default_view;
+    Case& given = subject.given;
+    given.scene.lights = view.lights;
+    if (view.sun && !given.scene.lights.empty()) given.scene.lights.pop_back();  // --env-sun takes it out again
+    for (Light& light : given.scene.lights) {
+        light.node = -1;
+        light.source = -1;
+    }
+    given.settings.lights = Settings().lights;
+    Camera camera = view.view.camera;
+    camera.node = -1;
+    camera.source = -1;
+    camera.name = "audited";
+    given.scene.cameras.push_back(std::move(camera));
+    given.settings.camera = std::to_string(given.scene.cameras.size() - 1);
+    subject.bounds = worldBounds(scene, view.pose);
+    subject.moves = std::ranges::any_of(scene.animations, movesAnything);
+    findSurface(subject, scene, view.pose);
+    return subject;
+}
+
+void moveAll(Case& pushed, const glm::dmat4& move) {
+    Scene& scene = pushed.scene;
+    const int root = static_cast<int>(scene.nodes.size());
+    for (Node& node : scene.nodes)
+        if (node.parent < 0) node.parent = root;
+    scene.nodes.push_back({.name = "moved", .parent_from_node = move});
+    const auto moved = [&](const glm::dvec3& place) { return glm::dvec3(move * glm::dvec4(place, 1)); };
+    for (Light& light : scene.lights) light.position = moved(light.position);
+    glm::dmat4& camera = pushed.camera().world_from_camera;
+    camera[3] = glm::dvec4(moved(glm::dvec3(camera[3])), 1);
+}
+
+void scaleLengths(Case& pushed, double factor) {
+    moveAll(pushed, glm::scale(glm::dmat4(1), glm::dvec3(factor)));
+    const auto f = static_cast<float>(factor);
+    for (Light& light : pushed.scene.lights) {
+        for (float* length : {&light.range, &light.width, &light.height, &light.radius, &light.length})
+            *length *= f;
+        // Candela are lux at a metre.
+        if (light.kind == LightKind::point || light.kind == LightKind::spot)
+            light.intensity = static_cast<float>(double{light.intensity} * factor * factor);
+    }
+    Camera& camera = pushed.camera();
+    camera.near *= factor;
+    camera.far *= factor;
+    camera.ymag *= factor;
+    Settings& settings = pushed.settings;
+    if (settings.haze) {
+        settings.haze_density /= f;
+        settings.haze_rayleigh_height *= f;
+        settings.haze_mie_height *= f;
+        settings.haze_ground *= f;
+    }
+    settings.shadow_distance *= f;
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+bool isLocal(const Light& light) {
+    return light.kind != LightKind::directional;
+}
+
+float times(float value, double factor) {
+    return static_cast<float>(double{value} * factor);
+}
+
+// All that sends light: the picture is so many times as bright.
+void pushIntensity(Case& pushed, const Subject&, double factor) {
+    for (Light& light : pushed.scene.lights) light.intensity = times(light.intensity, factor);
+    Settings& settings = pushed.settings;
+    settings.ibl_intensity = times(settings.ibl_intensity, factor);
+    settings.light_cutoff = times(settings.light_cutoff, factor);
+    for (float* component : {&settings.ambient.r, &settings.ambient.g, &settings.ambient.b})
+        *component = times(*component, factor);
+    for (Material& material : pushed.scene.materials) {
+        material.emissive = glm::vec3(glm::dvec3(material.emissive) * factor);
+        material.lightmap_intensity = times(material.lightmap_intensity, factor);
+    }
+    for (auto& [index, parts] : pushed.scene.material_parts) parts.emissive_strength *= factor;
+    pushed.scene.background = glm::vec3(glm::dvec3(pushed.scene.background) * factor);
+}
+
+double usualRange(const Subject& subject) {
+    double longest = 0;
+    for (const Light& light : subject.given.scene.lights)
+        if (isLocal(light) && std::isfinite(light.range)) longest = std::max(longest, double{light.range});
+    return longest > 0 ? longest : 2 * subject.bounds.radius();
+}
+
+void pushRange(Case& pushed, const Subject&, double metres) {
+    for (Light& light : pushed.scene.lights)
+        if (isLocal(light)) light.range = static_cast<float>(metres);
+}
+
+// Local lights go to a place by themselves, as bright there as they were at theirs.
+void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres) {
+    for (Light& light : pushed.scene.lights) {
+        if (!isLocal(light)) continue;
+        const glm::dvec3 before = light.position - from;
+        const double distance = glm::length(before);
+        if (!(distance > 0)) continue;
+        light.position = from + before * (metres / distance);
+        light.range = std::numeric_limits<float>::infinity();
+        if (!isArea(light.kind) && metres > 0) {
+            const double nearer = metres / distance;
+            light.intensity = times(light.intensity, nearer * nearer);
+        }
+    }
+}
+
+double localDistance(const Subject& subject, const glm::dvec3& from) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Light& light : subject.given.scene.lights)
+        if (isLocal(light)) nearest = std::min(nearest, glm::distance(light.position, from));
+    return nearest;
+}
+
+double usualDistance(const Subject& subject) {
+    return localDistance(subject, subject.point);
+}
+
+void pushDistance(Case& pushed, const Subject& subject, double metres) {
+    moveLocalLights(pushed, subject.point, metres);
+}
+
+double usualEye(const Subject& subject) {
+    return localDistance(subject, subject.view.eye());
+}
+
+// As bright as they are: beside the eye a light shines on what is seen, not on the eye.
+void pushEye(Case& pushed, const Subject& subject, double metres) {
+    const glm::dvec3 eye = subject.view.eye();
+    for (Light& light : pushed.scene.lights) {
+        if (!isLocal(light)) continue;
+        const glm::dvec3 before = light.position - eye;
+        if (const double distance = glm::length(before); distance > 0)
+            light.position = eye + before * (metres / distance);
+    }
+}
+
+std::string lacksDistance(const Subject& subject) {
+    const std::string light = lacksLocalLight(subject);
+    return light.empty() ? lacksSurface(subject) : light;
+}
+
+// Points and spots become spots without a soft edge, which shine at the middle of the picture.
+void pushCone(Case& pushed, const Subject& subject, double degrees) {
+    for (Light& light : pushed.scene.lights) {
+        if (light.kind != LightKind::point && light.kind != LightKind::spot) continue;
+        light.kind = LightKind::spot;
+        light.inner_cone = light.outer_cone = static_cast<float>(glm::radians(degrees / 2));
+        const glm::dvec3 along = subject.point - light.position;
+        if (glm::length(along) > 0) light.direction = glm::normalize(along);
+    }
+}
+
+double usualCone(const Subject&) {
+    return 90;
+}
+
+std::string lacksCone(const Subject& subject) {
+    const bool any = std::ranges::any_of(subject.given.scene.lights, [](const Light& light) {
+        return light.kind == LightKind::point || light.kind == LightKind::spot;
+    });
+    return any ? lacksSurface(subject) : "the scene has no point or spot light";
+}
+
+// Its brightest pixel alone.
+void pushEnvironment(Case& pushed, const Subject&, double factor) {
+    Image& radiance = pushed.scene.environment->radiance;
+    std::size_t brightest = 0;
+    float most = -1;
+    for (std::size_t i = 0; i < radiance.pixels(); ++i) {
+        const float* pixel = std::as_const(radiance).pixel(i);
+        if (const float sum = pixel[0] + pixel[1] + pixel[2]; sum > most) {
+            most = sum;
+            brightest = i;
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        float& component = radiance.pixel(brightest)[c];
+        component = static_cast<float>(
+            std::min(double{component} * factor, double{std::numeric_limits<float>::max()}));
+    }
+}
+
+}  // namespace
+
+std::vector<Quantity> lightQuantities() {
+    std::vector<double> cones = ladder(0.01, 10);
+    for (const double wide : {30.0, 90.0, 150.0, 179.0, 180.0}) cones.push_back(wide);
+    return {{.name = "intensity",
+             .unit = "",
+             .what = "all that sends light, multiplied by a factor",
+             .magnitudes = ladder(1e-12, 1e12),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushIntensity,
+             .same_picture = true,
+             .light = true},
+            {.name = "range",
+             .unit = "m",
+             .what = "the range of every point, spot and area light",
+             .magnitudes = ladder(1e-3, 1e9),
+             .usual = usualRange,
+             .lacks = lacksLocalLight,
+             .push = pushRange},
+            {.name = "distance",
+             .unit = "m",
+             .what = "local lights from the surface in the middle of the picture, as bright there as they were",
+             .magnitudes = ladder(1e-9, 1e7),
+             .usual = usualDistance,
+             .lacks = lacksDistance,
+             .push = pushDistance},
+            {.name = "eye",
+             .unit = "m",
+             .what = "local lights from the camera",
+             .magnitudes = ladder(1e-9, 1e7),
+             .usual = usualEye,
+             .lacks = lacksLocalLight,
+             .push = pushEye},
+            {.name = "cone",
+             .unit = "degrees",
+             .what = "the whole angle of every point and spot, inner as outer",
+             .magnitudes = cones,
+             .usual = usualCone,
+             .lacks = lacksCone,
+             .push = pushCone},
+            {.name = "environment",
+             .unit = "",
+             .what = "the brightest pixel of the environment, multiplied by a factor",
+             .magnitudes = ladder(1, 1e12),
+             .usual = usualOne,
+             .lacks = lacksEnvironment,
+             .push = pushEnvironment}};
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych::audit {
+
+namespace {
+
+void pushRoughness(Case& pushed, const Subject&, double roughness) {
+    for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
+}
+
+double usualRoughness(const Subject&) {
+    return 1;
+}
+
+std::string lacksNormalMap(const Subject& subject) {
+    const bool any = std::ranges::any_of(subject.given.scene.materials, [](const Material& material) {
+        return material.normal_texture.texture >= 0;
+    });
+    return any ? "" : "no material has a normal map";
+}
+
+void pushNormalMap(Case& pushed, const Subject&, double strength) {
+    for (Material& material : pushed.scene.materials)
+        if (material.normal_texture.texture >= 0) material.normal_scale = static_cast<float>(strength);
+}
+
+// Every surface sends so much of its own, in place of what it sends.
+void pushEmission(Case& pushed, const Subject&, double radiance) {
+    const auto sent = static_cast<float>(std::min(radiance, double{std::numeric_limits<float>::max()}));
+    for (Material& material : pushed.scene.materials) material.emissive = glm::vec3(sent);
+    for (auto& [index, parts] : pushed.scene.material_parts) {
+        parts.emissive = glm::dvec3(1);
+        parts.emissive_strength = radiance;
+    }
+}
+
+// Of every vertex, beside the material's own.
+void pushColor(Case& pushed, const Subject&, double factor) {
+    for (Mesh& mesh : pushed.scene.meshes)
+        for (Primitive& primitive : mesh.primitives)
+            primitive.colors.assign(primitive.positions.size(),
+                                    glm::vec4(glm::vec3(static_cast<float>(factor)), 1));
+}
+
+}  // namespace
+
+std::vector<Quantity> materialQuantities() {
+    std::vector<double> roughnesses = ladder(1e-6, 1e-2);
+    roughnesses.insert(roughnesses.begin(), 0);
+    for (const double rough : {0.02, 0.03, 0.045, 0.06, 0.1, 0.2, 0.5, 1.0}) roughnesses.push_back(rough);
+    return {{.name = "roughness",
+             .unit = "",
+             .what = "the roughness factor of every material",
+             .magnitudes = roughnesses,
+             .usual = usualRoughness,
+             .lacks = lacksNothing,
+             .push = pushRoughness},
+            {.name = "normal_map",
+             .unit = "",
+             .what = "the strength of every normal map",
+             .magnitudes = ladder(1e-3, 1e9),
+             .usual = usualOne,
+             .lacks = lacksNormalMap,
+             .push = pushNormalMap},
+            {.name = "emission",
+             .unit = "W/(sr m^2)",
+             .what = "what every surface sends by itself",
+             .magnitudes = ladder(1e-12, 1e38, 100),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushEmission},
+            {.name = "vertex_color",
+             .unit = "",
+             .what = "the colour of every vertex, in place of its own",
+             .magnitudes = ladder(1e-38, 1, 100),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushColor}};
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/measure.h"
+
+#include "compare/metrics/channel.h"
+#include "compare/metrics/flip.h"
+#include "compare/picture/picture.h"
+#include "compare/reference/key.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/reference_frame.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr auto litOf = static_cast<int>(gpu::DEBUG_lit), idsOf = static_cast<int>(gpu::DEBUG_material_id),
+               depthOf = static_cast<int>(gpu::DEBUG_depth);
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double knownOrInfinite(double value) {
+    return std::isfinite(value) ? value : infinity;
+}
+
+void multiply(Image& image, double factor) {
+    for (float& value : image.data) value = static_cast<float>(value * factor);
+}
+
+ChannelStats statsOf(int mode, const Frame& truth, const Frame& test, const Coverage& where) {
+    const DebugMode& channel = debugMode(mode);
+    return channelStats(channel.metric, channel.kind, truth.channels.at(mode), test.channels.at(mode), where);
+}
+
+// Removes the pixels for which `out` holds.
+template <class Out>
+void remove(Coverage& where, const Out& out) {
+    for (std::size_t i = 0; i < where.covered.size(); ++i)
+        if (where.covered[i] && out(i)) {
+            where.covered[i] = 0;
+            --where.count;
+        }
+}
+
+// Whether something blends within so many pixels: there the reference of captured surfaces traces what blends
+// by rays of its own, whose light it filters otherwise than a path does.
+constexpr int blendedReach = 2;
+bool isNearBlended(const Image& blended, std::size_t pixel) {
+    if (blended.pixels() == 0) return false;
+    const int x = static_cast<int>(pixel) % blended.width, y = static_cast<int>(pixel) / blended.width;
+    for (int v = std::max(y - blendedReach, 0); v <= std::min(y + blendedReach, blended.height - 1); ++v)
+        for (int u = std::max(x - blendedReach, 0); u <= std::min(x + blendedReach, blended.width - 1); ++u)
+            if (*blended.pixel(static_cast<std::size_t>(v) * static_cast<std::size_t>(blended.width) +
+                               static_cast<std::size_t>(u)) > 0)
+                return true;
+    return false;
+}
+
+// Leaves of a material what decides where its surface is seen.
+void leaveShape(Material& material) {
+    for (TextureSlot* slot :
+         {&material.metallic_roughness_texture, &material.normal_texture, &material.occlusion_texture,
+          &material.emissive_texture, &material.specular_texture, &material.specular_color_texture,
+          &material.lightmap_texture})
+        *slot = {};
+    if (material.alpha_mode == AlphaMode::opaque) material.base_color_texture = {};
+}
+
+RenderOptions drawing(std::vector<int> channels) {
+    RenderOptions options;
+    options.channels = std::move(channels);
+    options.requested = options.channels;
+    options.runs = 0;
+    return options;
+}
+
+Outcome failedOutcome(const std::string& why) {
+    Outcome outcome;
+    outcome.light = outcome.depth = outcome.flip = infinity;
+    outcome.failed = why;
+    return outcome;
+}
+
+}  // namespace
+
+Settings Series::applied(Settings settings) const {
+    settings.path = path;
+    for (const Change& change : changes) settings.set(change.option, std::string(change.value));
+    return settings;
+}
+
+std::string Series::words() const {
+    std::string words(nameOf(path));
+    for (const Change& change : changes) words += fmt::format(", {} {}", change.option, change.value);
+    return words;
+}
+
+std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject) {
+    Case usual = subject.given;
+    quantity.push(usual, subject, quantity.usual(subject));
+    std::vector<Series> all;
+    std::vector<Settings> known;
+    const auto add = [&](Series series) {
+        Settings settings = series.applied(usual.settings);
+        if (settings.problem()) return;
+        settings = effectiveSettings(settings);
+        if (std::ranges::count(known, settings) > 0) return;
+        known.push_back(settings);
+        all.push_back(std::move(series));
+    };
+    for (const Path path : drawn_paths) add({path, {}});
+    for (const Path path : drawn_paths) add({path, {{"gbuffer", "full"}}});
+    for (const Change& change : quantity.variants)
+        for (const Path path : drawn_paths) add({path, {change}});
+    return all;
+}
+
+Measurer::Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep)
+    : device_(device),
+      subject_(subject),
+      on_step_(std::move(onStep)),
+      pipelines_(makePipelineSet(device)) {}
+
+Frame Measurer::litOfSurfaces(Renderer& renderer, Settings settings) {
+    settings.path = Path::reference;
+    settings.reference_mode = ReferenceMode::surface;
+    return renderer.draw(referenceSettings(settings), drawing({litOf, idsOf}));
+}
+
+Frame Measurer::tracedRays(Scene& scene, Settings settings) {
+    settings.path = Path::reference;
+    settings.reference_mode = ReferenceMode::scene;
+    settings.shadows = Shadows::off;
+    settings.haze = false;
+    settings.env = Settings().env;
+    settings.env_sun = false;
+    scene.lights.clear();
+    scene.environment.reset();
+    for (Material& material : scene.materials) leaveShape(material);
+    SceneViews views(scene);
+    return std::move(
+        drawWithoutDevice(views, {referenceSettings(settings)}, drawing({idsOf, depthOf})).front());
+}
+
+const Measurer::Truth& Measurer::usual() {
+    if (!usual_) {
+        Scene scene = subject_.given.scene;
+        std::optional<SceneViews> views(std::in_place, scene);
+        std::optional<Renderer> renderer(std::in_place, device_, *views, pipelines_);
+        Frame lit = litOfSurfaces(*renderer, subject_.given.settings);
+        renderer.reset();
+        views.reset();
+        usual_ = Truth{std::move(lit), tracedRays(scene, subject_.given.settings)};
+    }
+    return *usual_;
+}
+
+Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays) {
+    Outcome outcome;
+    Coverage opaque = coverage(truth.lit, truth.lit);
+    remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i); });
+    const ChannelStats light = statsOf(litOf, truth.lit, lit, opaque);
+    outcome.light = knownOrInfinite(light.p99);
+    outcome.worst_x = light.worst_x;
+    outcome.worst_y = light.worst_y;
+    const Image &there = truth.rays.channels.at(idsOf), &here = rays.channels.at(idsOf);
+    Coverage alike = coverage(truth.rays, truth.rays);
+    const std::size_t before = alike.count;
+    remove(alike, [&](std::size_t i) { return there.data[i] != here.data[i]; });
+    outcome.misplaced = before - alike.count;
+    outcome.depth = knownOrInfinite(statsOf(depthOf, truth.rays, rays, alike).p99);
+    outcome.flip = knownOrInfinite(hdrFlip(truth.lit.channels.at(litOf), lit.channels.at(litOf)).mean);
+    outcome.nonfinite = nonfinitePixels(lit.channels.at(litOf));
+    return outcome;
+}
+
+std::string Measurer::fingerprint() {
+    reference::Key key;
+    for (const Frame* frame : {&usual().lit, &usual().rays})
+        for (const auto& [mode, image] : frame->channels) key.addAll(image.data);
+    return fmt::format("{:016x}", key.value());
+}
+
+Step Measurer::measure(const Quantity& quantity, std::span<const Series> series, double magnitude) {
+    Case pushed = subject_.given;
+    quantity.push(pushed, subject_, magnitude);
+    if (on_step_) on_step_(fmt::format("{} {:.4g} {}", quantity.name, magnitude, quantity.unit));
+    return measure(std::move(pushed), series, &quantity, magnitude);
+}
+
+Step Measurer::measure(Case pushed, std::span<const Series> series) {
+    return measure(std::move(pushed), series, nullptr, 0);
+}
+
+Step Measurer::measure(Case pushed, std::span<const Series> series, const Quantity* quantity,
+                       double magnitude) {
+    Step step;
+    step.magnitude = magnitude;
+    try {
+        std::vector<Frame> frames;
+        Frame lit;
+        {
+            SceneViews views(pushed.scene);
+            Renderer renderer(device_, views, pipelines_);
+            lit = litOfSurfaces(renderer, pushed.settings);
+            for (const Series& one : series) {
+                Outcome& outcome = step.outcomes.emplace_back();
+                frames.emplace_back();
+                try {
+                    frames.back() = renderer.draw(withoutReference(one.applied(pushed.settings)),
+                                                  drawing({litOf, idsOf, depthOf}));
+                } catch (const std::exception& error) {
+                    outcome = failedOutcome(error.what());
+                }
+            }
+        }
+        Truth truth{std::move(lit), tracedRays(pushed.scene, pushed.settings)};
+        if (quantity && quantity->same_picture) {
+            Truth same = usual();
+            if (quantity->light) multiply(same.lit.channels.at(litOf), magnitude);
+            if (quantity->lengths) multiply(same.rays.channels.at(depthOf), magnitude);
+            step.truth_moved = outcomeOf(same, truth.lit, truth.rays).error();
+            truth = std::move(same);
+        }
+        step.covered = coverage(truth.rays, truth.rays).count;
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            if (step.outcomes[i].failed.empty()) step.outcomes[i] = outcomeOf(truth, frames[i], frames[i]);
+    } catch (const std::exception& error) {
+        step.failed = error.what();
+        step.outcomes.assign(series.size(), failedOutcome(error.what()));
+    }
+    return step;
+}
+
+}  // namespace diptych::audit

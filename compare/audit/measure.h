@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Draws a pushed case by either path and holds it against the reference.
+#pragma once
+
+#include "compare/audit/quantity.h"
+#include "compare/render/renderer.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych::audit {
+
+// One line of a plot: a path, with Settings that differ from those that are given.
+struct Series {
+    Path path = Path::deferred;
+    std::vector<Change> changes;
+
+    Settings applied(Settings settings) const;
+    std::string words() const;  // "deferred, gbuffer full"
+    // Its path, with its changes alone; unique within a quantity.
+    bool operator==(const Series& other) const { return words() == other.words(); }
+};
+
+// The series of a quantity: both paths as they are given; deferred with a G-buffer of float32, which rounds
+// no more than arithmetic does; and what the quantity names. What a path ignores, or what has no meaning with
+// the given Settings, is left out.
+std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject);
+
+struct Outcome {
+    // 99th percentiles, by nearest rank, of the relative errors (PixelError) of the pixels that show a
+    // surface: at edges a path and the reference may see another surface through rounding alone.
+    // `light`: of lit, against the reference's of the surfaces that forward+ captures in float32.
+    // `depth`: of view depth, against rays that the reference traces in double.
+    double light = 0, depth = 0;
+    double flip = 0;              // mean HDR-FLIP of the whole picture, against the former
+    std::uint64_t misplaced = 0;  // pixels that show another material than the latter, or none
+    std::uint64_t nonfinite = 0;  // pixels of lit that are NaN or infinite
+    int worst_x = -1, worst_y = -1;
+    std::string failed;  // why nothing was drawn; then the errors are infinite
+
+    // The larger of both; infinite where a pixel is no number.
+    double error() const {
+        return nonfinite > 0 ? std::numeric_limits<double>::infinity() : std::max(light, depth);
+    }
+};
+
+struct Step {
+    double magnitude = 0;
+    std::vector<Outcome> outcomes;  // as the series
+    // Quantity::same_picture: the reference's own error() against its picture of the scene as it is, which is
+    // the truth then: how far it could be trusted by itself.
+    std::optional<double> truth_moved{};
+    std::uint64_t covered = 0;  // pixels of the reference that show a surface
+    std::string failed;         // why there is no reference
+};
+
+class Measurer {
+public:
+    // `device` and `subject` outlive it. Draws the reference of the subject as it is.
+    Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep);
+
+    // Of the pixels of the truth of the subject as it is, which stand for whatever files it comes from.
+    std::string fingerprint();
+    Step measure(const Quantity& quantity, std::span<const Series> series, double magnitude);
+    // The same of a case that is pushed already.
+    Step measure(Case pushed, std::span<const Series> series);
+
+private:
+    // What a path is held against: lit of captured surfaces; depth and materials of traced rays.
+    struct Truth {
+        Frame lit, rays;
+    };
+    static Frame litOfSurfaces(Renderer& renderer, Settings settings);
+    // Takes from the scene what does not decide where a surface is.
+    static Frame tracedRays(Scene& scene, Settings settings);
+    const Truth& usual();
+    static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays);
+    Step measure(Case pushed, std::span<const Series> series, const Quantity* quantity,
+                 double magnitude);
+
+    Device& device_;
+    const Subject& subject_;
+    const std::function<void(const std::string&)> on_step_;
+    const std::shared_ptr<PipelineSet> pipelines_;
+    std::optional<Truth> usual_;  // of the subject as it is
+};
+
+}  // namespace diptych::audit

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+// Level, so that haze stays as it is, and along no axis.
+const glm::dvec3 away = glm::normalize(glm::dvec3(0.8, 0, 0.6));
+
+void pushOffset(Case& pushed, const Subject&, double metres) {
+    moveAll(pushed, glm::translate(glm::dmat4(1), metres * away));
+}
+
+void pushScale(Case& pushed, const Subject&, double factor) {
+    scaleLengths(pushed, factor);
+}
+
+// Vertices that lie far from the origin of their own mesh, whose node brings them back.
+void pushVertex(Case& pushed, const Subject&, double metres) {
+    Scene& scene = pushed.scene;
+    const glm::dvec3 offset = metres * away;
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            if (!primitive.joint_sets.empty()) continue;  // the skin's matrices place them
+            for (glm::vec3& position : primitive.positions)
+                position = glm::vec3(glm::dvec3(position) + offset);
+            primitive.deformation_bounds = {};
+        }
+    const auto back = glm::translate(glm::dmat4(1), -offset);
+    // The mesh alone is brought back, not the nodes below.
+    const std::size_t count = scene.nodes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (scene.nodes[i].mesh < 0 || scene.nodes[i].skin >= 0) continue;
+        Node carrier = scene.nodes[i];
+        carrier.parent = static_cast<int>(i);
+        carrier.parent_from_node = back;
+        carrier.transform = -1;
+        if (carrier.copies >= 0) {
+            for (glm::dmat4& copy : scene.copies[static_cast<std::size_t>(carrier.copies)]) copy = copy * back;
+            continue;
+        }
+        scene.nodes[i].mesh = -1;
+        scene.nodes.push_back(std::move(carrier));
+    }
+}
+
+double usualOffset(const Subject&) {
+    return 0;
+}
+
+}  // namespace
+
+std::vector<Quantity> placeQuantities() {
+    std::vector<double> offsets = ladder(1, 1e8);
+    offsets.insert(offsets.begin(), 0);
+    std::vector<double> vertices = ladder(1, 1e7);
+    vertices.insert(vertices.begin(), 0);
+    return {{.name = "offset",
+             .unit = "m",
+             .what = "scene, lights and camera, moved together away from the origin",
+             .magnitudes = offsets,
+             .usual = usualOffset,
+             .lacks = lacksNothing,
+             .push = pushOffset,
+             .same_picture = true},
+            {.name = "vertex",
+             .unit = "m",
+             .what = "vertices moved away from the origin of their mesh, which its node makes up for",
+             .magnitudes = vertices,
+             .usual = usualOffset,
+             .lacks = lacksNothing,
+             .push = pushVertex},
+            {.name = "scale",
+             .unit = "",
+             .what = "all lengths multiplied by a factor, and intensities so that the picture stays the same",
+             .magnitudes = ladder(1e-6, 1e6),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushScale,
+             .same_picture = true,
+             .lengths = true}};
+}
+
+}  // namespace diptych::audit

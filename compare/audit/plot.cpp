@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/plot.h"
+
+#include "compare/audit/words.h"
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr double width = 720, height = 380, leftEdge = 74, rightEdge = 16, topEdge = 34;
+constexpr double legendLine = 18;
+constexpr double leastError = 1e-8, mostError = 1e2;
+
+// Over many decades only some have their name, and nothing is marked between them.
+std::vector<Tick> fewerNames(std::vector<Tick> ticks) {
+    constexpr std::size_t most = 9;
+    const auto named = static_cast<std::size_t>(
+        std::ranges::count_if(ticks, [](const Tick& tick) { return !tick.text.empty(); }));
+    if (named <= most) return ticks;
+    std::erase_if(ticks, [](const Tick& tick) { return tick.text.empty(); });
+    const std::size_t every = (named + most - 1) / most;
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+        if (i % every != 0) ticks[i].text.clear();
+    return ticks;
+}
+
+class AuditPlot {
+public:
+    explicit AuditPlot(const QuantityAudit& audit)
+        : audit_(audit), across_(magnitudes()), up_({leastError, mostError}) {}
+
+    std::string svg(PlotPlace place) const {
+        Drawing drawing;
+        const std::vector<Tick> ticks = fewerNames(across_.ticks());
+        drawing.axes(box_, ticks, [this](double m) { return x(m); }, axisName(), up_.ticks(),
+                     [this](double e) { return y(e); }, "relative error");
+        std::string out = drawing.group();
+        for (const double limit : {1e-3, 1e-2})
+            out += fmt::format("<line class=\"budget\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
+                               svgNumber(box_.left), svgNumber(y(limit)), svgNumber(box_.right),
+                               svgNumber(y(limit)));
+        if (audit_.usual > 0)
+            out += fmt::format("<line class=\"usual\" x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{2}\"/>",
+                               svgNumber(x(audit_.usual)), svgNumber(box_.top), svgNumber(box_.bottom));
+        // Of series that lie on each other the first is on top.
+        for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
+        out += legend();
+        return plotElement(width, box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
+                           fmt::format("error over {}", audit_.quantity->name), place, out);
+    }
+
+private:
+    std::vector<double> magnitudes() const {
+        std::vector<double> all;
+        for (const Step& step : audit_.steps) all.push_back(step.magnitude);
+        return all;
+    }
+    std::string axisName() const {
+        const Quantity& quantity = *audit_.quantity;
+        return quantity.unit.empty() ? std::string(quantity.name)
+                                     : fmt::format("{}, {}", quantity.name, quantity.unit);
+    }
+    double x(double magnitude) const {
+        const double place = magnitude > 0 ? across_.place(magnitude) : 0;
+        return box_.left + place * (box_.right - box_.left);
+    }
+    double y(double error) const {
+        const double shown = std::isfinite(error) ? std::clamp(error, leastError, mostError) : mostError;
+        return box_.bottom - up_.place(shown) * (box_.bottom - box_.top);
+    }
+    std::string kind(std::size_t s) const {
+        // Dashes tell series of one path apart.
+        std::size_t before = 0;
+        for (std::size_t i = 0; i < s; ++i) before += audit_.series[i].path == audit_.series[s].path;
+        return fmt::format("curve {} dash{}", nameOf(audit_.series[s].path), std::min<std::size_t>(before, 4));
+    }
+    std::string line(std::size_t s) const {
+        std::string path, marks;
+        for (const Step& step : audit_.steps) {
+            const Outcome& outcome = step.outcomes[s];
+            const double px = x(step.magnitude), py = y(outcome.error());
+            path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
+            const std::string words = page::markup(
+                fmt::format("{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
+                            audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
+                            outcome.error(), outcome.light, outcome.depth, outcome.flip,
+                            outcome.nonfinite > 0 ? fmt::format(", {} pixels no numbers", outcome.nonfinite)
+                                                  : ""));
+            const bool number = std::isfinite(outcome.error());
+            marks += number ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3\"><title>{}</title></circle>",
+                                          svgNumber(px), svgNumber(py), words)
+                            : fmt::format("<path class=\"cross\" d=\"M{0} {1}l8 8m0 -8l-8 8\"><title>{2}"
+                                          "</title></path>",
+                                          svgNumber(px - 4), svgNumber(py - 4), words);
+        }
+        return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", kind(s), path, marks);
+    }
+    std::string legend() const {
+        std::string out;
+        double py = box_.bottom + 62;
+        for (std::size_t s = 0; s < audit_.series.size(); ++s, py += legendLine)
+            out += fmt::format(
+                "<g class=\"{}\"><path d=\"M{} {}h34\"/></g><text class=\"tick\" x=\"{}\" y=\"{}\">{}</text>",
+                kind(s), svgNumber(box_.left), svgNumber(py - 4), svgNumber(box_.left + 42), svgNumber(py),
+                page::markup(audit_.series[s].words()));
+        return out;
+    }
+
+    const PlotBox box_{leftEdge, topEdge, width - rightEdge, height - 56};
+    const QuantityAudit& audit_;
+    const LogAxis across_, up_;
+};
+
+}  // namespace
+
+std::string auditPlot(const QuantityAudit& audit, PlotPlace place) {
+    return AuditPlot(audit).svg(place);
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What an audit pushes, one at a time: each quantity with the magnitudes that are tried.
+#pragma once
+
+#include "compare/audit/case.h"
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych::audit {
+
+// A Setting in the words of Settings::set().
+struct Change {
+    std::string_view option, value;
+};
+
+// How far a quantity can be pushed before arithmetic fails, by what is known of it: magnitudes.
+struct Predicted {
+    static constexpr double never = std::numeric_limits<double>::infinity();
+    double up = never, down = 0;  // of those above and below the usual one
+    std::string because;          // "float32 has 24 bits: ..."
+};
+
+struct Quantity {
+    std::string_view name;  // "offset"
+    std::string_view unit;  // "m"; may be empty
+    std::string_view what;  // "scene, lights and camera moved together away from the origin"
+    std::vector<double> magnitudes;  // ascending; above 0, but for a first one of 0
+    double (*usual)(const Subject&);  // that of the scene as it is, or the nearest that shows it alike
+    // Why this scene cannot be pushed so; empty where it can.
+    std::string (*lacks)(const Subject&);
+    // Pushes a case that is as given.
+    void (*push)(Case&, const Subject&, double magnitude);
+    // Settings that matter here, each beside those that are given.
+    std::vector<Change> variants = {};
+    // Whether the picture is that of the scene as it is at every magnitude, which is the truth then; but that
+    // its light is multiplied by the magnitude, or its lengths are.
+    bool same_picture = false, light = false, lengths = false;
+    bool whole = false;  // magnitudes are whole numbers
+    // At which magnitude the relative error of a path with these Settings reaches `error`.
+    Predicted (*predict)(const Subject&, const Settings&, double error) = nullptr;
+};
+
+std::span<const Quantity> quantities();
+
+// Those of these names, all without any, in the order of quantities(). Throws std::runtime_error naming
+// `option` and the one that there is not.
+std::vector<const Quantity*> quantitiesOf(std::span<const std::string> names,
+                                          std::string_view option = "--quantity");
+
+}  // namespace diptych::audit

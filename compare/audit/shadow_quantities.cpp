@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/groups.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+const Light* sunOf(const Scene& scene) {
+    const auto sun = std::ranges::find(scene.lights, LightKind::directional, &Light::kind);
+    return sun == scene.lights.end() ? nullptr : &*sun;
+}
+
+void castIfNoneDoes(Case& pushed) {
+    if (pushed.settings.shadows == Shadows::off) pushed.settings.shadows = Shadows::pcf;
+}
+
+// A small triangle far up towards the sun: it throws no shadow into the picture, but shadow maps reach there.
+void pushCaster(Case& pushed, const Subject& subject, double metres) {
+    castIfNoneDoes(pushed);
+    Scene& scene = pushed.scene;
+    const glm::dvec3 up = -glm::normalize(sunOf(scene)->direction);
+    const glm::dvec3 beside =
+        glm::normalize(glm::cross(up, std::abs(up.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+    const double radius = std::max(subject.bounds.radius(), 1e-6);
+    const glm::dvec3 place = subject.bounds.centre() + up * (radius + metres) + beside * (0.5 * radius);
+    const double size = 1e-3 * radius;
+    Primitive triangle;
+    for (const glm::dvec3& corner : {glm::dvec3(0), size * beside, size * glm::cross(up, beside)}) {
+        triangle.positions.emplace_back(corner);
+        triangle.normals.emplace_back(up);
+        triangle.tangents.emplace_back(glm::vec3(beside), 1.0f);
+    }
+    triangle.indices = {0, 1, 2};
+    Material black;
+    black.base_color = {0, 0, 0, 1};
+    triangle.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(black);
+    glm::dmat4 there(1);
+    there[3] = glm::dvec4(place, 1);
+    scene.nodes.push_back({.name = "caster",
+                           .parent_from_node = there,
+                           .mesh = static_cast<int>(scene.meshes.size())});
+    scene.meshes.push_back({.name = "caster", .primitives = {std::move(triangle)}});
+}
+
+double usualCaster(const Subject& subject) {
+    return std::max(subject.bounds.radius(), 1e-6);
+}
+
+void pushExponent(Case& pushed, const Subject&, double exponent) {
+    if (pushed.settings.shadows != Shadows::evsm4) pushed.settings.shadows = Shadows::evsm;
+    pushed.settings.evsm_exponent = static_cast<float>(exponent);
+    pushed.settings.evsm_precision = EvsmPrecision::fp32;
+}
+
+double usualExponent(const Subject&) {
+    return 10;
+}
+
+void pushHaze(Case& pushed, const Subject&, double density) {
+    pushed.settings.haze = true;
+    pushed.settings.haze_density = static_cast<float>(density);
+}
+
+}  // namespace
+
+std::vector<Quantity> shadowQuantities() {
+    return {{.name = "shadow_depth",
+             .unit = "m",
+             .what = "how far beyond the scene, towards the sun, something small casts too",
+             .magnitudes = ladder(1, 1e8),
+             .usual = usualCaster,
+             .lacks = lacksSun,
+             .push = pushCaster,
+             .variants = {{"shadows", "evsm"}, {"shadows", "msm4"}}},
+            {.name = "evsm_exponent",
+             .unit = "",
+             .what = "the positive exponent of exponential variance shadow maps of 32 bits",
+             .magnitudes = {1, 2, 5, 10, 20, 30, 40, 44, 44.36},
+             .usual = usualExponent,
+             .lacks = lacksSun,
+             .push = pushExponent},
+            {.name = "haze",
+             .unit = "",
+             .what = "the density of haze",
+             .magnitudes = ladder(1e-9, 1e9),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushHaze,
+             .variants = {{"haze-march-steps", "32"}}}};
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/words.h"
+
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// JSON has no infinity.
+Json numberOf(double value) {
+    return std::isfinite(value) ? Json(value) : Json("infinite");
+}
+double numberFrom(const Json& json) {
+    return json.is_number() ? json.get<double>() : std::numeric_limits<double>::infinity();
+}
+
+Json jsonOf(const Reach& reach) {
+    Json json{{"last", reach.last}};
+    json["first_beyond"] = reach.broken ? Json(reach.first) : Json(nullptr);
+    return json;
+}
+
+Json jsonOf(const Hold& hold) {
+    if (!hold.usual) return nullptr;
+    return {{"down", jsonOf(hold.down)}, {"up", jsonOf(hold.up)}};
+}
+
+Json jsonOf(const Series& series) {
+    Json changes = Json::object();
+    for (const Change& change : series.changes) changes[std::string(change.option)] = change.value;
+    return {{"path", nameOf(series.path)}, {"settings", changes}};
+}
+
+Json jsonOf(const QuantityAudit& audit) {
+    const Quantity& quantity = *audit.quantity;
+    Json json{{"quantity", quantity.name}, {"unit", quantity.unit}, {"what", quantity.what}};
+    if (!audit.lacks.empty()) {
+        json["not_pushed"] = audit.lacks;
+        return json;
+    }
+    json["usual"] = audit.usual;
+    json["series"] = Json::array();
+    for (std::size_t s = 0; s < audit.series.size(); ++s) {
+        Json series = jsonOf(audit.series[s]);
+        for (std::size_t c = 0; c < criterionCount; ++c)
+            series["holds"][std::string(criteria[c].name)] = jsonOf(audit.holds[c][s]);
+        for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
+            const Predicted& predicted = audit.predicted[c][s];
+            series["predicted"][std::string(criteria[c].name)] = {
+                {"down", predicted.down},
+                {"up", numberOf(predicted.up)},
+                {"because", predicted.because},
+                {"agrees", agrees(audit, c, s)}};
+        }
+        json["series"].push_back(std::move(series));
+    }
+    json["steps"] = Json::array();
+    for (const Step& step : audit.steps) json["steps"].push_back(toJson(step));
+    return json;
+}
+
+// Of a number that a prediction may put beyond all that was tried.
+std::string endInWords(double value, double tried, bool up) {
+    const bool beyond = up ? value >= tried : value <= tried;
+    return beyond ? fmt::format("{} {}", up ? ">=" : "<=", magnitudeInWords(tried)) : magnitudeInWords(value);
+}
+
+}  // namespace
+
+std::string magnitudeInWords(double magnitude) {
+    return fmt::format("{:.3g}", magnitude);
+}
+
+std::string rangeInWords(const Hold& hold) {
+    if (!hold.usual) return "not at all";
+    const auto end = [](const Reach& reach, const char* beyond) {
+        return (reach.broken ? "" : beyond) + magnitudeInWords(reach.last);
+    };
+    return end(hold.down, "<= ") + " to " + end(hold.up, ">= ");
+}
+
+std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit) {
+    return endInWords(predicted.down, audit.steps.front().magnitude, false) + " to " +
+           endInWords(predicted.up, audit.steps.back().magnitude, true);
+}
+
+bool agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
+    const Hold& hold = audit.holds[criterion][series];
+    const Predicted& predicted = audit.predicted[criterion][series];
+    const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
+    if (!hold.usual) return predicted.up < audit.usual || predicted.down > audit.usual;
+    return agrees(hold.up, predicted.up, true, last) && agrees(hold.down, predicted.down, false, first);
+}
+
+std::string inWords(const QuantityAudit& audit) {
+    const Quantity& quantity = *audit.quantity;
+    const std::string unit = quantity.unit.empty() ? "" : " " + std::string(quantity.unit);
+    if (!audit.lacks.empty()) return fmt::format("{}: not pushed: {}\n", quantity.name, audit.lacks);
+    std::string out =
+        fmt::format("{}: {}; {} to {}{}, here {}\n", quantity.name, quantity.what,
+                    magnitudeInWords(audit.steps.front().magnitude),
+                    magnitudeInWords(audit.steps.back().magnitude), unit, magnitudeInWords(audit.usual));
+    out += fmt::format("    {:<36} {:<22} {:<22} {:<22} {}\n", "", "error < 1e-3", "error < 1e-2",
+                       "not visible", "finite");
+    for (std::size_t s = 0; s < audit.series.size(); ++s) {
+        out += fmt::format("    {:<36}", audit.series[s].words());
+        for (std::size_t c = 0; c < criterionCount; ++c) {
+            const std::string range = rangeInWords(audit.holds[c][s]);
+            out += c + 1 < criterionCount ? fmt::format(" {:<22}", range) : " " + range;
+        }
+        out += "\n";
+        for (std::size_t c = 0; c < audit.predicted.size(); ++c)
+            if (audit.holds[c][s].usual && !agrees(audit, c, s))
+                out += fmt::format("        predicted for {}: {}: they do not agree\n", criteria[c].name,
+                                   rangeInWords(audit.predicted[c][s], audit));
+    }
+    return out;
+}
+
+std::string inWords(const Requirement& requirement) {
+    return fmt::format("{}: {} as far as {}{}\n", requirement.met ? "pass" : "FAIL", requirement.quantity,
+                       magnitudeInWords(requirement.magnitude),
+                       requirement.met ? "" : ": " + requirement.because);
+}
+
+Json toJson(const Step& step) {
+    Json json{{"magnitude", step.magnitude}, {"covered", step.covered}};
+    if (step.truth_moved) json["truth_moved"] = numberOf(*step.truth_moved);
+    if (!step.failed.empty()) json["failed"] = step.failed;
+    json["outcomes"] = Json::array();
+    for (const Outcome& outcome : step.outcomes) {
+        Json one{{"error", numberOf(outcome.error())}, {"light", numberOf(outcome.light)},
+                 {"depth", numberOf(outcome.depth)},   {"flip", numberOf(outcome.flip)},
+                 {"misplaced", outcome.misplaced},     {"nonfinite", outcome.nonfinite},
+                 {"worst", {outcome.worst_x, outcome.worst_y}}};
+        if (!outcome.failed.empty()) one["failed"] = outcome.failed;
+        json["outcomes"].push_back(std::move(one));
+    }
+    return json;
+}
+
+Step stepFromJson(const Json& json) {
+    Step step;
+    step.magnitude = json.at("magnitude");
+    step.covered = json.at("covered");
+    if (json.contains("truth_moved")) step.truth_moved = numberFrom(json["truth_moved"]);
+    step.failed = json.value("failed", "");
+    for (const Json& one : json.at("outcomes")) {
+        Outcome outcome;
+        outcome.light = numberFrom(one.at("light"));
+        outcome.depth = numberFrom(one.at("depth"));
+        outcome.flip = numberFrom(one.at("flip"));
+        outcome.misplaced = one.at("misplaced");
+        outcome.nonfinite = one.at("nonfinite");
+        outcome.worst_x = one.at("worst").at(0);
+        outcome.worst_y = one.at("worst").at(1);
+        outcome.failed = one.value("failed", "");
+        step.outcomes.push_back(std::move(outcome));
+    }
+    return step;
+}
+
+Json toJson(const Audit& audit) {
+    Json json{{"schema", 1},
+              {"scene", audit.scene},
+              {"camera", audit.camera},
+              {"settings", Json::parse(diptych::toJson(audit.settings))},
+              {"device",
+               {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
+              {"notes", audit.notes},
+              {"quantities", Json::array()},
+              {"requirements", Json::array()}};
+    for (const QuantityAudit& quantity : audit.quantities) json["quantities"].push_back(jsonOf(quantity));
+    for (const Requirement& requirement : audit.requirements)
+        json["requirements"].push_back({{"quantity", requirement.quantity},
+                                        {"magnitude", requirement.magnitude},
+                                        {"met", requirement.met},
+                                        {"because", requirement.because}});
+    return json;
+}
+
+std::string toCsv(const Audit& audit) {
+    std::string out = page::csvLine({"quantity", "magnitude", "unit", "path", "settings", "error", "light",
+                                     "depth", "flip", "misplaced", "nonfinite", "failed"});
+    const auto digits = [](double value) { return fmt::format("{:.9g}", value); };
+    for (const QuantityAudit& of : audit.quantities)
+        for (const Step& step : of.steps)
+            for (std::size_t s = 0; s < of.series.size(); ++s) {
+                const Outcome& outcome = step.outcomes[s];
+                std::vector<std::string> changes;
+                for (const Change& change : of.series[s].changes)
+                    changes.push_back(fmt::format("{}={}", change.option, change.value));
+                out += page::csvLine({std::string(of.quantity->name), digits(step.magnitude),
+                                      std::string(of.quantity->unit), std::string(nameOf(of.series[s].path)),
+                                      fmt::format("{}", fmt::join(changes, " ")), digits(outcome.error()),
+                                      digits(outcome.light), digits(outcome.depth), digits(outcome.flip),
+                                      std::to_string(outcome.misplaced), std::to_string(outcome.nonfinite),
+                                      outcome.failed});
+            }
+    return out;
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// An audit in words, as JSON and as a table of values separated by commas.
+#pragma once
+
+#include "compare/audit/audit.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace diptych::audit {
+
+// "0.03", "1e7".
+std::string magnitudeInWords(double magnitude);
+
+// How far a criterion holds: "1e-6 to 3.2e5"; an end that was not found to break is ">= 1e8".
+std::string rangeInWords(const Hold& hold);
+// The same of a prediction; `audit`: between which magnitudes it was tried.
+std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
+
+// Whether what was measured agrees with what was predicted, of a criterion (the two of errors) and a series.
+bool agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series);
+
+// One quantity for a terminal: its name, a line for each series, and what is to be said beside.
+std::string inWords(const QuantityAudit& audit);
+// What --require asked, one line each.
+std::string inWords(const Requirement& requirement);
+
+nlohmann::ordered_json toJson(const Audit& audit);
+nlohmann::ordered_json toJson(const Step& step);
+// The way back; throws nlohmann::json::exception where it is none.
+Step stepFromJson(const nlohmann::ordered_json& json);
+
+// A line for each magnitude and series: quantity, magnitude, unit, path, settings, error, light, depth, flip,
+// misplaced, nonfinite, failed.
+std::string toCsv(const Audit& audit);
+
+}  // namespace diptych::audit

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/audit.h"
+#include "compare/audit/words.h"
+#include "compare/audit/write.h"
+#include "compare/cli/commands.h"
+#include "compare/files/kept_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/run/interruption.h"
+#include "compare/run/version.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <stdexcept>
+
+namespace diptych::cli {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Unless the command line says otherwise: a picture that a reference draws in a tenth of a second, and
+// shadows only where they are what is pushed, since the filter of a shadow map is an error by itself.
+Settings auditedSettings(const Options& options) {
+    Settings settings = options.settings;
+    if (!options.size_given) settings.size = {160, 90};
+    if (!options.shadows_given) settings.shadows = Shadows::off;
+    return settings;
+}
+
+void checkAuditOptions(const Options& options) {
+    if (options.scenes.size() != 1)
+        throw std::runtime_error(
+            fmt::format("{}: an audit is of one scene; run it once for each", options.scenes[1]));
+    if (options.cameras.size() != 1)
+        throw std::runtime_error(fmt::format("--camera {}: an audit is from one camera", options.cameras[1]));
+    if (options.settings.path == Path::reference)
+        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+    if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
+}
+
+class Auditor {
+public:
+    explicit Auditor(const Options& options)
+        : options_(options),
+          settings_(auditedSettings(options)),
+          folder_(outputFolder(options, "diptych-audit", "audit", audit::auditManifest)),
+          progress_(progressOutput(options)),
+          device_(deviceOptions(options)) {
+        say(options, "on " + device_.info().name);
+    }
+
+    int run() {
+        const std::string& where = options_.scenes.front();
+        const Stage stage(progress_, where);
+        const Scene scene = loadShown(where, settings_, stage.part(0, 0.02));
+        const audit::Subject subject = audit::makeSubject(scene, settings_);
+        audit_.scene = where;
+        audit_.settings = settings_;
+        audit_.camera = settings_.camera.empty() ? subject.view_name : settings_.camera;
+        audit_.device = reportDevice(device_);
+        audit_.notes = scene.notes;
+        if (!options_.shadows_given)
+            audit_.notes.emplace_back(
+                "--shadows off, but for quantities of shadows: a filter's own error would hide others");
+        audit::Measurer measurer(device_, subject, [&](const std::string& step) { say(options_, step); });
+        KeptFolder kept(folder_, "audit", keyOf(measurer));
+        if (kept.isRenewed())
+            note(options_, "what an audit that was cut short left is of another scene, device or Settings: anew");
+        sayWhenInterrupted("the steps so far are kept: the same command goes on from there");
+        const std::vector<const audit::Quantity*> all = audit::quantitiesOf(options_.audit.quantities);
+        for (std::size_t q = 0; q < all.size(); ++q) {
+            const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
+            measure(*all[q], subject, measurer, kept, stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
+        }
+        for (const auto& [name, magnitude] : options_.audit.required)
+            for (const audit::QuantityAudit& quantity : audit_.quantities)
+                if (quantity.quantity->name == name)
+                    audit_.requirements.push_back(audit::judge(quantity, magnitude));
+        checkValidation(device_);
+        stage.at(0.98, "write");
+        const std::string json = audit::writeAudit(audit_, folder_, options_.force);
+        kept.remove();
+        progress_.wipe();
+        bool met = true;
+        for (const audit::Requirement& requirement : audit_.requirements) {
+            met = met && requirement.met;
+            print(audit::inWords(requirement));
+        }
+        if (options_.json) fmt::print("{}", json);
+        print((folder_ / "index.html").string() + "\n");
+        return met ? 0 : 1;
+    }
+
+private:
+    void print(const std::string& words) {
+        if (options_.json || options_.quiet || std::ferror(stdout)) return;
+        progress_.wipe();
+        printColored(options_, words);
+        std::fflush(stdout);
+    }
+
+    // All that a step depends on beside its magnitude and series: the truth's pixels stand for the scene.
+    Json keyOf(audit::Measurer& measurer) const {
+        return {{"schema", 1},
+                {"software", softwareName},
+                {"commit", commitName()},
+                {"scene", audit_.scene},
+                {"truth", measurer.fingerprint()},
+                {"settings", Json::parse(toJson(settings_))},
+                {"device", audit_.device.name},
+                {"driver", audit_.device.driver}};
+    }
+
+    void measure(const audit::Quantity& quantity, const audit::Subject& subject, audit::Measurer& measurer,
+                 const KeptFolder& kept, const Stage& stage) {
+        const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // and some between them
+        double done = 0;
+        audit_.quantities.push_back(audit::auditQuantity(
+            quantity, subject, [&](std::span<const audit::Series> series, double magnitude) {
+                stage.at(std::min(done / steps, 1.0),
+                         fmt::format("{} {}", quantity.name, audit::magnitudeInWords(magnitude)));
+                done += 1;
+                const std::string name = fmt::format("{}-{:.17g}", quantity.name, magnitude);
+                if (auto step = keptStep(kept, name, series.size())) return *step;
+                audit::Step step = measurer.measure(quantity, series, magnitude);
+                kept.keep(name, audit::toJson(step));
+                return step;
+            }));
+        print(audit::inWords(audit_.quantities.back()));
+    }
+
+    static std::optional<audit::Step> keptStep(const KeptFolder& kept, const std::string& name,
+                                               std::size_t series) {
+        const Json json = kept.find(name);
+        if (json.is_null()) return {};
+        try {
+            audit::Step step = audit::stepFromJson(json);
+            return step.outcomes.size() == series ? std::optional(std::move(step)) : std::nullopt;
+        } catch (const std::exception&) {  // not what was written: it is measured again
+            return {};
+        }
+    }
+
+    const Options& options_;
+    const Settings settings_;
+    const std::filesystem::path folder_;
+    Progress progress_;
+    Device device_;
+    audit::Audit audit_;
+};
+
+}  // namespace
+
+int runAudit(const Options& options) {
+    checkAuditOptions(options);
+    return Auditor(options).run();
+}
+
+}  // namespace diptych::cli
