@@ -26,6 +26,16 @@ void pushLights(Case& pushed, const Subject&, double copies) {
     pushed.scene.lights = std::move(lights);
 }
 
+// Sums of float32, in order: each addition rounds to 2^-24 of what has been added so far, and equal terms are
+// rounded the same way for as long as the sum has one exponent; half of it on the mean of a sum that grows.
+Predicted predictLights(const Subject& subject, const Settings&, double error) {
+    const auto local = static_cast<double>(std::ranges::count_if(
+        subject.given.scene.lights, [](const Light& light) { return light.kind != LightKind::directional; }));
+    return {.up = error * 0x1p24 * 2 / std::max(local, 1.0),
+            .because = "light is added up in float32, one light after the other: N terms round by N 2^-25 where "
+                       "all round one way"};
+}
+
 std::size_t triangleCount(const Scene& scene) {
     std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes)
@@ -136,7 +146,8 @@ std::vector<Quantity> amountQuantities() {
              .push = pushLights,
              .variants = {{"assign", "tiled"}, {"assign", "every"}},
              .same_picture = true,
-             .whole = true},
+             .whole = true,
+             .predict = predictLights},
             {.name = "triangles",
              .unit = "",
              .what = "triangles, by cutting up the scene's own",

@@ -41,6 +41,10 @@ Reach reachOf(const Criterion& criterion, const std::vector<Step>& steps, std::s
     return reach;
 }
 
+Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings, double error) {
+    return quantity.predict && isPrecise(settings) ? quantity.predict(subject, settings, error) : Predicted{};
+}
+
 // Between two magnitudes: by ratios, as they are tried.
 double between(double a, double b) {
     return std::sqrt(a * b);
@@ -120,9 +124,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     for (std::size_t c = 0; c < audit.predicted.size(); ++c)
         for (const Series& series : audit.series)
             audit.predicted[c].push_back(
-                quantity.predict ? quantity.predict(subject, series.applied(subject.given.settings),
-                                                    criteria[c].limit)
-                                 : Predicted{});
+                predictedOf(quantity, subject, series.applied(subject.given.settings), criteria[c].limit));
     return audit;
 }
 

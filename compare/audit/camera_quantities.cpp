@@ -59,6 +59,26 @@ double usualGrazing(const Subject& subject) {
     return glm::degrees(std::asin(std::clamp(glm::dot(to_eye, subject.normal), 0.0, 1.0)));
 }
 
+Predicted predictNear(const Subject&, const Settings&, double) {
+    return {.because = "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
+                       "of it in one division"};
+}
+
+// A vertex lies within 2^-24 of its distance; seen through so small an angle that is a part of a pixel, and
+// where the surface is inclined its depth differs by as much.
+Predicted predictFov(const Subject& subject, const Settings&, double error) {
+    const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
+    const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
+    (void)error;
+    return {.down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
+            .because = "a vertex is known to 2^-24 of its distance: at that angle the whole picture is as large"};
+}
+
+Predicted predictGrazing(const Subject&, const Settings&, double) {
+    return {.because = "n.v is kept from 0 by 1e-4 in the material's definition, and depth is interpolated by the "
+                       "rasteriser's own planes"};
+}
+
 }  // namespace
 
 std::vector<Quantity> cameraQuantities() {
@@ -72,21 +92,24 @@ std::vector<Quantity> cameraQuantities() {
              .magnitudes = ladder(1e2, 1e9),
              .usual = usualNear,
              .lacks = lacksNothing,
-             .push = pushNear},
+             .push = pushNear,
+             .predict = predictNear},
             {.name = "fov",
              .unit = "degrees",
              .what = "the vertical field of view, from the same eye",
              .magnitudes = fovs,
              .usual = usualFov,
              .lacks = lacksPerspective,
-             .push = pushFov},
+             .push = pushFov,
+             .predict = predictFov},
             {.name = "grazing",
              .unit = "degrees",
              .what = "the angle between the view and the surface in the middle of the picture",
              .magnitudes = grazes,
              .usual = usualGrazing,
              .lacks = lacksSurface,
-             .push = pushGrazing}};
+             .push = pushGrazing,
+             .predict = predictGrazing}};
 }
 
 }  // namespace diptych::audit

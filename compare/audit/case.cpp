@@ -31,10 +31,11 @@ void findSurface(Subject& subject, const Scene& scene, const Pose& pose) {
         for (int column = 0; column <= probedAcross; ++column) {
             const double x = 2.0 * column / probedAcross - 1, y = 2.0 * row / probedAcross - 1;
             const double away = x * x + y * y;
-            if (subject.seen && away >= nearest) continue;
             const glm::dvec3 along = directionAt(subject.view, x, y);
             const auto hit = surface.nearest(subject.view.eye(), along);
             if (!hit) continue;
+            subject.nearest = subject.seen ? std::min(subject.nearest, hit->distance) : hit->distance;
+            if (subject.seen && away >= nearest) continue;
             subject.seen = true;
             nearest = away;
             subject.point = subject.view.eye() + along * hit->distance;

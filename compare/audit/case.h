@@ -30,6 +30,7 @@ struct Subject {
     // The surface in the middle of the picture, or the nearest to the middle that is seen: world, m.
     bool seen = false;
     glm::dvec3 point{0}, normal{0, 1, 0};  // the normal: unit, the triangle's own, towards the eye
+    double nearest = 0;                    // m, from the eye to the nearest surface that was found
     Bounds bounds;                         // of the posed scene
     bool moves = false;                    // an animation plays in it
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace diptych::audit {
 
@@ -44,13 +45,13 @@ std::string tableOf(const Audit& audit) {
                 out += fmt::format("<td{}>{}</td>", whole ? "" : " class=\"broken\"",
                                    markup(rangeInWords(hold)));
             }
-            bool agree = true;
+            std::optional<bool> agree;
             for (std::size_t c = 0; c < of.predicted.size(); ++c) {
                 out += fmt::format("<td title=\"{}\">{}</td>", markup(of.predicted[c][s].because),
                                    markup(rangeInWords(of.predicted[c][s], of)));
-                agree = agree && agrees(of, c, s);
+                if (const auto one = agrees(of, c, s)) agree = agree.value_or(true) && *one;
             }
-            out += fmt::format("<td>{}</td></tr>\n", agree ? "yes" : "no");
+            out += fmt::format("<td>{}</td></tr>\n", !agree ? "" : *agree ? "yes" : "no");
         }
     }
     return out + "</tbody></table></div>\n";
@@ -119,8 +120,8 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
     out +=
         "<p class=\"soft small\">The error is the larger of two 99th percentiles over the pixels that show a "
         "surface: lit against a reference in double precision of the surfaces that forward+ captures, and view "
-        "depth against rays traced in double. &ge; and &le; stand where nothing broke as far as was "
-        "tried.</p>\n<h2>Error by magnitude</h2>\n<div class=\"audit\">";
+        "depth against rays traced in double. Predictions are of what float32 and double can hold, for Settings "
+        "that round no more than these; they agree where both are within a factor of 2.</p>\n<h2>Error by magnitude</h2>\n<div class=\"audit\">";
     for (const QuantityAudit& of : audit.quantities)
         if (of.lacks.empty()) out += sectionOf(of);
     out += "</div>\n";

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace diptych::audit {
 
@@ -34,6 +36,38 @@ void pushIntensity(Case& pushed, const Subject&, double factor) {
     }
     for (auto& [index, parts] : pushed.scene.material_parts) parts.emissive_strength *= factor;
     pushed.scene.background = glm::vec3(glm::dvec3(pushed.scene.background) * factor);
+}
+
+// The brightest of what there is, in units of its own.
+Predicted predictIntensity(const Subject& subject, const Settings&, double) {
+    double most = 0, least = std::numeric_limits<double>::infinity();
+    for (const Light& light : subject.given.scene.lights) {
+        if (!(light.intensity > 0)) continue;
+        most = std::max(most, double{light.intensity});
+        least = std::min(least, double{light.intensity});
+    }
+    // Products with distances squared and D keep some ten binary orders from either end.
+    return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
+            .down = std::isfinite(least) ? 0x1p-116 / least : 0,
+            .because = "light is float32 from its source to the picture, from 1e-38 to 3e38"};
+}
+
+Predicted predictRange(const Subject&, const Settings&, double) {
+    return {.because = "the window is of the squared ratio of distance and range, which is formed in one step"};
+}
+
+Predicted predictDistance(const Subject&, const Settings&, double) {
+    return {.because = "a light's place is relative to the camera in double until it is stored; its vector to the "
+                       "surface is a difference of float32 whose error is of the view's size, which p99 forgives "
+                       "where it is smaller than a pixel"};
+}
+
+Predicted predictEye(const Subject&, const Settings&, double) {
+    return {.because = "a light near the eye is near the origin of all coordinates, where float32 is finest"};
+}
+
+Predicted predictCone(const Subject&, const Settings&, double) {
+    return {.because = "cosines of a cone are compared as squared sines where they are close to 1"};
 }
 
 double usualRange(const Subject& subject) {
@@ -153,35 +187,40 @@ std::vector<Quantity> lightQuantities() {
              .lacks = lacksNothing,
              .push = pushIntensity,
              .same_picture = true,
-             .light = true},
+             .light = true,
+             .predict = predictIntensity},
             {.name = "range",
              .unit = "m",
              .what = "the range of every point, spot and area light",
              .magnitudes = ladder(1e-3, 1e9),
              .usual = usualRange,
              .lacks = lacksLocalLight,
-             .push = pushRange},
+             .push = pushRange,
+             .predict = predictRange},
             {.name = "distance",
              .unit = "m",
              .what = "local lights from the surface in the middle of the picture, as bright there as they were",
              .magnitudes = ladder(1e-9, 1e7),
              .usual = usualDistance,
              .lacks = lacksDistance,
-             .push = pushDistance},
+             .push = pushDistance,
+             .predict = predictDistance},
             {.name = "eye",
              .unit = "m",
              .what = "local lights from the camera",
              .magnitudes = ladder(1e-9, 1e7),
              .usual = usualEye,
              .lacks = lacksLocalLight,
-             .push = pushEye},
+             .push = pushEye,
+             .predict = predictEye},
             {.name = "cone",
              .unit = "degrees",
              .what = "the whole angle of every point and spot, inner as outer",
              .magnitudes = cones,
              .usual = usualCone,
              .lacks = lacksCone,
-             .push = pushCone},
+             .push = pushCone,
+             .predict = predictCone},
             {.name = "environment",
              .unit = "",
              .what = "the brightest pixel of the environment, multiplied by a factor",

@@ -47,6 +47,23 @@ void pushColor(Case& pushed, const Subject&, double factor) {
                                     glm::vec4(glm::vec3(static_cast<float>(factor)), 1));
 }
 
+Predicted predictRoughness(const Subject&, const Settings&, double) {
+    return {.because = "below 0.045 a roughness is shaded as 0.045, where D is 8e4 at most"};
+}
+
+Predicted predictNormalMap(const Subject&, const Settings&, double) {
+    return {.because = "the mapped normal is normalised by its largest component first"};
+}
+
+Predicted predictEmission(const Subject&, const Settings&, double) {
+    return {.up = 3.4e38, .because = "what a surface sends is float32, which ends at 3.4e38"};
+}
+
+Predicted predictColor(const Subject&, const Settings&, double) {
+    return {.because = "a colour that is too dark for float32 sends nothing beside what the surface reflects as a "
+                       "mirror"};
+}
+
 }  // namespace
 
 std::vector<Quantity> materialQuantities() {
@@ -59,28 +76,32 @@ std::vector<Quantity> materialQuantities() {
              .magnitudes = roughnesses,
              .usual = usualRoughness,
              .lacks = lacksNothing,
-             .push = pushRoughness},
+             .push = pushRoughness,
+             .predict = predictRoughness},
             {.name = "normal_map",
              .unit = "",
              .what = "the strength of every normal map",
              .magnitudes = ladder(1e-3, 1e9),
              .usual = usualOne,
              .lacks = lacksNormalMap,
-             .push = pushNormalMap},
+             .push = pushNormalMap,
+             .predict = predictNormalMap},
             {.name = "emission",
              .unit = "W/(sr m^2)",
              .what = "what every surface sends by itself",
              .magnitudes = ladder(1e-12, 1e38, 100),
              .usual = usualOne,
              .lacks = lacksNothing,
-             .push = pushEmission},
+             .push = pushEmission,
+             .predict = predictEmission},
             {.name = "vertex_color",
              .unit = "",
              .what = "the colour of every vertex, in place of its own",
              .magnitudes = ladder(1e-38, 1, 100),
              .usual = usualOne,
              .lacks = lacksNothing,
-             .push = pushColor}};
+             .push = pushColor,
+             .predict = predictColor}};
 }
 
 }  // namespace diptych::audit

@@ -4,7 +4,9 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace diptych::audit {
 
@@ -50,6 +52,35 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
     }
 }
 
+// Of the scene, m: how far away what is seen is.
+double distanceOf(const Subject& subject) {
+    return subject.seen ? glm::distance(subject.point, subject.view.eye())
+                        : std::max(subject.bounds.radius(), 1e-6);
+}
+
+Predicted predictOffset(const Subject& subject, const Settings&, double error) {
+    return {.up = error * distanceOf(subject) * 0x1p53,
+            .because = "places are composed relative to the camera in double, whose 53 bits are of the offset"};
+}
+
+Predicted predictVertex(const Subject&, const Settings&, double) {
+    return {.because = "vertices are stored from the middle of all meshes, which is exact: float32's bits are "
+                       "of the scene's size"};
+}
+
+Predicted predictScale(const Subject& subject, const Settings&, double) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Light& light : subject.given.scene.lights)
+        if (light.kind == LightKind::point || light.kind == LightKind::spot)
+            least = std::min(least, double{light.intensity});
+    // Candela go with the square of the factor.
+    const double dim = std::isfinite(least) && least > 0 ? std::sqrt(0x1p-126 / least) : 0;
+    return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
+            .down = std::max(dim, 0x1p-63 / distanceOf(subject)),
+            .because = "squares of lengths are float32, from 1e-38 to 3e38, and so are candela, which go with "
+                       "the square of the factor"};
+}
+
 double usualOffset(const Subject&) {
     return 0;
 }
@@ -68,14 +99,16 @@ std::vector<Quantity> placeQuantities() {
              .usual = usualOffset,
              .lacks = lacksNothing,
              .push = pushOffset,
-             .same_picture = true},
+             .same_picture = true,
+             .predict = predictOffset},
             {.name = "vertex",
              .unit = "m",
              .what = "vertices moved away from the origin of their mesh, which its node makes up for",
              .magnitudes = vertices,
              .usual = usualOffset,
              .lacks = lacksNothing,
-             .push = pushVertex},
+             .push = pushVertex,
+             .predict = predictVertex},
             {.name = "scale",
              .unit = "",
              .what = "all lengths multiplied by a factor, and intensities so that the picture stays the same",
@@ -84,7 +117,8 @@ std::vector<Quantity> placeQuantities() {
              .lacks = lacksNothing,
              .push = pushScale,
              .same_picture = true,
-             .lengths = true}};
+             .lengths = true,
+             .predict = predictScale}};
 }
 
 }  // namespace diptych::audit

@@ -50,6 +50,10 @@ std::vector<double> ladder(double first, double last, double step) {
     }
 }
 
+bool isPrecise(const Settings& settings) {
+    return settings.path != Path::deferred || settings.gbuffer == GBufferEncoding::full;
+}
+
 std::span<const Quantity> quantities() {
     static const std::vector<Quantity> all = [] {
         std::vector<Quantity> made;

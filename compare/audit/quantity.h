@@ -22,7 +22,7 @@ struct Change {
 struct Predicted {
     static constexpr double never = std::numeric_limits<double>::infinity();
     double up = never, down = 0;  // of those above and below the usual one
-    std::string because;          // "float32 has 24 bits: ..."
+    std::string because{};        // "float32 has 24 bits: ..."; empty: nothing is predicted
 };
 
 struct Quantity {
@@ -44,6 +44,9 @@ struct Quantity {
     // At which magnitude the relative error of a path with these Settings reaches `error`.
     Predicted (*predict)(const Subject&, const Settings&, double error) = nullptr;
 };
+
+// Whether a path with these Settings has no other error than arithmetic's: predictions are of such.
+bool isPrecise(const Settings& settings);
 
 std::span<const Quantity> quantities();
 

@@ -67,6 +67,18 @@ void pushHaze(Case& pushed, const Subject&, double density) {
     pushed.settings.haze_density = static_cast<float>(density);
 }
 
+// What the nearest surface sends through the air is the brightest of the picture: once that is below what
+// float32 holds nothing is left.
+Predicted predictHaze(const Subject& subject, const Settings& settings, double) {
+    if (settings.haze_march_steps > 0 || !subject.seen) return {};
+    const Rgb &r = settings.haze_rayleigh, &m = settings.haze_mie;
+    const double least = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
+    constexpr double opaque = 87;  // e^-87 is float32's least normal number
+    return {.up = opaque / (least * subject.nearest),
+            .because = "behind an optical depth of 87 float32 has no light; it is reached where the nearest "
+                       "surface is"};
+}
+
 }  // namespace
 
 std::vector<Quantity> shadowQuantities() {
@@ -92,7 +104,8 @@ std::vector<Quantity> shadowQuantities() {
              .usual = usualOne,
              .lacks = lacksNothing,
              .push = pushHaze,
-             .variants = {{"haze-march-steps", "32"}}}};
+             .variants = {{"haze-march-steps", "32"}},
+             .predict = predictHaze}};
 }
 
 }  // namespace diptych::audit

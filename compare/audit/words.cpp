@@ -55,11 +55,12 @@ Json jsonOf(const QuantityAudit& audit) {
             series["holds"][std::string(criteria[c].name)] = jsonOf(audit.holds[c][s]);
         for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
             const Predicted& predicted = audit.predicted[c][s];
+            if (predicted.because.empty()) continue;
             series["predicted"][std::string(criteria[c].name)] = {
                 {"down", predicted.down},
                 {"up", numberOf(predicted.up)},
                 {"because", predicted.because},
-                {"agrees", agrees(audit, c, s)}};
+                {"agrees", *agrees(audit, c, s)}};
         }
         json["series"].push_back(std::move(series));
     }
@@ -68,10 +69,11 @@ Json jsonOf(const QuantityAudit& audit) {
     return json;
 }
 
-// Of a number that a prediction may put beyond all that was tried.
-std::string endInWords(double value, double tried, bool up) {
-    const bool beyond = up ? value >= tried : value <= tried;
-    return beyond ? fmt::format("{} {}", up ? ">=" : "<=", magnitudeInWords(tried)) : magnitudeInWords(value);
+// From an end that was found to another.
+std::string rangeOf(std::optional<double> from, std::optional<double> to) {
+    if (from && to) return magnitudeInWords(*from) + " to " + magnitudeInWords(*to);
+    if (to) return "up to " + magnitudeInWords(*to);
+    return from ? "down to " + magnitudeInWords(*from) : "all of it";
 }
 
 }  // namespace
@@ -82,22 +84,23 @@ std::string magnitudeInWords(double magnitude) {
 
 std::string rangeInWords(const Hold& hold) {
     if (!hold.usual) return "not at all";
-    const auto end = [](const Reach& reach, const char* beyond) {
-        return (reach.broken ? "" : beyond) + magnitudeInWords(reach.last);
-    };
-    return end(hold.down, "<= ") + " to " + end(hold.up, ">= ");
+    return rangeOf(hold.down.broken ? std::optional(hold.down.last) : std::nullopt,
+                   hold.up.broken ? std::optional(hold.up.last) : std::nullopt);
 }
 
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit) {
-    return endInWords(predicted.down, audit.steps.front().magnitude, false) + " to " +
-           endInWords(predicted.up, audit.steps.back().magnitude, true);
+    if (predicted.because.empty()) return "";
+    const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
+    return rangeOf(predicted.down > first ? std::optional(predicted.down) : std::nullopt,
+                   predicted.up < last ? std::optional(predicted.up) : std::nullopt);
 }
 
-bool agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
+std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
     const Hold& hold = audit.holds[criterion][series];
     const Predicted& predicted = audit.predicted[criterion][series];
+    if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    if (!hold.usual) return predicted.up < audit.usual || predicted.down > audit.usual;
+    if (!hold.usual) return false;
     return agrees(hold.up, predicted.up, true, last) && agrees(hold.down, predicted.down, false, first);
 }
 
@@ -119,7 +122,7 @@ std::string inWords(const QuantityAudit& audit) {
         }
         out += "\n";
         for (std::size_t c = 0; c < audit.predicted.size(); ++c)
-            if (audit.holds[c][s].usual && !agrees(audit, c, s))
+            if (const auto agree = agrees(audit, c, s); agree && !*agree)
                 out += fmt::format("        predicted for {}: {}: they do not agree\n", criteria[c].name,
                                    rangeInWords(audit.predicted[c][s], audit));
     }

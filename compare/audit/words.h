@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,14 @@ namespace diptych::audit {
 // "0.03", "1e7".
 std::string magnitudeInWords(double magnitude);
 
-// How far a criterion holds: "1e-6 to 3.2e5"; an end that was not found to break is ">= 1e8".
+// How far a criterion holds: "1e-6 to 3.2e5", "up to 3.2e5", "all of it" that was tried, "not at all".
 std::string rangeInWords(const Hold& hold);
-// The same of a prediction; `audit`: between which magnitudes it was tried.
+// The same of a prediction; `audit`: between which magnitudes it was tried. Empty where there is none.
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
 
-// Whether what was measured agrees with what was predicted, of a criterion (the two of errors) and a series.
-bool agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series);
+// Whether what was measured agrees with what was predicted, of a criterion (the two of errors) and a series;
+// nothing where nothing is predicted.
+std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series);
 
 // One quantity for a terminal: its name, a line for each series, and what is to be said beside.
 std::string inWords(const QuantityAudit& audit);

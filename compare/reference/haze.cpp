@@ -24,7 +24,7 @@ constexpr std::array<double, gauss_nodes> gauss_weight{
     0.18134189168918100,  0.15685332293894364, 0.11119051722668724, 0.050614268145188130};
 
 constexpr double no_depth = 1e-15;  // optical depth that adds nothing
-constexpr double opaque = 45;       // optical depth behind which nothing is seen
+constexpr double opaque = 110;      // optical depth behind which float32 has no light: e^-104 is its least
 
 double densityOf(const AirKind& kind, double height) {
     return std::exp(std::min(-height / kind.scale, 60.0));

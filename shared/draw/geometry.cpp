@@ -3,7 +3,7 @@
 
 #include "shared/contract/geometry.h"
 #include "shared/scene/model/animated.h"
-
+#include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>
@@ -38,6 +38,36 @@ bool mayVanish(const Primitive& p) {
     return false;
 }
 
+// Whether its vertices are drawn as they are in the scene, never posed.
+bool isRigid(const Primitive& p, const Scene& scene) {
+    return p.joint_sets.empty() && p.targets.empty() && (scene.animations.empty() || !p.tangents_made);
+}
+
+// Where positions are counted from: 0, or, of a scene whose meshes lie together far from their origin, as
+// georeferenced ones do, their middle: so that float32 has its bits for what is seen and not for the
+// distance. One origin for all, so that what touches goes on to touch bit for bit.
+glm::dvec3 originOf(const Scene& scene) {
+    constexpr double far = 4;  // times as far from the origin as they reach
+    Bounds bounds;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives)
+            for (const glm::vec3& position : p.positions) {
+                bounds.min = glm::min(bounds.min, glm::dvec3(position));
+                bounds.max = glm::max(bounds.max, glm::dvec3(position));
+            }
+    if (bounds.empty() || !(glm::length(bounds.centre()) > far * bounds.radius())) return glm::dvec3(0);
+    return glm::dvec3(glm::vec3(bounds.centre()));
+}
+
+// Exact where the positions lie nearer to the origin than that to 0 (Sterbenz 1974): float32 holds the
+// difference.
+std::vector<glm::vec3> countedFrom(const glm::dvec3& origin, const std::vector<glm::vec3>& positions) {
+    std::vector<glm::vec3> counted;
+    counted.reserve(positions.size());
+    for (const glm::vec3& position : positions) counted.emplace_back(glm::dvec3(position) - origin);
+    return counted;
+}
+
 // Throws std::runtime_error where there are too many: they are stored up to twice, in the scene's order and
 // in that of clusters.
 std::uint32_t indicesOf(const Scene& scene) {
@@ -59,6 +89,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
     std::vector<std::uint32_t> clustered;
     const std::uint32_t allIndices = indicesOf(scene);
     const std::vector<bool> mayBlend = materialsThatBlend(scene);
+    const glm::dvec3 origin = originOf(scene);
     for (const Mesh& mesh : scene.meshes) {
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
@@ -71,19 +102,25 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             range.material = static_cast<std::uint32_t>(p.material);
             range.vertex_color = !p.colors.empty();
             range.vanishing_normals = mayVanish(p);
-            if (!p.positions.empty()) range.bounds_min = range.bounds_max = p.positions[0];
-            for (std::size_t i = 0; i < p.positions.size(); ++i) {
-                attributes.push_back(attributesOf(p, i));
-                range.bounds_min = glm::min(range.bounds_min, glm::dvec3(p.positions[i]));
-                range.bounds_max = glm::max(range.bounds_max, glm::dvec3(p.positions[i]));
+            std::vector<glm::vec3> moved;
+            if (origin != glm::dvec3(0) && isRigid(p, scene)) {
+                range.origin = origin;
+                moved = countedFrom(origin, p.positions);
             }
-            positions.insert(positions.end(), p.positions.begin(), p.positions.end());
+            const std::vector<glm::vec3>& stored = moved.empty() ? p.positions : moved;
+            if (!stored.empty()) range.bounds_min = range.bounds_max = stored[0];
+            for (std::size_t i = 0; i < stored.size(); ++i) {
+                attributes.push_back(attributesOf(p, i));
+                range.bounds_min = glm::min(range.bounds_min, glm::dvec3(stored[i]));
+                range.bounds_max = glm::max(range.bounds_max, glm::dvec3(stored[i]));
+            }
+            positions.insert(positions.end(), stored.begin(), stored.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
             range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
             if (p.indices.size() > 3 * clusterTriangles) {
                 const auto first = static_cast<std::uint32_t>(clustered.size());
                 clustered.insert(clustered.end(), p.indices.begin(), p.indices.end());
-                for (Cluster cluster : cutIntoClusters(p.positions, std::span(clustered).subspan(first))) {
+                for (Cluster cluster : cutIntoClusters(stored, std::span(clustered).subspan(first))) {
                     cluster.first_index += allIndices + first;
                     clusters_.push_back(cluster);
                 }
@@ -116,10 +153,11 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
 PlacedPrimitive Geometry::placed(const Pose& pose, const Instance& instance) const {
     PlacedPrimitive placed;
     placed.range = range(instance.mesh, instance.primitive);
-    placed.world_from_object = instance.world_from_object;
+    placed.world_from_object = glm::translate(instance.world_from_object, placed.range.origin);
     placed.mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
     placed.box = instance.box;
     if (instance.box < 0) return placed;
+    placed.range.origin = glm::dvec3(0);
     const PosedBox& box = pose.boxes[static_cast<std::size_t>(instance.box)];
     placed.world_from_object = glm::translate(glm::dmat4(1), box.origin);
     placed.range.bounds_min = box.min;

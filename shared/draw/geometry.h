@@ -18,7 +18,8 @@ struct PrimitiveRange {
     std::uint32_t material = 0;
     bool vertex_color = false;
     bool vanishing_normals = false;           // somewhere in a triangle the interpolated normal may be zero
-    glm::dvec3 bounds_min{0}, bounds_max{0};  // object
+    glm::dvec3 origin{0};                     // object, m: where stored positions are counted from
+    glm::dvec3 bounds_min{0}, bounds_max{0};  // object, from the origin
     std::uint32_t first_cluster = 0, cluster_count = 0;
     static constexpr std::uint32_t not_kept = ~0u;
     std::uint32_t kept_indices = not_kept, kept_positions = 0;  // for Geometry::triangles()
@@ -34,7 +35,7 @@ struct TriangleView {
 // its box's origin.
 struct PlacedPrimitive {
     PrimitiveRange range;
-    glm::dmat4 world_from_object{1};
+    glm::dmat4 world_from_object{1};  // of positions as they are stored: from the range's origin
     bool mirrored = false;
     int box = -1;     // into Pose::boxes; -1: not posed
     Cluster whole{};  // of a posed one, which has no others
