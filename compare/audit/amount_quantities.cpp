@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/groups.h"
+#include "compare/audit/small_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,13 +35,6 @@ Predicted predictLights(const Subject& subject, const Settings&, double error) {
     return {.up = error * 0x1p24 * 2 / std::max(local, 1.0),
             .because = "light is added up in float32, one light after the other: N terms round by N 2^-25 where "
                        "all round one way"};
-}
-
-std::size_t triangleCount(const Scene& scene) {
-    std::size_t triangles = 0;
-    for (const Mesh& mesh : scene.meshes)
-        for (const Primitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
-    return triangles;
 }
 
 template <class Value>
@@ -140,7 +134,7 @@ std::vector<Quantity> amountQuantities() {
     return {{.name = "lights",
              .unit = "",
              .what = "copies of every local light, which share its intensity",
-             .magnitudes = ladder(1, 1e4),
+             .magnitudes = {1, 10, 100, 1000, 3000},
              .usual = usualOne,
              .lacks = lacksLocalLight,
              .push = pushLights,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 namespace diptych::audit {
 
@@ -39,6 +40,11 @@ Reach reachOf(const Criterion& criterion, const std::vector<Step>& steps, std::s
         reach.last = step.magnitude;
     }
     return reach;
+}
+
+// To four digits, which is finer than what is resolved.
+double rounded(double magnitude, const Quantity& quantity) {
+    return quantity.whole ? std::round(magnitude) : std::stod(fmt::format("{:.4g}", magnitude));
 }
 
 Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings, double error) {
@@ -93,8 +99,7 @@ std::optional<double> nextMagnitude(const QuantityAudit& audit) {
             for (const Reach* reach : {&hold.up, &hold.down}) {
                 if (!hold.usual || !reach->broken || reach->last == 0 || reach->first == 0) continue;
                 if (std::max(reach->last / reach->first, reach->first / reach->last) <= resolved) continue;
-                const double next = between(reach->last, reach->first);
-                return audit.quantity->whole ? std::round(next) : next;
+                return rounded(between(reach->last, reach->first), *audit.quantity);
             }
     return {};
 }

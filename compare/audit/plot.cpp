@@ -13,7 +13,7 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double width = 720, height = 380, leftEdge = 74, rightEdge = 16, topEdge = 34;
+constexpr double plotWidth = 720, plotHeight = 380, leftEdge = 74, rightEdge = 16, topEdge = 34;
 constexpr double legendLine = 18;
 constexpr double leastError = 1e-8, mostError = 1e2;
 
@@ -51,7 +51,7 @@ public:
         // Of series that lie on each other the first is on top.
         for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
         out += legend();
-        return plotElement(width, box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
+        return plotElement(plotWidth, box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
                            fmt::format("error over {}", audit_.quantity->name), place, out);
     }
 
@@ -112,7 +112,7 @@ private:
         return out;
     }
 
-    const PlotBox box_{leftEdge, topEdge, width - rightEdge, height - 56};
+    const PlotBox box_{leftEdge, topEdge, plotWidth - rightEdge, plotHeight - 56};
     const QuantityAudit& audit_;
     const LogAxis across_, up_;
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <iterator>
 #include <utility>
 
@@ -41,12 +42,10 @@ double usualOne(const Subject&) {
 
 std::vector<double> ladder(double first, double last, double step) {
     std::vector<double> rungs;
-    // By whole powers, so that errors do not add up.
     for (int i = 0;; ++i) {
-        const double rung = first * std::pow(step, i);
+        const double rung = first * std::pow(step, i);  // not a product of products, whose errors add up
         if (rung > last * 1.001) return rungs;
-        const double digits = std::pow(10.0, std::floor(std::log10(rung)) - 2);
-        rungs.push_back(std::round(rung / digits) * digits);
+        rungs.push_back(std::stod(fmt::format("{:.3g}", rung)));
     }
 }
 

@@ -64,6 +64,10 @@ Json jsonOf(const QuantityAudit& audit) {
         }
         json["series"].push_back(std::move(series));
     }
+    json["failures"] = Json::array();
+    for (const Failure& failure : audit.failures)
+        json["failures"].push_back(
+            {{"words", failure.words}, {"scene", failure.scene}, {"command", failure.command}});
     json["steps"] = Json::array();
     for (const Step& step : audit.steps) json["steps"].push_back(toJson(step));
     return json;
@@ -125,6 +129,10 @@ std::string inWords(const QuantityAudit& audit) {
             if (const auto agree = agrees(audit, c, s); agree && !*agree)
                 out += fmt::format("        predicted for {}: {}: they do not agree\n", criteria[c].name,
                                    rangeInWords(audit.predicted[c][s], audit));
+    }
+    for (const Failure& failure : audit.failures) {
+        out += "    " + failure.words + "\n";
+        if (!failure.command.empty()) out += "        " + failure.command + "\n";
     }
     return out;
 }

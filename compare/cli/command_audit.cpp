@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/audit.h"
+#include "compare/audit/failures.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/cli/commands.h"
@@ -130,6 +131,8 @@ private:
                 kept.keep(name, audit::toJson(step));
                 return step;
             }));
+        stage.at(1, fmt::format("{}: reduce what fails", quantity.name));
+        audit::addFailures(audit_.quantities.back(), subject, measurer, folder_, audit_.scenes);
         print(audit::inWords(audit_.quantities.back()));
     }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/failures.h"
+
+#include "compare/audit/reduce.h"
+#include "compare/audit/small_scene.h"
+#include "compare/audit/words.h"
+#include "compare/page/text.h"
+#include "compare/run/command_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr std::size_t mostTried = 120;  // cases that a reduction draws
+
+struct Broken {
+    std::size_t series = 0, criterion = 0;
+    double magnitude = 0;
+};
+
+// The first precise series that breaks somewhere, by the criterion of errors: where it first does.
+std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subject) {
+    for (const std::size_t criterion : {numberCriterion, requiredCriterion})
+        for (std::size_t s = 0; s < of.series.size(); ++s) {
+            const Hold& hold = of.holds[criterion][s];
+            if (!hold.usual || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
+            for (const Reach* reach : {&hold.up, &hold.down})
+                if (reach->broken) return Broken{s, criterion, reach->first};
+        }
+    return {};
+}
+
+}  // namespace
+
+void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer,
+                 const std::filesystem::path& folder, std::map<std::string, std::string>& scenes) {
+    if (of.steps.empty()) return;
+    const std::optional<Broken> broken = firstBroken(of, subject);
+    if (!broken) return;
+    const Series& series = of.series[broken->series];
+    const Criterion& criterion = criteria[broken->criterion];
+    Case pushed = subject.given;
+    of.quantity->push(pushed, subject, broken->magnitude);
+    const auto test = [&](const Case& candidate) {
+        const Step step = measurer.measure(candidate, std::span(&series, 1));
+        const Outcome& outcome = step.outcomes.front();
+        // A picture of nothing, or of nothing that is lit, shows nothing.
+        const bool drawn = outcome.failed.empty() && step.covered > 0;
+        return FailingPixel{drawn && !holds(criterion, outcome), outcome.worst_x, outcome.worst_y,
+                            outcome.error()};
+    };
+    const std::string at = fmt::format("{} breaks at {} {}", series.words(),
+                                       magnitudeInWords(broken->magnitude), of.quantity->unit);
+    const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
+    Failure failure;
+    if (!reduced) {
+        failure.words = at + "; without its textures and motion the scene does not show it";
+        of.failures.push_back(std::move(failure));
+        return;
+    }
+    const std::string name(of.quantity->name);
+    failure.scene = fmt::format("{}.gltf", name);
+    const std::string lights = fmt::format("{}.lights.json", name);
+    scenes[failure.scene] = gltfOf(reduced->smallest);
+    scenes[lights] = lightsFileOf(reduced->smallest);
+    const Settings& small = reduced->smallest.settings;
+    const auto plural = [](std::size_t count, const char* what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    failure.words =
+        fmt::format("{}; {}, {} and {}x{} pixels show it: error {}", at, plural(reduced->triangles, "triangle"),
+                    plural(reduced->lights, "light"), small.size.width, small.size.height,
+                    page::number(reduced->shown.error));
+    Settings asked = series.applied(small);
+    asked.lights = (folder / lights).string();
+    asked.path = Settings().path;
+    failure.command =
+        shellLine(withOption(commandWords("compare", (folder / failure.scene).string(), asked), "--baseline",
+                             "reference"));
+    of.failures.push_back(std::move(failure));
+}
+
+}  // namespace diptych::audit

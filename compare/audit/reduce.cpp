@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/reduce.h"
+
+#include "compare/audit/small_scene.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace diptych::audit {
+
+namespace {
+
+class Reducer {
+public:
+    Reducer(Case flat, const std::function<FailingPixel(const Case&)>& test, std::size_t budget)
+        : now_(std::move(flat)), test_(test), budget_(budget) {}
+
+    std::optional<Reduced> run() {
+        if (!accept(Case(now_))) return {};
+        dropNodes();
+        dropLights();
+        dropTriangles();
+        dropNodes();
+        onePixel();
+        dropLights();
+        Reduced reduced;
+        reduced.smallest = std::move(now_);
+        reduced.shown = shown_;
+        reduced.triangles = triangleCount(reduced.smallest.scene);
+        reduced.lights = reduced.smallest.scene.lights.size();
+        reduced.tried = tried_;
+        return reduced;
+    }
+
+private:
+    // Takes the case in place of the present one if it fails too.
+    bool accept(Case candidate) {
+        if (tried_ >= budget_) return false;
+        ++tried_;
+        const FailingPixel pixel = test_(candidate);
+        if (!pixel.fails) return false;
+        shown_ = pixel;
+        now_ = std::move(candidate);
+        return true;
+    }
+
+    // Removes parts of `count`, first by halves, then by ever smaller ones. remove(case, from, to).
+    template <class Count, class Remove>
+    void shrink(const Count& count, std::size_t least, const Remove& remove) {
+        for (std::size_t part = (count(now_) + 1) / 2; part > 0; part /= 2)
+            for (std::size_t from = 0; from < count(now_) && count(now_) > least;) {
+                const std::size_t to = std::min({from + part, count(now_), from + count(now_) - least});
+                Case candidate = now_;
+                remove(candidate, from, to);
+                if (!accept(std::move(candidate))) from = to;
+                if (tried_ >= budget_) return;
+            }
+    }
+
+    void dropNodes() {
+        shrink([](const Case& c) { return c.scene.nodes.size(); }, 1,
+               [](Case& c, std::size_t from, std::size_t to) {
+                   const auto nodes = c.scene.nodes.begin();
+                   c.scene.nodes.erase(nodes + static_cast<std::ptrdiff_t>(from),
+                                       nodes + static_cast<std::ptrdiff_t>(to));
+                   // Each node has the mesh of its own number.
+                   const auto mesh = c.scene.meshes.begin();
+                   c.scene.meshes.erase(mesh + static_cast<std::ptrdiff_t>(from),
+                                        mesh + static_cast<std::ptrdiff_t>(to));
+                   for (std::size_t i = 0; i < c.scene.nodes.size(); ++i)
+                       c.scene.nodes[i].mesh = static_cast<int>(i);
+               });
+    }
+
+    // The last one stays: a scene without lights has a sun.
+    void dropLights() {
+        shrink([](const Case& c) { return c.scene.lights.size(); }, 1,
+               [](Case& c, std::size_t from, std::size_t to) {
+                   const auto lights = c.scene.lights.begin();
+                   c.scene.lights.erase(lights + static_cast<std::ptrdiff_t>(from),
+                                        lights + static_cast<std::ptrdiff_t>(to));
+               });
+    }
+
+    void dropTriangles() {
+        shrink([](const Case& c) { return triangleCount(c.scene); }, 1,
+               [](Case& c, std::size_t from, std::size_t to) {
+                   std::size_t before = 0;
+                   for (Mesh& mesh : c.scene.meshes) {
+                       std::vector<std::uint32_t>& indices = mesh.primitives.front().indices;
+                       const std::size_t count = indices.size() / 3;
+                       const std::size_t first = std::clamp(from, before, before + count) - before,
+                                         last = std::clamp(to, before, before + count) - before;
+                       indices.erase(indices.begin() + static_cast<std::ptrdiff_t>(3 * first),
+                                     indices.begin() + static_cast<std::ptrdiff_t>(3 * last));
+                       before += count;
+                   }
+               });
+    }
+
+    // Looks through the worst pixel alone.
+    void onePixel() {
+        const Camera& camera = now_.camera();
+        if (camera.orthographic || shown_.x < 0) return;
+        Case candidate = now_;
+        Camera& closer = candidate.camera();
+        const double height = now_.settings.size.height, width = now_.settings.size.width;
+        const double t = std::tan(camera.yfov / 2);
+        const double x = (2 * (shown_.x + 0.5) / width - 1) * t * width / height,
+                     y = (1 - 2 * (shown_.y + 0.5) / height) * t;
+        const glm::dmat3 axes(camera.world_from_camera);
+        const glm::dvec3 along = glm::normalize(axes[0] * x + axes[1] * y - axes[2]);
+        const glm::dvec3 right = glm::normalize(glm::cross(along, axes[1]));
+        closer.world_from_camera[0] = glm::dvec4(right, 0);
+        closer.world_from_camera[1] = glm::dvec4(glm::cross(right, along), 0);
+        closer.world_from_camera[2] = glm::dvec4(-along, 0);
+        closer.yfov = 2 * std::atan(t / height);
+        candidate.settings.size = {1, 1};
+        accept(std::move(candidate));
+    }
+
+    Case now_;
+    FailingPixel shown_;
+    const std::function<FailingPixel(const Case&)>& test_;
+    const std::size_t budget_;
+    std::size_t tried_ = 0;
+};
+
+}  // namespace
+
+std::optional<Reduced> reduce(const Case& failing, const std::function<FailingPixel(const Case&)>& test,
+                              std::size_t budget) {
+    std::optional<Case> flat = flattened(failing);
+    if (!flat) return {};
+    return Reducer(std::move(*flat), test, budget).run();
+}
+
+}  // namespace diptych::audit

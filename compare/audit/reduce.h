@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Finds the smallest scene that still shows a failure: delta debugging (Zeller and Hildebrandt 2002,
+// "Simplifying and Isolating Failure-Inducing Input") over what is drawn, lights and triangles, then one
+// pixel.
+#pragma once
+
+#include "compare/audit/case.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace diptych::audit {
+
+struct FailingPixel {
+    bool fails = false;
+    int x = -1, y = -1;  // the worst pixel
+    double error = 0;
+};
+
+struct Reduced {
+    Case smallest;
+    FailingPixel shown;
+    std::size_t triangles = 0, lights = 0, tried = 0;
+};
+
+// `test`: whether a case fails as it should. At most `budget` cases are tried; nothing where the scene without
+// textures and motion does not fail.
+std::optional<Reduced> reduce(const Case& failing, const std::function<FailingPixel(const Case&)>& test,
+                              std::size_t budget);
+
+}  // namespace diptych::audit
