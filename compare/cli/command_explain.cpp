@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/explanations.h"
+#include "compare/explain/explain.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"
 #include "compare/files/frame_exr.h"

@@ -2,6 +2,7 @@
 #include "compare/cli/explanations.h"
 
 #include "compare/cli/commands.h"
+#include "compare/explain/explain.h"
 #include "compare/explain/explained.h"
 #include "compare/explain/write.h"
 #include "compare/run/command_text.h"

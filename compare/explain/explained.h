@@ -2,7 +2,7 @@
 // What a report shows of an explanation.
 #pragma once
 
-#include "compare/explain/explain.h"
+#include "compare/explain/explanation.h"
 #include "compare/explain/words.h"
 #include "compare/verdict/explained.h"
 #include "shared/image/png.h"

@@ -2,7 +2,7 @@
 // An explanation as a part of a page, and as a page of its own without external resources.
 #pragma once
 
-#include "compare/explain/explain.h"
+#include "compare/explain/explanation.h"
 #include "compare/explain/words.h"
 
 #include <functional>

@@ -2,7 +2,7 @@
 // Pictures of an explanation: which cause counts most at each pixel, and how much each counts where.
 #pragma once
 
-#include "compare/explain/explain.h"
+#include "compare/explain/explanation.h"
 #include "shared/image/png.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // An explanation in words and as JSON.
 #pragma once
 
-#include "compare/explain/explain.h"
+#include "compare/explain/explanation.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // An explanation as a folder.
 #pragma once
 
-#include "compare/explain/explain.h"
+#include "compare/explain/explanation.h"
 #include "compare/explain/words.h"
 #include "compare/picture/picture.h"
 

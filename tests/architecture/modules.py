@@ -17,13 +17,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SVG = pathlib.Path(__file__).with_name("modules.svg")
 TOPS = ("shared", "forward_plus", "deferred", "shaders", "compare")
 ENDINGS = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"}
-PARTS = {"compare/tradeoff/page": "compare/tradeoff", "shared/light/fit": "shared/light"}  # of a larger module
+PARTS = {"shared/light/fit": "shared/light"}  # of a larger module, as compare/X/page is of compare/X
 
 BOX_WIDTH, BOX_HEIGHT, GAP_X, GAP_Y, MARGIN = 132, 34, 14, 46, 20
 
 
 def module_of(path):
-    folder = path.parent.as_posix()
+    folder = re.sub(r"^(compare/\w+)/page$", r"\1", path.parent.as_posix())
     return PARTS.get(folder, folder)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/explain.h"
+#include "compare/explain/channel_lighting.h"
 #include "shared/frame/settings.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/channel_lighting.h"
+
+#include "compare/explain/frame_images.h"
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+namespace {
+
+constexpr int lightmapMode = static_cast<int>(gpu::DEBUG_lightmap),
+              emissionMode = static_cast<int>(gpu::DEBUG_emission);
+
+// clang-format off
+constexpr std::string_view carried[] = {
+    "path", "gbuffer", "prepass", "assign", "light-kernel", "pixel-lights", "skinning", "spec-aa",
+    "spec-aa-variance", "spec-aa-limit", "spec-aa-normals", "msaa", "msaa-shading", "msaa-edges", "resolve",
+    "alpha-to-coverage", "spp", "reference-mode"};
+// clang-format on
+
+// Pixels whose material has a lightmap.
+std::vector<std::uint8_t> lightmapped(const Frame& frame, const Scene& scene) {
+    const Image& ids = channelOf(frame, gpu::DEBUG_material_id);
+    std::vector<std::uint8_t> has(ids.pixels());
+    for (std::size_t i = 0; i < has.size(); ++i) {
+        const int id = materialOf(ids.pixel(i), scene);
+        has[i] = id >= 0 && scene.materials[static_cast<std::size_t>(id)].lightmap_texture.texture >= 0;
+    }
+    return has;
+}
+
+}  // namespace
+
+std::span<const std::string_view> settingsInChannels() {
+    return carried;
+}
+
+ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Scene& scene,
+                                 const Frame& baseline, const Frame& test)
+    : renderer_(renderer), frames_{&baseline, &test}, images_(device, baseline.settings.size) {
+    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
+        const int mode = surfaceChannels()[c];
+        const Image &a = channelOf(baseline, mode), &b = channelOf(test, mode);
+        const bool same = sameBits(a, b);
+        for (std::size_t side = 0; side < (same ? 1u : 2u); ++side)
+            images_.set(
+                side, c, side == 0 ? a : b,
+                mode == lightmapMode ? lightmapped(*frames_.at(side), scene) : std::vector<std::uint8_t>{});
+        if (!same) differing_.push_back(c);
+    }
+}
+
+ChannelShading& ChannelLighting::under(const Settings& given) {
+    // As far as they light surfaces: what is in channels is the baseline's, so that two pictures that differ
+    // in that alone are lit by one frame.
+    Settings settings = given;
+    for (const std::string_view option : carried) settings.set(option, frames_[0]->settings.valueOf(option));
+    if (!shading_ || !(*settings_ == settings)) {
+        shading_.reset();
+        shading_.emplace(renderer_.shadeChannels(settings, images_));
+        settings_ = settings;
+        ++drawn_;
+    }
+    return *shading_;
+}
+
+Image ChannelLighting::lit(const Settings& settings, std::uint32_t sides) {
+    ChannelShading& shading = under(settings);
+    ++shaded_;
+    return shading.shade(sides);
+}
+
+LitSurfaces ChannelLighting::surfaces(const Settings& settings, std::uint32_t sides) {
+    LitSurfaces made{lit(settings, sides), shading_->terms(sides), nullptr, {}};
+    const auto channel = static_cast<std::size_t>(std::ranges::find(surfaceChannels(), emissionMode) -
+                                                  surfaceChannels().begin());
+    made.emission = &channelOf(*frames_.at(sides >> channel & 1u), emissionMode);
+    return made;
+}
+
+}  // namespace diptych

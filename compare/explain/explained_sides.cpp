@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/explained_sides.h"
+
+#include "compare/explain/exposure.h"
+#include "compare/explain/frame_images.h"
+#include "compare/explain/lighting_stages.h"
+#include "shared/contract/debug_mode.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace diptych {
+
+ExplainedSides::ExplainedSides(const Frame& baseline, const Frame& test, ChannelLighting& lighting)
+    : frames_{&baseline, &test}, settings_{baseline.settings, test.settings} {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Image& own = own_.at(side) = lighting.lit(settings_.at(side), allChannelsOf(side));
+        const Image& all = lit(side);
+        Image& rest = rest_.at(side) = Image(all.width, all.height, 3);
+        double sum = 0, off = 0;
+        for (std::size_t i = 0; i < all.data.size(); ++i) {
+            const double value = all.data[i], left = value - own.data[i];
+            if (!std::isfinite(left)) continue;
+            rest.data[i] = static_cast<float>(left);
+            sum += std::abs(value);
+            off += std::abs(left);
+        }
+        reproduction_.at(side) = sum > 0 ? off / sum : off > 0 ? 1 : 0;
+    }
+}
+
+const Image& ExplainedSides::lit(std::size_t side) const {
+    return side == 1 && exposure_ != 1 ? unexposed_ : channelOf(frame(side), gpu::DEBUG_lit);
+}
+
+bool ExplainedSides::restsDiffer() const {
+    return !sameBits(rest_[0], rest_[1]);
+}
+
+std::string ExplainedSides::restName() const {
+    const auto either = [&](const auto& is) { return is(frame(0).settings) || is(frame(1).settings); };
+    if (either([](const Settings& s) { return s.msaa > 1; })) return "samples of a pixel";
+    if (either([](const Settings& s) { return s.assign == Assignment::per_object; }))
+        return "lights per object";
+    return {};
+}
+
+bool ExplainedSides::haveTerms() const {
+    return diptych::haveTerms(frame(0), frame(1));
+}
+
+void ExplainedSides::findExposure() {
+    if (!restsDiffer()) return;
+    const bool terms = haveTerms();
+    const auto factor = [&](std::size_t side) {
+        return commonFactor(lit(side), terms ? sumOfTerms(frame(side)) : own_.at(side));
+    };
+    const std::array<std::optional<double>, 2> factors{factor(0), factor(1)};
+    std::optional<double> found = exposureBetween(factors[0], factors[1]);
+    if (!found && !(factors[0] && factors[1])) found = exposureBetween(1.0, commonFactor(lit(1), lit(0)));
+    if (!found) return;
+    unexposed_ = lit(1);
+    exposure_ = static_cast<float>(*found);
+    for (float& value : unexposed_.data) value /= exposure_;
+    rest_[1] = differenceOf(lit(1), own_[1]);
+}
+
+void ExplainedSides::believe(const Settings& settings, ChannelLighting& lighting) {
+    settings_[1] = settings;
+    own_[1] = lighting.lit(settings, allChannelsOf(1));
+    rest_[1] = differenceOf(lit(1), own_[1]);
+}
+
+}  // namespace diptych

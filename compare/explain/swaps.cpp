@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/swaps.h"
+
+#include "compare/explain/frame_images.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+std::vector<Swap> swappedSettings(const Settings& baseline, const Settings& test,
+                                  std::span<const UnsaidSetting> unsaid) {
+    const std::span<const std::string_view> in_channels = settingsInChannels();
+    std::vector<Swap> settings;
+    for (const Field& field : settingFields()) {
+        const std::string_view option = field.option;
+        if (std::ranges::count(in_channels, option) > 0 || baseline.valueOf(option) == test.valueOf(option))
+            continue;
+        const auto found = std::ranges::find(unsaid, option, &UnsaidSetting::option);
+        settings.push_back({Swap::Kind::setting, 0, std::string(option),
+                            found != unsaid.end() ? found->shows
+                                                  : fmt::format("{} instead of {}", test.valueOf(option),
+                                                                baseline.valueOf(option))});
+    }
+    return settings;
+}
+
+}  // namespace
+
+Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
+             std::span<const UnsaidSetting> unsaid)
+    : sides_(sides), lighting_(lighting) {
+    findChannels();
+    const std::string rest = sides.restName();
+    if (!rest.empty() && sides.restsDiffer())
+        causes_.push_back(
+            {Swap::Kind::rest, 0, rest, "what the lighting of a side's own channels leaves of its lit"});
+    if (rest.empty() && sides.restsDiffer() && sides.haveTerms()) findStages(scene);
+    if (sides.exposure() != 1)
+        causes_.push_back({Swap::Kind::exposure, 0, "exposure",
+                           fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
+    // Last, so that subsets of the same Settings follow each other: they need a frame each.
+    std::ranges::move(swappedSettings(sides.settings(0), sides.settings(1), unsaid),
+                      std::back_inserter(causes_));
+    if (causes_.size() > static_cast<std::size_t>(mostCauses))
+        throw std::runtime_error(
+            fmt::format("{} causes are more than the {} that can be told apart: give the "
+                        "two pictures Settings that are more alike",
+                        causes_.size(), mostCauses));
+}
+
+void Swaps::findChannels() {
+    // Those that change no pixel: swapped alone, and when all others are.
+    std::vector<std::size_t> inert = lighting_.differing();
+    for (const std::size_t side : {1, 0}) {
+        const Settings& settings = sides_.settings(side);
+        const std::uint32_t all = allChannelsOf(side);
+        const Image whole = lighting_.lit(settings, all);
+        std::erase_if(inert, [&](std::size_t channel) {
+            return !sameBits(whole, lighting_.lit(settings, all ^ std::uint32_t{1} << channel));
+        });
+    }
+    for (const std::size_t c : lighting_.differing()) {
+        const DebugMode& mode = debugMode(surfaceChannels()[c]);
+        if (std::ranges::count(inert, c) > 0)
+            inert_.emplace_back(mode.name);
+        else
+            causes_.push_back({Swap::Kind::channel, c, std::string(mode.name), std::string(mode.shows)});
+    }
+}
+
+// Where both say the terms of their lit, in which of them the rest is.
+void Swaps::findStages(const Scene& scene) {
+    std::array<LitSurfaces, 2> own;
+    for (std::size_t side = 0; side < 2; ++side)
+        own.at(side) = lighting_.surfaces(sides_.settings(side), allChannelsOf(side));
+    // Afterwards, because they need a frame of their own.
+    const bool blended = std::ranges::any_of(scene.materials, blends);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!blended) {
+            own.at(side).unblended = own.at(side).lit;
+            continue;
+        }
+        Settings bare = sides_.settings(side);
+        bare.transparency = Transparency::off;
+        own.at(side).unblended = lighting_.lit(bare, allChannelsOf(side));
+    }
+    stages_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
+    for (std::size_t i = 0; i < stages_->stages().size(); ++i)
+        causes_.push_back({Swap::Kind::stage, i, stages_->stages()[i].name, stages_->stages()[i].shows});
+}
+
+const LightingStages::Stage* Swaps::stageOf(const Swap& cause) const {
+    return cause.kind == Swap::Kind::stage ? &stages_->stages()[cause.place] : nullptr;
+}
+
+Image Swaps::lit(Subset subset) {
+    if (subset == 0) return channelOf(sides_.frame(1), gpu::DEBUG_lit);
+    std::uint32_t channels = allChannelsOf(1);
+    std::vector<bool> stages(stages_ ? stages_->stages().size() : 0);
+    std::size_t rest = 1;
+    Settings settings = sides_.settings(1);
+    float exposure = sides_.exposure();
+    for (std::size_t i = 0; i < causes_.size(); ++i) {
+        if ((subset >> i & 1) == 0) continue;
+        const Swap& cause = causes_[i];
+        if (cause.kind == Swap::Kind::channel) channels &= ~(std::uint32_t{1} << cause.place);
+        if (cause.kind == Swap::Kind::rest) rest = 0;
+        if (cause.kind == Swap::Kind::stage) stages[cause.place] = true;
+        if (cause.kind == Swap::Kind::setting)
+            settings.set(cause.name, sides_.settings(0).valueOf(cause.name));
+        if (cause.kind == Swap::Kind::exposure) exposure = 1;
+    }
+    Image lit = stages_ ? stages_->lit(lighting_.surfaces(settings, channels), stages)
+                        : lighting_.lit(settings, channels);
+    if (!stages_) {
+        const Image& added = sides_.rest(rest);
+        for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
+    }
+    if (exposure != 1)
+        for (float& value : lit.data) value *= exposure;
+    return lit;
+}
+
+}  // namespace diptych

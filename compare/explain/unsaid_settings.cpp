@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/unsaid_settings.h"
+
+#include "compare/explain/exposure.h"
+#include "compare/explain/frame_images.h"
+#include "compare/explain/lighting_stages.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+// Where the test's lit is not as its Settings say, others are tried: an environment turned by so many degrees
+// more, as by an axis that is taken for another; light from all around or haze that is a multiple of what is
+// said, or none. Believed are those that bring it nearer by at least half of what they change, and where no
+// term says so and the multiple is a guess, that leave less than half of the rest; as many as this together.
+constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
+constexpr double believedRest = 0.5;
+constexpr int mostBelieved = 3;
+constexpr double leastBrighter = 0.01;
+
+class UnsaidSearch {
+public:
+    UnsaidSearch(const ExplainedSides& sides, ChannelLighting& lighting)
+        : sides_(sides), lighting_(lighting), said_(sides.settings(1)) {}
+
+    std::vector<UnsaidSetting> find() {
+        for (std::size_t side = 0; side < 2; ++side)
+            beyond_.at(side) = beyond(comparable(sides_.settings(side), side), side);
+        if (sameBits(beyond_[0], beyond_[1])) return {};
+        double left = meanOf(errorsOf(beyond_[1], beyond_[0]));
+        for (int believed = 0; believed < mostBelieved && left > 0; ++believed) {
+            double least = left;
+            std::optional<UnsaidSetting> best;
+            const Image said = comparable(said_, 1);
+            for (UnsaidSetting& tried : triedSettings()) {
+                const Image ours = comparable(tried.settings, 1);
+                // Ambient light that is really another is in the air as well.
+                if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
+                const double changed = meanOf(errorsOf(ours, said));
+                const double rest = meanOf(errorsOf(beyond(ours, 1), beyond_[0]));
+                if (!(rest < least) || !(left - rest > believedRest * changed) ||
+                    (tried.guessed && !(rest < believedRest * left)))
+                    continue;
+                least = rest;
+                best = std::move(tried);
+            }
+            if (!best) break;
+            left = least;
+            said_ = best->settings;
+            beyond_[1] = beyond(comparable(said_, 1), 1);
+            found_.push_back(std::move(*best));
+        }
+        return std::move(found_);
+    }
+
+private:
+    std::vector<UnsaidSetting> triedSettings() {
+        std::vector<UnsaidSetting> all;
+        const auto tryIt = [&](std::string_view option, std::string shows, bool guessed, const auto& change) {
+            if (std::ranges::count(found_, option, &UnsaidSetting::option) > 0) return;
+            all.push_back({option, said_, std::move(shows), guessed});
+            change(all.back().settings);
+        };
+        const bool lit_around = said_.env != Settings().env && said_.ibl_intensity > 0;
+        for (const float turn : triedTurns)
+            if (lit_around)
+                tryIt("env-rotation",
+                      fmt::format(
+                          "an environment that is turned by {} degrees more than the test's Settings say",
+                          turn),
+                      false, [&](Settings& s) { s.env_rotation += turn; });
+        const auto multiple = [](const char* what, double factor) {
+            return fmt::format("{} that is {:.4g} times what the test's Settings say", what, factor);
+        };
+        const TermFactors factors = factorsOfTerms();
+        const auto brighter = [&](std::string_view option, const char* what, std::optional<double> known,
+                                  const auto& change) {
+            Settings none = said_;
+            change(none, 0.0f);
+            const double factor = known ? *known : brightness(none);
+            if (std::abs(factor - 1) > leastBrighter)
+                tryIt(option, multiple(what, factor), !known,
+                      [&](Settings& s) { change(s, static_cast<float>(factor)); });
+        };
+        const bool ambient = said_.ambient.r > 0 || said_.ambient.g > 0 || said_.ambient.b > 0;
+        if (ambient && (!factors.known || factors.ambient))
+            brighter("ambient", "ambient light", factors.ambient, [](Settings& s, float by) {
+                s.ambient = {by * s.ambient.r, by * s.ambient.g, by * s.ambient.b};
+            });
+        if (lit_around)
+            brighter("ibl-intensity", "light of the environment", {},
+                     [](Settings& s, float by) { s.ibl_intensity *= by; });
+        if (said_.haze && (!factors.known || factors.no_haze))
+            tryIt("haze", "no haze, although the test's Settings say so", !factors.known,
+                  [](Settings& s) { s.haze = false; });
+        if (said_.haze && factors.haze)
+            tryIt("haze-density", multiple("density", *factors.haze), false,
+                  [&](Settings& s) { s.haze_density *= static_cast<float>(*factors.haze); });
+        return all;
+    }
+
+    // By how much brighter that light is which these Settings lack: the median of what is missing, as a
+    // multiple of what it adds, and 1.
+    double brightness(const Settings& without) {
+        const Image with = comparable(said_, 1), none = comparable(without, 1);
+        std::vector<double> adds(with.data.size());
+        double sum = 0;
+        for (std::size_t i = 0; i < adds.size(); ++i) {
+            adds[i] = double{with.data[i]} - none.data[i];
+            if (std::isfinite(adds[i])) sum += std::abs(adds[i]);
+        }
+        const double least = 1e-3 * sum / static_cast<double>(adds.size());
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < adds.size(); ++i) {
+            const double missing =
+                double{std::as_const(beyond_[1]).data[i]} - std::as_const(beyond_[0]).data[i];
+            if (adds[i] > least && std::isfinite(missing)) ratios.push_back(missing / adds[i]);
+        }
+        if (ratios.empty()) return 1;
+        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+        std::ranges::nth_element(ratios, middle);
+        const double factor = 1 + *middle;
+        return factor < leastBrighter ? 0.0 : factor;
+    }
+
+    // What the test's terms are of ours, where they are that alike everywhere.
+    struct TermFactors {
+        bool known = false;  // there are terms
+        bool no_haze = false;
+        std::optional<double> ambient{}, haze{};  // other than 1; haze: its density
+    };
+    TermFactors factorsOfTerms() {
+        if (!sides_.haveTerms()) return {};
+        const ChannelTerms terms = lighting_.under(said_).terms(allChannelsOf(1));
+        const auto theirs = [&](gpu::uint mode) -> const Image& { return channelOf(sides_.frame(1), mode); };
+        const Image& ids = theirs(gpu::DEBUG_material_id);
+        Image depth = theirs(gpu::DEBUG_transmittance), our_depth = terms.transmittance;
+        bool hazy = false, dark = true;
+        for (std::size_t i = 0; i < depth.data.size(); ++i) {
+            const bool surface = ids.pixel(i / 3)[0] >= 0;
+            // Density is what the logarithm of the transmittance is proportional to.
+            depth.data[i] = surface ? -std::log(depth.data[i]) : 0;
+            our_depth.data[i] = surface ? -std::log(our_depth.data[i]) : 0;
+            hazy = hazy || depth.data[i] != 0 || theirs(gpu::DEBUG_lit_haze).data[i] != 0;
+            dark = dark && theirs(gpu::DEBUG_lit_ambient).data[i] == 0;
+        }
+        return {true, !hazy,
+                dark ? std::optional(0.0)
+                     : exposureBetween(1.0, commonFactor(theirs(gpu::DEBUG_lit_ambient), terms.ambient)),
+                exposureBetween(1.0, commonFactor(depth, our_depth))};
+    }
+
+    // What is compared to tell Settings that are not said: a side's surfaces under some Settings as our terms
+    // add up, where both have terms, so that what is done with them afterwards does not matter; else our lit.
+    Image comparable(const Settings& settings, std::size_t side) {
+        if (!sides_.haveTerms()) return lighting_.lit(settings, allChannelsOf(side));
+        return sumOfTerms(lighting_.under(settings).terms(allChannelsOf(side)),
+                          channelOf(sides_.frame(side), gpu::DEBUG_emission));
+    }
+    // What a side has beyond that.
+    Image beyond(const Image& ours, std::size_t side) const {
+        return differenceOf(sides_.haveTerms() ? sumOfTerms(sides_.frame(side)) : sides_.lit(side), ours);
+    }
+    bool bringsHazeNearer(const Settings& tried) {
+        if (!sides_.haveTerms()) return true;
+        const Image& theirs = channelOf(sides_.frame(1), gpu::DEBUG_lit_haze);
+        const auto off = [&](const Settings& settings) {
+            return meanOf(errorsOf(lighting_.under(settings).terms(allChannelsOf(1)).haze, theirs));
+        };
+        return off(tried) <= off(said_);
+    }
+
+    const ExplainedSides& sides_;
+    ChannelLighting& lighting_;
+    Settings said_;                // the test's, with those that are believed
+    std::array<Image, 2> beyond_;  // what tells Settings that are not said: beyond() under a side's
+    std::vector<UnsaidSetting> found_;
+};
+
+}  // namespace
+
+std::vector<UnsaidSetting> unsaidSettings(const ExplainedSides& sides, ChannelLighting& lighting) {
+    if (!sides.restName().empty() || !sides.restsDiffer()) return {};
+    return UnsaidSearch(sides, lighting).find();
+}
+
+}  // namespace diptych
