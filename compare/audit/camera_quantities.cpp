@@ -59,6 +59,15 @@ double usualGrazing(const Subject& subject) {
     return glm::degrees(std::asin(std::clamp(glm::dot(to_eye, subject.normal), 0.0, 1.0)));
 }
 
+void pushExposure(Case& pushed, const Subject&, double factor) {
+    pushed.exposure = factor;
+}
+
+Predicted predictExposure(const Subject&, const Settings&, double) {
+    return {.because = "exposure multiplies float32 radiance in double; both pictures are rounded to 8 bits after "
+                       "the tone curve"};
+}
+
 Predicted predictNear(const Subject&, const Settings&, double) {
     return {.because = "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
                        "of it in one division"};
@@ -86,7 +95,15 @@ std::vector<Quantity> cameraQuantities() {
     for (const double wide : {30.0, 60.0, 90.0, 120.0, 150.0, 170.0, 179.0}) fovs.push_back(wide);
     std::vector<double> grazes = ladder(0.001, 10);
     for (const double steep : {30.0, 60.0, 90.0}) grazes.push_back(steep);
-    return {{.name = "near",
+    return {{.name = "exposure",
+             .unit = "",
+             .what = "pictures of 8 bits, exposed by a factor beyond the automatic exposure",
+             .magnitudes = ladder(1e-30, 1e30, 1e3),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushExposure,
+             .predict = predictExposure},
+            {.name = "near",
              .unit = "",
              .what = "the far plane's distance over the near plane's, which is drawn nearer",
              .magnitudes = ladder(1e2, 1e9),

@@ -17,6 +17,8 @@ namespace diptych::audit {
 struct Case {
     Scene scene;        // the only camera that is used is its last one, without a node, and so are all lights
     Settings settings;  // camera: that one; no rig of lights
+    // Above 0: pictures are compared, of 8 bits, exposed by this factor beyond the automatic one.
+    double exposure = 0;
 
     Camera& camera() { return scene.cameras.back(); }
     const Camera& camera() const { return scene.cameras.back(); }

@@ -94,7 +94,7 @@ std::vector<Quantity> materialQuantities() {
              .lacks = lacksNothing,
              .push = pushEmission,
              .predict = predictEmission},
-            {.name = "vertex_color",
+            {.name = "color",
              .unit = "",
              .what = "the colour of every vertex, in place of its own",
              .magnitudes = ladder(1e-38, 1, 100),

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -35,6 +36,29 @@ void multiply(Image& image, double factor) {
 ChannelStats statsOf(int mode, const Frame& truth, const Frame& test, const Coverage& where) {
     const DebugMode& channel = debugMode(mode);
     return channelStats(channel.metric, channel.kind, truth.channels.at(mode), test.channels.at(mode), where);
+}
+
+// The 99th percentile over the pixels of the largest difference of a component of pictures of lit, as a part
+// of white. Both are exposed alike, by the truth.
+double pictureError(const Frame& truth, const Frame& test, const Coverage& where, double exposure) {
+    PictureScale scale;
+    scale.exposure = exposureFor({}, &truth.channels.at(litOf), where);
+    scale.exposure.factor *= exposure;
+    const Image8 a = channelPicture(debugMode(litOf), truth, scale),
+                 b = channelPicture(debugMode(litOf), test, scale);
+    std::vector<int> apart;
+    const auto components = a.data.size() / where.covered.size();
+    for (std::size_t i = 0; i < where.covered.size(); ++i) {
+        if (!where.covered[i]) continue;
+        int most = 0;
+        for (std::size_t c = i * components; c < (i + 1) * components; ++c)
+            most = std::max(most, std::abs(int{a.data[c]} - int{b.data[c]}));
+        apart.push_back(most);
+    }
+    if (apart.empty()) return 0;
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(apart.size()))) - 1;
+    std::nth_element(apart.begin(), apart.begin() + rank, apart.end());
+    return apart[static_cast<std::size_t>(rank)] / 255.0;
 }
 
 // Removes the pixels for which `out` holds.
@@ -160,7 +184,7 @@ const Measurer::Truth& Measurer::usual() {
     return *usual_;
 }
 
-Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays) {
+Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure) {
     Outcome outcome;
     Coverage opaque = coverage(truth.lit, truth.lit);
     remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i); });
@@ -168,6 +192,7 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     outcome.light = knownOrInfinite(light.p99);
     outcome.worst_x = light.worst_x;
     outcome.worst_y = light.worst_y;
+    if (exposure > 0) outcome.light = pictureError(truth.lit, lit, opaque, exposure);
     const Image &there = truth.rays.channels.at(idsOf), &here = rays.channels.at(idsOf);
     Coverage alike = coverage(truth.rays, truth.rays);
     const std::size_t before = alike.count;
@@ -229,7 +254,7 @@ Step Measurer::measure(Case pushed, std::span<const Series> series, const Quanti
         }
         step.covered = coverage(truth.rays, truth.rays).count;
         for (std::size_t i = 0; i < frames.size(); ++i)
-            if (step.outcomes[i].failed.empty()) step.outcomes[i] = outcomeOf(truth, frames[i], frames[i]);
+            if (step.outcomes[i].failed.empty()) step.outcomes[i] = outcomeOf(truth, frames[i], frames[i], pushed.exposure);
     } catch (const std::exception& error) {
         step.failed = error.what();
         step.outcomes.assign(series.size(), failedOutcome(error.what()));

@@ -36,7 +36,8 @@ std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject);
 struct Outcome {
     // 99th percentiles, by nearest rank, of the relative errors (PixelError) of the pixels that show a
     // surface: at edges a path and the reference may see another surface through rounding alone.
-    // `light`: of lit, against the reference's of the surfaces that forward+ captures in float32.
+    // `light`: of lit, against the reference's of the surfaces that forward+ captures in float32; of pictures
+    // (Case::exposure) the difference of a component, as a part of white.
     // `depth`: of view depth, against rays that the reference traces in double.
     double light = 0, depth = 0;
     double flip = 0;              // mean HDR-FLIP of the whole picture, against the former
@@ -81,7 +82,8 @@ private:
     // Takes from the scene what does not decide where a surface is.
     static Frame tracedRays(Scene& scene, Settings settings);
     const Truth& usual();
-    static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays);
+    // `exposure`: Case::exposure.
+    static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
     Step measure(Case pushed, std::span<const Series> series, const Quantity* quantity,
                  double magnitude);
 

@@ -4,9 +4,7 @@
 
 #include "compare/audit/case.h"
 
-#include <functional>
 #include <limits>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,12 +45,5 @@ struct Quantity {
 
 // Whether a path with these Settings has no other error than arithmetic's: predictions are of such.
 bool isPrecise(const Settings& settings);
-
-std::span<const Quantity> quantities();
-
-// Those of these names, all without any, in the order of quantities(). Throws std::runtime_error naming
-// `option` and the one that there is not.
-std::vector<const Quantity*> quantitiesOf(std::span<const std::string> names,
-                                          std::string_view option = "--quantity");
 
 }  // namespace diptych::audit

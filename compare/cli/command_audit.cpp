@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/audit.h"
+#include "compare/audit/quantities.h"
 #include "compare/audit/failures.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
 
-#include "compare/audit/quantity.h"
+#include "compare/audit/quantities.h"
 #include "compare/cli/command_options.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"

@@ -13,6 +13,12 @@ float lengthOf(vec3 v) { return sqrt(dot(v, v)); }
 vec2 normalized(vec2 v) { return v / lengthOf(v); }
 vec3 normalized(vec3 v) { return v / lengthOf(v); }
 
+// The same to the bit, and also of what is so short that its square is below what float32 holds.
+vec3 normalizedOfAnySize(vec3 v) {
+    float shrunk = dot(v, v) < 1e-30 ? 1.2089258e24 : 1.0;  // 2^80
+    return normalized(v * shrunk);
+}
+
 // Of any length that float32 holds; 0 where it has none.
 vec3 unitVector(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));

@@ -33,7 +33,7 @@ Hazed hazeTo(vec3 position) {
         height += position.y - rise;
     } else {
         reach = lengthOf(position);
-        away = position / reach;
+        away = normalizedOfAnySize(position);
     }
     if (on(feature_haze & HAZE_MARCHED))
         return marchedHaze(h, readHazeMarch(), height, away, reach, false);

@@ -33,7 +33,7 @@ vec3 positionFromDepth(vec2 pixel, float z) {
 
 // Unit, from the surface to the viewer.
 vec3 viewVector(vec3 position) {
-    return on(feature_orthographic) ? view.backward : normalized(-position);
+    return on(feature_orthographic) ? view.backward : normalizedOfAnySize(-position);
 }
 
 #endif

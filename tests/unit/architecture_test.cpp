@@ -67,6 +67,7 @@ const std::vector<Module> modules = {
     {"compare/explain", 70},
     {"compare/tradeoff", 70},
     {"compare/choose", 70},
+    {"compare/audit", 70},
     {"compare/bench", 70},
     {"compare/cli", 80},
     {"tests", 90},

@@ -185,13 +185,37 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
 
 TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
     };
     for (const auto& [words, name] : later) {
         const std::string what = whatIsThrown(words);
         EXPECT_EQ(what.find(name), 0u) << what;
         EXPECT_NE(what.find("not built yet"), std::string::npos) << what;
+    }
+}
+
+TEST(CommandLine, WhatIsAudited) {
+    const Options o =
+        parseCommandLine({"audit", "a.glb", "--quantity", "near,fov", "--require", "near=1e6,fov=0.1"});
+    EXPECT_EQ(o.audit.quantities, (std::vector<std::string>{"near", "fov"}));
+    ASSERT_EQ(o.audit.required.size(), 2u);
+    EXPECT_EQ(o.audit.required[1], (std::pair<std::string, double>("fov", 0.1)));
+    EXPECT_FALSE(o.size_given);
+    EXPECT_FALSE(o.shadows_given);
+    const Options given = parseCommandLine({"audit", "--size", "64x36", "--shadows", "off"});
+    EXPECT_TRUE(given.size_given);
+    EXPECT_TRUE(given.shadows_given);
+    const std::pair<std::vector<std::string>, const char*> wrong[] = {
+        {{"audit", "--quantity", "ofset"}, "did you mean offset"},
+        {{"audit", "--require", "ofset=1"}, "--require ofset: there is no such quantity"},
+        {{"audit", "--require", "offset"}, "is NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=far"}, "is NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=1e3m"}, "is NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=-1"}, "is NAME=MAGNITUDE"},
+    };
+    for (const auto& [words, name] : wrong) {
+        const std::string what = whatIsThrown(words);
+        EXPECT_NE(what.find(name), std::string::npos) << what;
     }
 }
 

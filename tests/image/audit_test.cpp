@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Both paths where they used to break: far from the origin, tiny, behind thick air. Each is measured as an
+// audit measures it.
+#include "compare/audit/audit.h"
+#include "compare/audit/quantities.h"
+#include "tests/image/square.h"
+
+#include <array>
+
+namespace diptych::tests {
+namespace {
+
+using audit::Measurer;
+using audit::Outcome;
+using audit::Series;
+using audit::Step;
+using audit::Subject;
+
+Subject auditedScene(const Scene& scene) {
+    Settings settings;
+    settings.size = {64, 36};
+    settings.shadows = Shadows::off;
+    settings.gbuffer = GBufferEncoding::full;
+    return audit::makeSubject(scene, settings);
+}
+
+// The errors of both paths with nothing packed.
+std::vector<Outcome> errorsAt(Measurer& measurer, const std::string& name, double magnitude) {
+    const audit::Quantity& quantity = *audit::quantitiesOf(std::array{name}).front();
+    const std::array<Series, 2> both{Series{Path::deferred, {}}, Series{Path::forward_plus, {}}};
+    const Step step = measurer.measure(quantity, both, magnitude);
+    EXPECT_EQ(step.failed, "") << name;
+    for (const Outcome& outcome : step.outcomes) {
+        EXPECT_EQ(outcome.failed, "") << name << " " << magnitude;
+        EXPECT_EQ(outcome.nonfinite, 0u) << name << " " << magnitude;
+    }
+    return step.outcomes;
+}
+
+void expectHolds(Measurer& measurer, const std::string& name, std::initializer_list<double> magnitudes) {
+    // Float32 shading of the usual scene is within 2e-5 of double (README of the reference); a tenth of the
+    // least of an audit's criteria leaves room for GPUs, whose division and square roots are less exact.
+    constexpr double most = 1e-4;
+    for (const double magnitude : magnitudes)
+        for (const Outcome& outcome : errorsAt(measurer, name, magnitude)) {
+            EXPECT_LE(outcome.light, most) << name << " " << magnitude;
+            EXPECT_LE(outcome.depth, most) << name << " " << magnitude;
+        }
+}
+
+TEST(AuditImages, APictureIsTheSameWhereverItsSceneIsAndHoweverLarge) {
+    const Scene scene = makeBuiltin("spots");
+    const Subject subject = auditedScene(scene);
+    Measurer measurer(device(), subject, {});
+    expectHolds(measurer, "offset", {0, 1e4, 1e8});
+    expectHolds(measurer, "vertex", {1e3, 1e5, 1e7});
+    expectHolds(measurer, "scale", {1e-6, 1, 1e6});
+    expectHolds(measurer, "near", {1e3, 1e9});
+    expectHolds(measurer, "fov", {0.01, 170});
+    expectHolds(measurer, "grazing", {0.001});
+    expectHolds(measurer, "intensity", {1e-12, 1e12});
+    expectHolds(measurer, "roughness", {0, 1e-3});
+}
+
+// Until the paths' own light ends, at an optical depth of 87, and not where the reference once gave up.
+TEST(AuditImages, ThickAirIsMeasuredUntilItsLightEnds) {
+    const Scene scene = makeBuiltin("spots");
+    const Subject subject = auditedScene(scene);
+    ASSERT_TRUE(subject.seen);
+    Measurer measurer(device(), subject, {});
+    // Of red, which the air dims least.
+    const double depth_60 = 60 / (2.58e-5 * subject.nearest);
+    expectHolds(measurer, "haze", {depth_60});
+}
+
+// Squares of its lengths are below float32: what looks at it must not become NaN.
+TEST(AuditImages, AScene30OrdersTooSmallIsLitByNumbers) {
+    Scene scene = square();
+    for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(1e-30));
+    scene.cameras[0].world_from_camera[3] = {0, 0, 1e-30, 1};
+    scene.cameras[0].near = 1e-32;
+    Settings settings;
+    settings.size = {64, 36};
+    settings.gbuffer = GBufferEncoding::full;
+    settings.ambient = {1, 1, 1};
+    settings.haze = true;
+    const Subject subject = audit::makeSubject(scene, settings);
+    Measurer measurer(device(), subject, {});
+    for (const Outcome& outcome : errorsAt(measurer, "exposure", 1)) EXPECT_LE(outcome.light, 1e-2);
+}
+
+}  // namespace
+}  // namespace diptych::tests

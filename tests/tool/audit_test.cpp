@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// audit as users run it: its folder, its exit code, and that it goes on where it was cut.
+#include "tests/tool/faults.h"
+#include "tests/tool/running.h"
+#include "tests/tool/sweep.h"
+
+#include <algorithm>
+#include <csignal>
+
+namespace diptych {
+namespace {
+
+std::size_t stepsIn(const fs::path& state) {
+    std::size_t steps = 0;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(state, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+        const std::string name = entry->path().filename();
+        steps += name.ends_with(".json") && name != "key.json" && name.front() != '.';
+    }
+    return steps;
+}
+
+TEST(AuditTool, AFolderOfPlotsAndTablesAndAnExitCode) {
+    const Folder folder;
+    const Ran ran = runTool(folder,
+                            "audit builtin:triangle --size 32x18 --quantity offset,environment,haze --require "
+                            "offset=1e7 -o out");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("pass: offset as far as 1e+07"), ran.out.npos) << ran.out;
+    EXPECT_NE(ran.out.find("environment: not pushed: the scene has no environment"), ran.out.npos) << ran.out;
+    for (const char* file : {"index.html", "audit.json", "audit.csv", "offset.svg", "haze.svg"})
+        EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+    EXPECT_FALSE(fs::exists(folder / "out/environment.svg"));
+    EXPECT_FALSE(fs::exists(folder / ".out.audit"));
+    const Json audit = readJson(folder / "out/audit.json");
+    EXPECT_EQ(audit["software"], "diptych");
+    EXPECT_EQ(audit["quantities"].size(), 3u);
+    EXPECT_EQ(audit["requirements"][0]["met"], true);
+    // What breaks is reduced to a file whose command shows it.
+    ASSERT_EQ(audit["quantities"][2]["quantity"], "haze");
+    const Json& failures = audit["quantities"][2]["failures"];
+    ASSERT_EQ(failures.size(), 1u);
+    EXPECT_NE(failures[0]["words"].get<std::string>().find("1 triangle"), std::string::npos) << failures;
+    const std::string command = failures[0]["command"];
+    ASSERT_EQ(command.find("diptych "), 0u);
+    EXPECT_EQ(runTool(folder, command.substr(8) + " --runs 0 -q -o shown").code, 1) << command;
+}
+
+TEST(AuditTool, WhatIsNotReachedIsSaid) {
+    const Folder folder;
+    const Ran ran = runTool(folder,
+                            "audit builtin:triangle --size 32x18 --quantity haze --require haze=1e12 -o out");
+    EXPECT_EQ(ran.code, 1) << ran.err;
+    EXPECT_NE(ran.out.find("FAIL: haze as far as 1e+12"), ran.out.npos) << ran.out;
+    EXPECT_NE(contentsOf(folder / "out/index.html").find("verdict fail"), std::string::npos);
+}
+
+TEST(AuditTool, OneThatWasKilledGoesOn) {
+    const Folder folder;
+    const std::vector<std::string> words{"audit", "builtin:triangle", "--size",    "64x36",
+                                         "-o",    "t",                "--quantity", "intensity"};
+    ASSERT_EQ(runTool(folder, shellWords(words) + "-q").code, 0);
+    const Json whole = readJson(folder / "t/audit.json");
+    fs::remove_all(folder / "t");
+    std::size_t kept = 0;
+    {
+        Running tool(folder, words);
+        EXPECT_TRUE(soon([&] { return tool.ended() || stepsIn(folder / ".t.audit") >= 5; }));
+        ::kill(tool.process(), SIGKILL);
+        EXPECT_TRUE(soon([&] { return tool.ended(); }));
+        kept = stepsIn(folder / ".t.audit");
+    }
+    ASSERT_GE(kept, 5u);
+    EXPECT_FALSE(fs::exists(folder / "t"));
+    const Ran ran = runTool(folder, shellWords(words) + "-v");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(readJson(folder / "t/audit.json")["quantities"], whole["quantities"]);
+    std::size_t drawn = 0;
+    for (std::size_t at = ran.err.find("intensity "); at != ran.err.npos; at = ran.err.find("intensity ", at + 1))
+        ++drawn;
+    EXPECT_EQ(drawn + kept, whole["quantities"][0]["steps"].size()) << "what was kept is not drawn again";
+}
+
+}  // namespace
+}  // namespace diptych
