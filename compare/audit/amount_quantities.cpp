@@ -33,8 +33,9 @@ Predicted predictLights(const Subject& subject, const Settings&, double error) {
     const auto local = static_cast<double>(std::ranges::count_if(
         subject.given.scene.lights, [](const Light& light) { return light.kind != LightKind::directional; }));
     return {.up = error * 0x1p24 * 2 / std::max(local, 1.0),
-            .because = "light is added up in float32, one light after the other: N terms round by N 2^-25 where "
-                       "all round one way"};
+            .because =
+                "light is added up in float32, one light after the other: N terms round by N 2^-25 where "
+                "all round one way"};
 }
 
 template <class Value>
@@ -85,7 +86,8 @@ bool isDivisible(const Primitive& primitive) {
 }
 
 void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
-    const double each = triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.given.scene), 1));
+    const double each =
+        triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.given.scene), 1));
     const int n = static_cast<int>(std::lround(std::sqrt(std::max(each, 1.0))));
     if (n < 2) return;
     for (Mesh& mesh : pushed.scene.meshes)

@@ -12,8 +12,8 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double resolved = 1.25;       // a reach is known to this factor
-constexpr std::size_t mostAdded = 16;   // steps of a quantity beyond its own
+constexpr double resolved = 1.25;      // a reach is known to this factor
+constexpr std::size_t mostAdded = 16;  // steps of a quantity beyond its own
 constexpr double agreement = 2;
 
 double errorOf(const Outcome& outcome) {
@@ -47,7 +47,8 @@ double rounded(double magnitude, const Quantity& quantity) {
     return quantity.whole ? std::round(magnitude) : std::stod(fmt::format("{:.4g}", magnitude));
 }
 
-Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings, double error) {
+Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings,
+                      double error) {
     return quantity.predict && isPrecise(settings) ? quantity.predict(subject, settings, error) : Predicted{};
 }
 
@@ -77,8 +78,8 @@ bool agrees(const Reach& reach, double predicted, bool up, double tried) {
 std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& steps, std::size_t series,
                                                       double usual) {
     std::array<std::vector<Hold>, criterionCount> all;
-    const auto at = static_cast<std::size_t>(
-        std::ranges::lower_bound(steps, usual, {}, &Step::magnitude) - steps.begin());
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(steps, usual, {}, &Step::magnitude) -
+                                             steps.begin());
     for (std::size_t c = 0; c < criterionCount; ++c)
         for (std::size_t s = 0; s < series; ++s) {
             Hold hold;
@@ -155,8 +156,9 @@ Requirement judge(const QuantityAudit& audit, double magnitude) {
             if (met) break;
         }
         requirement.met = requirement.met && met;
-        if (!met) requirement.because += fmt::format("{}{}: {}", requirement.because.empty() ? "" : "; ",
-                                                     nameOf(path), reached);
+        if (!met)
+            requirement.because +=
+                fmt::format("{}{}: {}", requirement.because.empty() ? "" : "; ", nameOf(path), reached);
     }
     return requirement;
 }

@@ -95,7 +95,7 @@ struct Audit {
     std::vector<Requirement> requirements;
     std::vector<std::string> notes;
     std::map<std::string, std::string> scenes;  // reduced ones: name of the file, and its text
-    std::size_t kept = 0;  // steps that an earlier command had measured
+    std::size_t kept = 0;                       // steps that an earlier command had measured
 };
 
 }  // namespace diptych::audit

@@ -46,8 +46,8 @@ void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
     const glm::dvec3 to_eye = subject.view.eye() - subject.point;
     glm::dvec3 along = to_eye - glm::dot(to_eye, subject.normal) * subject.normal;
     if (!(glm::length(along) > 1e-6 * glm::length(to_eye)))
-        along = glm::cross(subject.normal, std::abs(subject.normal.y) < 0.9 ? glm::dvec3(0, 1, 0)
-                                                                            : glm::dvec3(1, 0, 0));
+        along = glm::cross(subject.normal,
+                           std::abs(subject.normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
     const double angle = glm::radians(degrees);
     const glm::dvec3 direction = std::cos(angle) * glm::normalize(along) + std::sin(angle) * subject.normal;
     const glm::dvec3 eye = subject.point + glm::length(to_eye) * direction;
@@ -64,13 +64,15 @@ void pushExposure(Case& pushed, const Subject&, double factor) {
 }
 
 Predicted predictExposure(const Subject&, const Settings&, double) {
-    return {.because = "exposure multiplies float32 radiance in double; both pictures are rounded to 8 bits after "
-                       "the tone curve"};
+    return {.because =
+                "exposure multiplies float32 radiance in double; both pictures are rounded to 8 bits after "
+                "the tone curve"};
 }
 
 Predicted predictNear(const Subject&, const Settings&, double) {
-    return {.because = "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
-                       "of it in one division"};
+    return {.because =
+                "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
+                "of it in one division"};
 }
 
 // A vertex lies within 2^-24 of its distance; seen through so small an angle that is a part of a pixel, and
@@ -79,13 +81,15 @@ Predicted predictFov(const Subject& subject, const Settings&, double error) {
     const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
     const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
     (void)error;
-    return {.down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
-            .because = "a vertex is known to 2^-24 of its distance: at that angle the whole picture is as large"};
+    return {
+        .down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
+        .because = "a vertex is known to 2^-24 of its distance: at that angle the whole picture is as large"};
 }
 
 Predicted predictGrazing(const Subject&, const Settings&, double) {
-    return {.because = "n.v is kept from 0 by 1e-4 in the material's definition, and depth is interpolated by the "
-                       "rasteriser's own planes"};
+    return {.because =
+                "n.v is kept from 0 by 1e-4 in the material's definition, and depth is interpolated by the "
+                "rasteriser's own planes"};
 }
 
 }  // namespace

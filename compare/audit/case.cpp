@@ -54,7 +54,8 @@ Subject makeSubject(const Scene& scene, const Settings& settings) {
     subject.view_name = view.default_view.empty() ? view.view.camera.name : view.default_view;
     Case& given = subject.given;
     given.scene.lights = view.lights;
-    if (view.sun && !given.scene.lights.empty()) given.scene.lights.pop_back();  // --env-sun takes it out again
+    if (view.sun && !given.scene.lights.empty())
+        given.scene.lights.pop_back();  // --env-sun takes it out again
     for (Light& light : given.scene.lights) {
         light.node = -1;
         light.source = -1;

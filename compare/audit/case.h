@@ -44,7 +44,8 @@ Subject makeSubject(const Scene& scene, const Settings& settings);
 // translation. Lights and planes of the camera keep their own units: see scaleLengths().
 void moveAll(Case& pushed, const glm::dmat4& move);
 
-// Multiplies all lengths by a factor so that the picture stays the same: scene, lights, haze, shadows, camera.
+// Multiplies all lengths by a factor so that the picture stays the same: scene, lights, haze, shadows,
+// camera.
 void scaleLengths(Case& pushed, double factor);
 
 }  // namespace diptych::audit

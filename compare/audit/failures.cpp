@@ -72,16 +72,14 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer,
     const auto plural = [](std::size_t count, const char* what) {
         return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
     };
-    failure.words =
-        fmt::format("{}; {}, {} and {}x{} pixels show it: error {}", at, plural(reduced->triangles, "triangle"),
-                    plural(reduced->lights, "light"), small.size.width, small.size.height,
-                    page::number(reduced->shown.error));
+    failure.words = fmt::format("{}; {}, {} and {}x{} pixels show it: error {}", at,
+                                plural(reduced->triangles, "triangle"), plural(reduced->lights, "light"),
+                                small.size.width, small.size.height, page::number(reduced->shown.error));
     Settings asked = series.applied(small);
     asked.lights = (folder / lights).string();
     asked.path = Settings().path;
-    failure.command =
-        shellLine(withOption(commandWords("compare", (folder / failure.scene).string(), asked), "--baseline",
-                             "reference"));
+    failure.command = shellLine(withOption(commandWords("compare", (folder / failure.scene).string(), asked),
+                                           "--baseline", "reference"));
     of.failures.push_back(std::move(failure));
 }
 

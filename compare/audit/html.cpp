@@ -58,9 +58,9 @@ std::string tableOf(const Audit& audit) {
 }
 
 std::string stepsOf(const QuantityAudit& of) {
-    std::string out = "<details><summary>Every step</summary><div class=\"scroll rows\"><table class=\"stack\">" +
-                      headOf({"magnitude", "settings", "light", "depth", "FLIP", "misplaced", "no numbers"}) +
-                      "<tbody>";
+    std::string out =
+        "<details><summary>Every step</summary><div class=\"scroll rows\"><table class=\"stack\">" +
+        headOf({"magnitude", "settings", "light", "depth", "FLIP", "misplaced", "no numbers"}) + "<tbody>";
     for (const Step& step : of.steps)
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const Outcome& outcome = step.outcomes[s];
@@ -78,8 +78,9 @@ std::string stepsOf(const QuantityAudit& of) {
 
 std::string sectionOf(const QuantityAudit& of) {
     const Quantity& quantity = *of.quantity;
-    std::string out = fmt::format("<div class=\"box\" id=\"{0}\"><h3>{0}</h3><p class=\"soft\">{1}; here {2} {3}</p>",
-                                  quantity.name, markup(quantity.what), magnitudeInWords(of.usual), quantity.unit);
+    std::string out =
+        fmt::format("<div class=\"box\" id=\"{0}\"><h3>{0}</h3><p class=\"soft\">{1}; here {2} {3}</p>",
+                    quantity.name, markup(quantity.what), magnitudeInWords(of.usual), quantity.unit);
     out += auditPlot(of, PlotPlace::page);
     std::vector<std::string> reasons;
     for (const std::vector<Predicted>& predicted : of.predicted)
@@ -89,9 +90,10 @@ std::string sectionOf(const QuantityAudit& of) {
     for (const std::string& reason : reasons)
         out += fmt::format("<p class=\"soft small\">Predicted: {}</p>", markup(reason));
     for (const Failure& failure : of.failures)
-        out += fmt::format("<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy"
-                           "</button></p>",
-                           markup(failure.words), markup(failure.command));
+        out += fmt::format(
+            "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy"
+            "</button></p>",
+            markup(failure.words), markup(failure.command));
     return out + stepsOf(of) + "</div>\n";
 }
 
@@ -106,7 +108,8 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: an audit, {}</title>\n"
         "<style>{}{}{}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{}{}</h1>"
-        "<p class=\"soft\">where each path breaks, one quantity at a time; {}x{} on {} ({}); {}</p></header>\n",
+        "<p class=\"soft\">where each path breaks, one quantity at a time; {}x{} on {} ({}); "
+        "{}</p></header>\n",
         markup(audit.scene), page::style, plotStyle, auditStyle, verdict, page::breakable(audit.scene),
         audit.settings.size.width, audit.settings.size.height, markup(audit.device.name),
         markup(audit.device.driver), markup(audit.camera));
@@ -119,15 +122,19 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
     out += "<h2>How far each holds</h2>\n" + tableOf(audit);
     out +=
         "<p class=\"soft small\">The error is the larger of two 99th percentiles over the pixels that show a "
-        "surface: lit against a reference in double precision of the surfaces that forward+ captures, and view "
-        "depth against rays traced in double. Predictions are of what float32 and double can hold, for Settings "
-        "that round no more than these; they agree where both are within a factor of 2.</p>\n<h2>Error by magnitude</h2>\n<div class=\"audit\">";
+        "surface: lit against a reference in double precision of the surfaces that forward+ captures, and "
+        "view "
+        "depth against rays traced in double. Predictions are of what float32 and double can hold, for "
+        "Settings "
+        "that round no more than these; they agree where both are within a factor of 2.</p>\n<h2>Error by "
+        "magnitude</h2>\n<div class=\"audit\">";
     for (const QuantityAudit& of : audit.quantities)
         if (of.lacks.empty()) out += sectionOf(of);
     out += "</div>\n";
     std::vector<std::string> notes = audit.notes;
     for (const QuantityAudit& of : audit.quantities)
-        if (!of.lacks.empty()) notes.push_back(fmt::format("{} was not pushed: {}", of.quantity->name, of.lacks));
+        if (!of.lacks.empty())
+            notes.push_back(fmt::format("{} was not pushed: {}", of.quantity->name, of.lacks));
     if (!notes.empty()) {
         out += "<h3 class=\"part\">Notes</h3><div class=\"box says\"><ul>";
         for (const std::string& note : notes) out += "<li>" + markup(note) + "</li>";

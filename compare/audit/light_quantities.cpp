@@ -53,13 +53,15 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
 }
 
 Predicted predictRange(const Subject&, const Settings&, double) {
-    return {.because = "the window is of the squared ratio of distance and range, which is formed in one step"};
+    return {.because =
+                "the window is of the squared ratio of distance and range, which is formed in one step"};
 }
 
 Predicted predictDistance(const Subject&, const Settings&, double) {
-    return {.because = "a light's place is relative to the camera in double until it is stored; its vector to the "
-                       "surface is a difference of float32 whose error is of the view's size, which p99 forgives "
-                       "where it is smaller than a pixel"};
+    return {.because =
+                "a light's place is relative to the camera in double until it is stored; its vector to the "
+                "surface is a difference of float32 whose error is of the view's size, which p99 forgives "
+                "where it is smaller than a pixel"};
 }
 
 Predicted predictEye(const Subject&, const Settings&, double) {
@@ -179,55 +181,56 @@ void pushEnvironment(Case& pushed, const Subject&, double factor) {
 std::vector<Quantity> lightQuantities() {
     std::vector<double> cones = ladder(0.01, 10);
     for (const double wide : {30.0, 90.0, 150.0, 179.0, 180.0}) cones.push_back(wide);
-    return {{.name = "intensity",
-             .unit = "",
-             .what = "all that sends light, multiplied by a factor",
-             .magnitudes = ladder(1e-12, 1e12),
-             .usual = usualOne,
-             .lacks = lacksNothing,
-             .push = pushIntensity,
-             .same_picture = true,
-             .light = true,
-             .predict = predictIntensity},
-            {.name = "range",
-             .unit = "m",
-             .what = "the range of every point, spot and area light",
-             .magnitudes = ladder(1e-3, 1e9),
-             .usual = usualRange,
-             .lacks = lacksLocalLight,
-             .push = pushRange,
-             .predict = predictRange},
-            {.name = "distance",
-             .unit = "m",
-             .what = "local lights from the surface in the middle of the picture, as bright there as they were",
-             .magnitudes = ladder(1e-9, 1e7),
-             .usual = usualDistance,
-             .lacks = lacksDistance,
-             .push = pushDistance,
-             .predict = predictDistance},
-            {.name = "eye",
-             .unit = "m",
-             .what = "local lights from the camera",
-             .magnitudes = ladder(1e-9, 1e7),
-             .usual = usualEye,
-             .lacks = lacksLocalLight,
-             .push = pushEye,
-             .predict = predictEye},
-            {.name = "cone",
-             .unit = "degrees",
-             .what = "the whole angle of every point and spot, inner as outer",
-             .magnitudes = cones,
-             .usual = usualCone,
-             .lacks = lacksCone,
-             .push = pushCone,
-             .predict = predictCone},
-            {.name = "environment",
-             .unit = "",
-             .what = "the brightest pixel of the environment, multiplied by a factor",
-             .magnitudes = ladder(1, 1e12),
-             .usual = usualOne,
-             .lacks = lacksEnvironment,
-             .push = pushEnvironment}};
+    return {
+        {.name = "intensity",
+         .unit = "",
+         .what = "all that sends light, multiplied by a factor",
+         .magnitudes = ladder(1e-12, 1e12),
+         .usual = usualOne,
+         .lacks = lacksNothing,
+         .push = pushIntensity,
+         .same_picture = true,
+         .light = true,
+         .predict = predictIntensity},
+        {.name = "range",
+         .unit = "m",
+         .what = "the range of every point, spot and area light",
+         .magnitudes = ladder(1e-3, 1e9),
+         .usual = usualRange,
+         .lacks = lacksLocalLight,
+         .push = pushRange,
+         .predict = predictRange},
+        {.name = "distance",
+         .unit = "m",
+         .what = "local lights from the surface in the middle of the picture, as bright there as they were",
+         .magnitudes = ladder(1e-9, 1e7),
+         .usual = usualDistance,
+         .lacks = lacksDistance,
+         .push = pushDistance,
+         .predict = predictDistance},
+        {.name = "eye",
+         .unit = "m",
+         .what = "local lights from the camera",
+         .magnitudes = ladder(1e-9, 1e7),
+         .usual = usualEye,
+         .lacks = lacksLocalLight,
+         .push = pushEye,
+         .predict = predictEye},
+        {.name = "cone",
+         .unit = "degrees",
+         .what = "the whole angle of every point and spot, inner as outer",
+         .magnitudes = cones,
+         .usual = usualCone,
+         .lacks = lacksCone,
+         .push = pushCone,
+         .predict = predictCone},
+        {.name = "environment",
+         .unit = "",
+         .what = "the brightest pixel of the environment, multiplied by a factor",
+         .magnitudes = ladder(1, 1e12),
+         .usual = usualOne,
+         .lacks = lacksEnvironment,
+         .push = pushEnvironment}};
 }
 
 }  // namespace diptych::audit

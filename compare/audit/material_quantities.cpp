@@ -60,8 +60,9 @@ Predicted predictEmission(const Subject&, const Settings&, double) {
 }
 
 Predicted predictColor(const Subject&, const Settings&, double) {
-    return {.because = "a colour that is too dark for float32 sends nothing beside what the surface reflects as a "
-                       "mirror"};
+    return {.because =
+                "a colour that is too dark for float32 sends nothing beside what the surface reflects as a "
+                "mirror"};
 }
 
 }  // namespace

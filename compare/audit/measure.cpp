@@ -145,10 +145,7 @@ std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject) {
 }
 
 Measurer::Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep)
-    : device_(device),
-      subject_(subject),
-      on_step_(std::move(onStep)),
-      pipelines_(makePipelineSet(device)) {}
+    : device_(device), subject_(subject), on_step_(std::move(onStep)), pipelines_(makePipelineSet(device)) {}
 
 Frame Measurer::litOfSurfaces(Renderer& renderer, Settings settings) {
     settings.path = Path::reference;
@@ -254,7 +251,8 @@ Step Measurer::measure(Case pushed, std::span<const Series> series, const Quanti
         }
         step.covered = coverage(truth.rays, truth.rays).count;
         for (std::size_t i = 0; i < frames.size(); ++i)
-            if (step.outcomes[i].failed.empty()) step.outcomes[i] = outcomeOf(truth, frames[i], frames[i], pushed.exposure);
+            if (step.outcomes[i].failed.empty())
+                step.outcomes[i] = outcomeOf(truth, frames[i], frames[i], pushed.exposure);
     } catch (const std::exception& error) {
         step.failed = error.what();
         step.outcomes.assign(series.size(), failedOutcome(error.what()));

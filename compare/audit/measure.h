@@ -84,8 +84,7 @@ private:
     const Truth& usual();
     // `exposure`: Case::exposure.
     static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
-    Step measure(Case pushed, std::span<const Series> series, const Quantity* quantity,
-                 double magnitude);
+    Step measure(Case pushed, std::span<const Series> series, const Quantity* quantity, double magnitude);
 
     Device& device_;
     const Subject& subject_;

@@ -44,7 +44,8 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
         carrier.parent_from_node = back;
         carrier.transform = -1;
         if (carrier.copies >= 0) {
-            for (glm::dmat4& copy : scene.copies[static_cast<std::size_t>(carrier.copies)]) copy = copy * back;
+            for (glm::dmat4& copy : scene.copies[static_cast<std::size_t>(carrier.copies)])
+                copy = copy * back;
             continue;
         }
         scene.nodes[i].mesh = -1;
@@ -59,13 +60,15 @@ double distanceOf(const Subject& subject) {
 }
 
 Predicted predictOffset(const Subject& subject, const Settings&, double error) {
-    return {.up = error * distanceOf(subject) * 0x1p53,
-            .because = "places are composed relative to the camera in double, whose 53 bits are of the offset"};
+    return {
+        .up = error * distanceOf(subject) * 0x1p53,
+        .because = "places are composed relative to the camera in double, whose 53 bits are of the offset"};
 }
 
 Predicted predictVertex(const Subject&, const Settings&, double) {
-    return {.because = "vertices are stored from the middle of all meshes, which is exact: float32's bits are "
-                       "of the scene's size"};
+    return {.because =
+                "vertices are stored from the middle of all meshes, which is exact: float32's bits are "
+                "of the scene's size"};
 }
 
 Predicted predictScale(const Subject& subject, const Settings&, double) {
@@ -77,8 +80,9 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
     const double dim = std::isfinite(least) && least > 0 ? std::sqrt(0x1p-126 / least) : 0;
     return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
             .down = std::max(dim, 0x1p-63 / distanceOf(subject)),
-            .because = "squares of lengths are float32, from 1e-38 to 3e38, and so are candela, which go with "
-                       "the square of the factor"};
+            .because =
+                "squares of lengths are float32, from 1e-38 to 3e38, and so are candela, which go with "
+                "the square of the factor"};
 }
 
 double usualOffset(const Subject&) {

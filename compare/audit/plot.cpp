@@ -38,8 +38,9 @@ public:
     std::string svg(PlotPlace place) const {
         Drawing drawing;
         const std::vector<Tick> ticks = fewerNames(across_.ticks());
-        drawing.axes(box_, ticks, [this](double m) { return x(m); }, axisName(), up_.ticks(),
-                     [this](double e) { return y(e); }, "relative error");
+        drawing.axes(
+            box_, ticks, [this](double m) { return x(m); }, axisName(), up_.ticks(),
+            [this](double e) { return y(e); }, "relative error");
         std::string out = drawing.group();
         for (const double limit : {1e-3, 1e-2})
             out += fmt::format("<line class=\"budget\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
@@ -51,7 +52,8 @@ public:
         // Of series that lie on each other the first is on top.
         for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
         out += legend();
-        return plotElement(plotWidth, box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
+        return plotElement(plotWidth,
+                           box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
                            fmt::format("error over {}", audit_.quantity->name), place, out);
     }
 
@@ -78,7 +80,8 @@ private:
         // Dashes tell series of one path apart.
         std::size_t before = 0;
         for (std::size_t i = 0; i < s; ++i) before += audit_.series[i].path == audit_.series[s].path;
-        return fmt::format("curve {} dash{}", nameOf(audit_.series[s].path), std::min<std::size_t>(before, 4));
+        return fmt::format("curve {} dash{}", nameOf(audit_.series[s].path),
+                           std::min<std::size_t>(before, 4));
     }
     std::string line(std::size_t s) const {
         std::string path, marks;
@@ -86,18 +89,18 @@ private:
             const Outcome& outcome = step.outcomes[s];
             const double px = x(step.magnitude), py = y(outcome.error());
             path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
-            const std::string words = page::markup(
-                fmt::format("{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
-                            audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
-                            outcome.error(), outcome.light, outcome.depth, outcome.flip,
-                            outcome.nonfinite > 0 ? fmt::format(", {} pixels no numbers", outcome.nonfinite)
-                                                  : ""));
+            const std::string words = page::markup(fmt::format(
+                "{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
+                audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
+                outcome.error(), outcome.light, outcome.depth, outcome.flip,
+                outcome.nonfinite > 0 ? fmt::format(", {} pixels no numbers", outcome.nonfinite) : ""));
             const bool number = std::isfinite(outcome.error());
             marks += number ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3\"><title>{}</title></circle>",
                                           svgNumber(px), svgNumber(py), words)
-                            : fmt::format("<path class=\"cross\" d=\"M{0} {1}l8 8m0 -8l-8 8\"><title>{2}"
-                                          "</title></path>",
-                                          svgNumber(px - 4), svgNumber(py - 4), words);
+                            : fmt::format(
+                                  "<path class=\"cross\" d=\"M{0} {1}l8 8m0 -8l-8 8\"><title>{2}"
+                                  "</title></path>",
+                                  svgNumber(px - 4), svgNumber(py - 4), words);
         }
         return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", kind(s), path, marks);
     }

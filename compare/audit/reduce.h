@@ -24,8 +24,8 @@ struct Reduced {
     std::size_t triangles = 0, lights = 0, tried = 0;
 };
 
-// `test`: whether a case fails as it should. At most `budget` cases are tried; nothing where the scene without
-// textures and motion does not fail.
+// `test`: whether a case fails as it should. At most `budget` cases are tried; nothing where the scene
+// without textures and motion does not fail.
 std::optional<Reduced> reduce(const Case& failing, const std::function<FailingPixel(const Case&)>& test,
                               std::size_t budget);
 

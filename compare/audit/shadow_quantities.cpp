@@ -42,9 +42,8 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
     scene.materials.push_back(black);
     glm::dmat4 there(1);
     there[3] = glm::dvec4(place, 1);
-    scene.nodes.push_back({.name = "caster",
-                           .parent_from_node = there,
-                           .mesh = static_cast<int>(scene.meshes.size())});
+    scene.nodes.push_back(
+        {.name = "caster", .parent_from_node = there, .mesh = static_cast<int>(scene.meshes.size())});
     scene.meshes.push_back({.name = "caster", .primitives = {std::move(triangle)}});
 }
 
@@ -75,8 +74,9 @@ Predicted predictHaze(const Subject& subject, const Settings& settings, double) 
     const double least = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
     constexpr double opaque = 87;  // e^-87 is float32's least normal number
     return {.up = opaque / (least * subject.nearest),
-            .because = "behind an optical depth of 87 float32 has no light; it is reached where the nearest "
-                       "surface is"};
+            .because =
+                "behind an optical depth of 87 float32 has no light; it is reached where the nearest "
+                "surface is"};
 }
 
 }  // namespace

@@ -39,9 +39,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 // The buffer, views and accessors of a file.
 class Buffers {
 public:
-    explicit Buffers(Json& gltf) : gltf_(gltf) {
-        gltf_["accessors"] = gltf_["bufferViews"] = Json::array();
-    }
+    explicit Buffers(Json& gltf) : gltf_(gltf) { gltf_["accessors"] = gltf_["bufferViews"] = Json::array(); }
     // An accessor's number. `type`: "VEC3"; `component`: 5126 float, 5125 unsigned int.
     template <class T>
     std::size_t add(const std::vector<T>& values, const char* type, int component) {
@@ -79,13 +77,14 @@ Json listOf(const glm::dvec3& v) {
 }
 
 Json jsonOf(const Material& material) {
-    Json json{{"name", material.name},
-              {"pbrMetallicRoughness",
-               {{"baseColorFactor",
-                 {material.base_color.r, material.base_color.g, material.base_color.b, material.base_color.a}},
-                {"metallicFactor", material.metallic},
-                {"roughnessFactor", material.roughness}}},
-              {"doubleSided", material.double_sided}};
+    Json json{
+        {"name", material.name},
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor",
+           {material.base_color.r, material.base_color.g, material.base_color.b, material.base_color.a}},
+          {"metallicFactor", material.metallic},
+          {"roughnessFactor", material.roughness}}},
+        {"doubleSided", material.double_sided}};
     json["alphaMode"] = material.alpha_mode == AlphaMode::opaque ? "OPAQUE"
                         : material.alpha_mode == AlphaMode::mask ? "MASK"
                                                                  : "BLEND";
@@ -94,8 +93,7 @@ Json jsonOf(const Material& material) {
     more["KHR_materials_ior"] = {{"ior", material.ior}};
     more["KHR_materials_specular"] = {{"specularFactor", material.specular},
                                       {"specularColorFactor", listOf(glm::dvec3(material.specular_color))}};
-    const float brightest =
-        std::max({material.emissive.r, material.emissive.g, material.emissive.b, 0.0f});
+    const float brightest = std::max({material.emissive.r, material.emissive.g, material.emissive.b, 0.0f});
     if (brightest > 0) {
         json["emissiveFactor"] = listOf(glm::dvec3(material.emissive) / double{brightest});
         more["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
@@ -174,19 +172,22 @@ std::size_t triangleCount(const Scene& scene) {
 
 std::string gltfOf(const Case& flat) {
     Json gltf{{"asset", {{"version", "2.0"}, {"generator", "diptych audit"}}}};
-    gltf["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular", "KHR_materials_emissive_strength",
-                              "KHR_materials_unlit", "KHR_materials_transmission"};
+    gltf["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular",
+                              "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                              "KHR_materials_transmission"};
     gltf["scene"] = 0;
     gltf["nodes"] = gltf["meshes"] = gltf["materials"] = Json::array();
     Buffers buffers(gltf);
     std::vector<int> materials(flat.scene.materials.size(), -1);
     for (const Node& node : flat.scene.nodes) {
-        const Primitive& primitive = flat.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.front();
+        const Primitive& primitive =
+            flat.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.front();
         if (primitive.indices.empty()) continue;
         int& material = materials[static_cast<std::size_t>(primitive.material)];
         if (material < 0) {
             material = static_cast<int>(gltf["materials"].size());
-            gltf["materials"].push_back(jsonOf(flat.scene.materials[static_cast<std::size_t>(primitive.material)]));
+            gltf["materials"].push_back(
+                jsonOf(flat.scene.materials[static_cast<std::size_t>(primitive.material)]));
         }
         // Only the vertices that are used.
         Primitive used;
@@ -207,10 +208,9 @@ std::string gltfOf(const Case& flat) {
         Json attributes{{"POSITION", positions}, {"NORMAL", buffers.add(used.normals, "VEC3", 5126)}};
         if (!used.colors.empty()) attributes["COLOR_0"] = buffers.add(used.colors, "VEC4", 5126);
         gltf["meshes"].push_back(
-            {{"primitives",
-              Json::array({{{"attributes", attributes},
-                            {"indices", buffers.add(used.indices, "SCALAR", 5125)},
-                            {"material", material}}})}});
+            {{"primitives", Json::array({{{"attributes", attributes},
+                                          {"indices", buffers.add(used.indices, "SCALAR", 5125)},
+                                          {"material", material}}})}});
         gltf["nodes"].push_back({{"mesh", gltf["meshes"].size() - 1},
                                  {"matrix", listOf(glm::value_ptr(node.parent_from_node), 16)}});
     }
@@ -226,7 +226,8 @@ std::string gltfOf(const Case& flat) {
         lens["perspective"] = {{"yfov", camera.yfov}, {"znear", camera.near}};
     if (!camera.orthographic && std::isfinite(camera.far)) lens["perspective"]["zfar"] = camera.far;
     gltf["cameras"] = Json::array({lens});
-    gltf["nodes"].push_back({{"camera", 0}, {"matrix", listOf(glm::value_ptr(camera.world_from_camera), 16)}});
+    gltf["nodes"].push_back(
+        {{"camera", 0}, {"matrix", listOf(glm::value_ptr(camera.world_from_camera), 16)}});
     Json roots = Json::array();
     for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) roots.push_back(i);
     gltf["scenes"] = Json::array({{{"nodes", roots}}});

@@ -56,11 +56,10 @@ Json jsonOf(const QuantityAudit& audit) {
         for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
             const Predicted& predicted = audit.predicted[c][s];
             if (predicted.because.empty()) continue;
-            series["predicted"][std::string(criteria[c].name)] = {
-                {"down", predicted.down},
-                {"up", numberOf(predicted.up)},
-                {"because", predicted.because},
-                {"agrees", *agrees(audit, c, s)}};
+            series["predicted"][std::string(criteria[c].name)] = {{"down", predicted.down},
+                                                                  {"up", numberOf(predicted.up)},
+                                                                  {"because", predicted.because},
+                                                                  {"agrees", *agrees(audit, c, s)}};
         }
         json["series"].push_back(std::move(series));
     }
@@ -149,9 +148,12 @@ Json toJson(const Step& step) {
     if (!step.failed.empty()) json["failed"] = step.failed;
     json["outcomes"] = Json::array();
     for (const Outcome& outcome : step.outcomes) {
-        Json one{{"error", numberOf(outcome.error())}, {"light", numberOf(outcome.light)},
-                 {"depth", numberOf(outcome.depth)},   {"flip", numberOf(outcome.flip)},
-                 {"misplaced", outcome.misplaced},     {"nonfinite", outcome.nonfinite},
+        Json one{{"error", numberOf(outcome.error())},
+                 {"light", numberOf(outcome.light)},
+                 {"depth", numberOf(outcome.depth)},
+                 {"flip", numberOf(outcome.flip)},
+                 {"misplaced", outcome.misplaced},
+                 {"nonfinite", outcome.nonfinite},
                  {"worst", {outcome.worst_x, outcome.worst_y}}};
         if (!outcome.failed.empty()) one["failed"] = outcome.failed;
         json["outcomes"].push_back(std::move(one));

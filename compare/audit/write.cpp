@@ -37,7 +37,8 @@ std::string writeAudit(const Audit& audit, const std::filesystem::path& path, bo
     nlohmann::ordered_json json = toJson(audit);
     json["software"] = softwareName;
     json["files"] = files;
-    const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     writeFile(folder / auditManifest, text);
     folder.put(files, earlier);
     return text;

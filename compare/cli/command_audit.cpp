@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/audit.h"
-#include "compare/audit/quantities.h"
 #include "compare/audit/failures.h"
+#include "compare/audit/quantities.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/cli/commands.h"
@@ -71,12 +71,14 @@ public:
         audit::Measurer measurer(device_, subject, [&](const std::string& step) { say(options_, step); });
         KeptFolder kept(folder_, "audit", keyOf(measurer));
         if (kept.isRenewed())
-            note(options_, "what an audit that was cut short left is of another scene, device or Settings: anew");
+            note(options_,
+                 "what an audit that was cut short left is of another scene, device or Settings: anew");
         sayWhenInterrupted("the steps so far are kept: the same command goes on from there");
         const std::vector<const audit::Quantity*> all = audit::quantitiesOf(options_.audit.quantities);
         for (std::size_t q = 0; q < all.size(); ++q) {
             const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
-            measure(*all[q], subject, measurer, kept, stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
+            measure(*all[q], subject, measurer, kept,
+                    stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
         }
         for (const auto& [name, magnitude] : options_.audit.required)
             for (const audit::QuantityAudit& quantity : audit_.quantities)

@@ -43,9 +43,9 @@ int listChannels(const Options& options) {
 int runCommand(const Options& options) {
     if (options.list_channels) return listChannels(options);
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
-        {"compare", runCompare},   {"render", runRender},   {"diff", runDiff},
-        {"tradeoff", runTradeoff}, {"explain", runExplain}, {"choose", runChoose},
-        {"audit", runAudit},       {"bench", runBench},       {"plan", runPlan},       {"devices", runDevices}};
+        {"compare", runCompare}, {"render", runRender},  {"diff", runDiff},   {"tradeoff", runTradeoff},
+        {"explain", runExplain}, {"choose", runChoose},  {"audit", runAudit}, {"bench", runBench},
+        {"plan", runPlan},       {"devices", runDevices}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::runtime_error(options.command + " is not built yet");

@@ -47,12 +47,12 @@ struct Options {
     bool camera_given = false;             // --camera stood on the command line or in --settings
     bool path_given = false;               // --path stood on the command line
     bool size_given = false, shadows_given = false;  // likewise, or in --settings
-    Path baseline = Path::deferred;        // compare: the left panel
-    int shown = 0;                         // debug mode of the picture
-    bool debug_given = false;              // --debug stood on the command line
-    bool heat = false;                     // --heat: shown is the light count, whatever --debug says
-    std::vector<int> channels;             // debug modes, ascending; empty: all that can be made
-    int runs = 5;                          // timed frames
+    Path baseline = Path::deferred;                  // compare: the left panel
+    int shown = 0;                                   // debug mode of the picture
+    bool debug_given = false;                        // --debug stood on the command line
+    bool heat = false;          // --heat: shown is the light count, whatever --debug says
+    std::vector<int> channels;  // debug modes, ascending; empty: all that can be made
+    int runs = 5;               // timed frames
     PictureChoice picture;
     std::filesystem::path match_exposure;  // a picture whose exposure is taken over; empty: none
     std::string device;                    // index or part of a name

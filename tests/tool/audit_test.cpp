@@ -13,7 +13,8 @@ namespace {
 std::size_t stepsIn(const fs::path& state) {
     std::size_t steps = 0;
     std::error_code ignored;
-    for (fs::directory_iterator entry(state, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+    for (fs::directory_iterator entry(state, ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
         const std::string name = entry->path().filename();
         steps += name.ends_with(".json") && name != "key.json" && name.front() != '.';
     }
@@ -22,9 +23,10 @@ std::size_t stepsIn(const fs::path& state) {
 
 TEST(AuditTool, AFolderOfPlotsAndTablesAndAnExitCode) {
     const Folder folder;
-    const Ran ran = runTool(folder,
-                            "audit builtin:triangle --size 32x18 --quantity offset,environment,haze --require "
-                            "offset=1e7 -o out");
+    const Ran ran =
+        runTool(folder,
+                "audit builtin:triangle --size 32x18 --quantity offset,environment,haze --require "
+                "offset=1e7 -o out");
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.out.find("pass: offset as far as 1e+07"), ran.out.npos) << ran.out;
     EXPECT_NE(ran.out.find("environment: not pushed: the scene has no environment"), ran.out.npos) << ran.out;
@@ -48,8 +50,8 @@ TEST(AuditTool, AFolderOfPlotsAndTablesAndAnExitCode) {
 
 TEST(AuditTool, WhatIsNotReachedIsSaid) {
     const Folder folder;
-    const Ran ran = runTool(folder,
-                            "audit builtin:triangle --size 32x18 --quantity haze --require haze=1e12 -o out");
+    const Ran ran =
+        runTool(folder, "audit builtin:triangle --size 32x18 --quantity haze --require haze=1e12 -o out");
     EXPECT_EQ(ran.code, 1) << ran.err;
     EXPECT_NE(ran.out.find("FAIL: haze as far as 1e+12"), ran.out.npos) << ran.out;
     EXPECT_NE(contentsOf(folder / "out/index.html").find("verdict fail"), std::string::npos);
@@ -57,8 +59,8 @@ TEST(AuditTool, WhatIsNotReachedIsSaid) {
 
 TEST(AuditTool, OneThatWasKilledGoesOn) {
     const Folder folder;
-    const std::vector<std::string> words{"audit", "builtin:triangle", "--size",    "64x36",
-                                         "-o",    "t",                "--quantity", "intensity"};
+    const std::vector<std::string> words{"audit", "builtin:triangle", "--size",   "64x36", "-o",
+                                         "t",     "--quantity",       "intensity"};
     ASSERT_EQ(runTool(folder, shellWords(words) + "-q").code, 0);
     const Json whole = readJson(folder / "t/audit.json");
     fs::remove_all(folder / "t");
@@ -76,7 +78,8 @@ TEST(AuditTool, OneThatWasKilledGoesOn) {
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(readJson(folder / "t/audit.json")["quantities"], whole["quantities"]);
     std::size_t drawn = 0;
-    for (std::size_t at = ran.err.find("intensity "); at != ran.err.npos; at = ran.err.find("intensity ", at + 1))
+    for (std::size_t at = ran.err.find("intensity "); at != ran.err.npos;
+         at = ran.err.find("intensity ", at + 1))
         ++drawn;
     EXPECT_EQ(drawn + kept, whole["quantities"][0]["steps"].size()) << "what was kept is not drawn again";
 }

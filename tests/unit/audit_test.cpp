@@ -68,8 +68,8 @@ TEST(Audit, AnErrorIsTheLargerOneAndInfiniteWithoutNumbers) {
 }
 
 TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
-    const std::vector<Step> steps{stepOf(0.01, 1), stepOf(0.1, 5e-3), stepOf(1, 1e-5), stepOf(10, 2e-3),
-                                  stepOf(100, 1e-4), stepOf(1000, 0.5, 0.2, 3)};
+    const std::vector<Step> steps{stepOf(0.01, 1),  stepOf(0.1, 5e-3), stepOf(1, 1e-5),
+                                  stepOf(10, 2e-3), stepOf(100, 1e-4), stepOf(1000, 0.5, 0.2, 3)};
     const auto holds = holdsOf(steps, 1, 1);
     const Hold& fine = holds[0][0];
     EXPECT_TRUE(fine.usual);
@@ -130,7 +130,8 @@ TEST(Audit, ARequirementIsOfBothPathsAndTheirBestSeries) {
         if (audit.series[s].path == Path::deferred && audit.series[s].changes.empty()) holds[s].usual = false;
     EXPECT_TRUE(judge(audit, 1e6).met) << "with a G-buffer of float32 it does";
     for (std::size_t s = 0; s < audit.series.size(); ++s)
-        if (audit.series[s].path == Path::forward_plus) holds[s].up = {.last = 1e5, .first = 2e5, .broken = true};
+        if (audit.series[s].path == Path::forward_plus)
+            holds[s].up = {.last = 1e5, .first = 2e5, .broken = true};
     const Requirement requirement = judge(audit, 1e6);
     EXPECT_FALSE(requirement.met);
     EXPECT_NE(requirement.because.find("forward_plus: the error is below 1e-2 as far as 1e+05"),
@@ -162,12 +163,12 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
         if (!quantity.lacks(subject).empty()) continue;
         Case pushed = subject.given;
         quantity.push(pushed, subject, quantity.magnitudes.back());
-        const bool same = pushed.settings == subject.given.settings && pushed.exposure == 0 &&
-                          gltfOf(*flattened(pushed)) == gltfOf(*flattened(subject.given)) &&
-                          lightsFileOf(pushed) == lightsFileOf(subject.given) &&
-                          pushed.scene.materials.front().roughness ==
-                              subject.given.scene.materials.front().roughness &&
-                          quantity.name != "roughness" && quantity.name != "normal_map";
+        const bool same =
+            pushed.settings == subject.given.settings && pushed.exposure == 0 &&
+            gltfOf(*flattened(pushed)) == gltfOf(*flattened(subject.given)) &&
+            lightsFileOf(pushed) == lightsFileOf(subject.given) &&
+            pushed.scene.materials.front().roughness == subject.given.scene.materials.front().roughness &&
+            quantity.name != "roughness" && quantity.name != "normal_map";
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
         EXPECT_FALSE(seriesOf(quantity, subject).empty()) << quantity.name;
     }
@@ -184,7 +185,8 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
     };
     Case moved = subject.given;
     quantityOf("offset").push(moved, subject, 1e6);
-    EXPECT_NEAR(glm::distance(glm::dvec3(moved.camera().world_from_camera[3]), subject.view.eye()), 1e6, 1e-3);
+    EXPECT_NEAR(glm::distance(glm::dvec3(moved.camera().world_from_camera[3]), subject.view.eye()), 1e6,
+                1e-3);
     EXPECT_NEAR(glm::distance(relative(moved), relative(subject.given)), 0, 1e-8);
     EXPECT_NEAR(glm::distance(moved.scene.lights.back().position, subject.given.scene.lights.back().position),
                 1e6, 1e-3);
@@ -233,7 +235,8 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
     EXPECT_EQ(reduced->smallest.scene.nodes.size(), 1u);
     EXPECT_EQ(reduced->smallest.settings.size.width, 1);
     EXPECT_EQ(reduced->tried, tried);
-    EXPECT_FALSE(reduce(subject.given, [](const Case&) { return FailingPixel{}; }, 400));
+    EXPECT_FALSE(reduce(
+        subject.given, [](const Case&) { return FailingPixel{}; }, 400));
     EXPECT_LE(reduce(subject.given, test, 10)->tried, 10u);
 }
 
@@ -252,7 +255,8 @@ TEST(AuditReduce, AReducedSceneIsAFile) {
     ASSERT_EQ(pose.instances.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(pose.instances[i].world_from_object, flat.scene.nodes[i].parent_from_node);
-        const Primitive &a = primitiveOf(read, pose.instances[i]), &b = flat.scene.meshes[i].primitives.front();
+        const Primitive &a = primitiveOf(read, pose.instances[i]),
+                        &b = flat.scene.meshes[i].primitives.front();
         for (std::size_t k = 0; k < a.indices.size(); ++k) {
             EXPECT_EQ(a.positions[a.indices[k]], b.positions[b.indices[k]]);
             EXPECT_EQ(a.normals[a.indices[k]], b.normals[b.indices[k]]);
@@ -285,7 +289,8 @@ TEST(AuditOutput, ATableAPlotAndWords) {
         audited(quantityOf("haze"), subject, [](double m) { return m < 1e5 ? 1e-6 : infinity; }));
     const QuantityAudit& of = audit.quantities.front();
     const std::string csv = toCsv(audit);
-    EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')), 1 + of.steps.size() * of.series.size());
+    EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
+              1 + of.steps.size() * of.series.size());
     EXPECT_NE(csv.find("haze,0.001,,deferred,gbuffer=full,1e-06,"), std::string::npos) << csv;
     const std::string plot = auditPlot(of, PlotPlace::file);
     EXPECT_NE(plot.find("class=\"cross\""), std::string::npos);
