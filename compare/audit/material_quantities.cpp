@@ -52,7 +52,7 @@ Predicted predictRoughness(const Subject&, const Settings&, double) {
 }
 
 Predicted predictNormalMap(const Subject&, const Settings&, double) {
-    return {.because = "the mapped normal is normalised by its largest component first"};
+    return {.up = 0x1p63, .because = "squares of the mapped normal's parts are float32, which ends at 3e38"};
 }
 
 Predicted predictEmission(const Subject&, const Settings&, double) {

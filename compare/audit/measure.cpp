@@ -197,7 +197,7 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     outcome.misplaced = before - alike.count;
     outcome.depth = knownOrInfinite(statsOf(depthOf, truth.rays, rays, alike).p99);
     outcome.flip = knownOrInfinite(hdrFlip(truth.lit.channels.at(litOf), lit.channels.at(litOf)).mean);
-    outcome.nonfinite = nonfinitePixels(lit.channels.at(litOf));
+    outcome.nonfinite = lit.counters.nonfinite_pixels;
     return outcome;
 }
 

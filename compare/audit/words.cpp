@@ -103,7 +103,7 @@ std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, st
     const Predicted& predicted = audit.predicted[criterion][series];
     if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    if (!hold.usual) return false;
+    if (!hold.usual) return {};  // something else errs by more
     return agrees(hold.up, predicted.up, true, last) && agrees(hold.down, predicted.down, false, first);
 }
 

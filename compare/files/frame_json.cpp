@@ -53,6 +53,12 @@ Json jsonOf(const Frame& frame) {
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
     const FrameTime& time = frame.time;
     const FrameCounters& counters = frame.counters;
+    Json repaired = Json::object();
+    for (const auto& [mode, pixels] : frame.repaired) {
+        const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
+        repaired[std::string(debugMode(mode).name)] = {
+            {"pixels", pixels.size()}, {"first", {pixels.front() % width, pixels.front() / width}}};
+    }
     Json hidden = nullptr;
     if (frame.hidden_light)
         hidden = {{"mean", frame.hidden_light->mean},
@@ -88,6 +94,7 @@ Json jsonOf(const Frame& frame) {
           {"unreproduced_pixels", counters.unreproduced_pixels},
           {"energy_cut", counters.energy_cut}}},
         {"noise", noise},
+        {"repaired", repaired},
         {"origin",
          {{"file", frame.origin.file},
           {"device", frame.origin.device},

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace diptych {
 namespace {
@@ -195,8 +196,15 @@ Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureSc
     const Rgb8 background =
         mode.number == gpu::DEBUG_lit ? display(frame.background, scale.exposure) : Rgb8{};
     Image8 result = blank(image);
+    const auto found = frame.repaired.find(mode.number);
+    const std::span<const std::uint32_t> repaired =
+        found == frame.repaired.end() ? std::span<const std::uint32_t>() : std::span(found->second);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const float* p = image.pixel(i);
+        if (std::ranges::binary_search(repaired, static_cast<std::uint32_t>(i))) {
+            put(result, i, nonfiniteColor);
+            continue;
+        }
         // Nothing was drawn there: the environment, where the frame shows one.
         if (!seen.covered[i] && (mode.number != gpu::DEBUG_lit ||
                                  std::all_of(p, p + image.components, [](float v) { return v == 0; })))

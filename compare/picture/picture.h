@@ -48,7 +48,8 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
 bool isHeat(const DebugMode& mode);
 
 // The picture of one channel that `frame` has. Background pixels of lit show frame.background, of others
-// nothing; a NaN or infinity is magenta.
+// nothing; a NaN or infinity is magenta, and so is what was
+// repaired of them.
 Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureScale& scale);
 
 // One tone curve: Khronos PBR Neutral (Khronos Group 2024), which leaves what is below 0.8 nearly as it is.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace diptych {
@@ -71,6 +72,20 @@ std::uint64_t nonfinitePixels(const Image& image) {
         count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
     }
     return count;
+}
+
+std::vector<std::uint32_t> repairNonfinite(Image& image) {
+    std::vector<std::uint32_t> repaired;
+    if (nonfinitePixels(image) == 0) return repaired;
+    constexpr float most = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        float* const p = image.pixel(i);
+        if (std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); })) continue;
+        repaired.push_back(static_cast<std::uint32_t>(i));
+        for (int c = 0; c < image.components; ++c)
+            if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(most, p[c]);
+    }
+    return repaired;
 }
 
 FrameTime timeOf(std::vector<double> ms) {

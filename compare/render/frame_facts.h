@@ -23,6 +23,9 @@ FrameCamera cameraOf(const View& view);
 // Pixels with a component that is NaN or infinite.
 std::uint64_t nonfinitePixels(const Image& image);
 
+// Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the pixels that had some.
+std::vector<std::uint32_t> repairNonfinite(Image& image);
+
 // Median, least and greatest, ms.
 FrameTime timeOf(std::vector<double> ms);
 

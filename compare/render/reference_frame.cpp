@@ -149,6 +149,9 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     Frame frame = describedFrame(scene, view, settings);
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);
+    for (auto& [mode, image] : frame.channels)
+        if (auto repaired = repairNonfinite(image); !repaired.empty())
+            frame.repaired[mode] = std::move(repaired);
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
     frame.blended = std::move(picture.blended);

@@ -138,6 +138,8 @@ private:
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
                 image = std::move(lit_);
             }
+            if (auto repaired = repairNonfinite(image); !repaired.empty())
+                frame_.repaired[read.mode] = std::move(repaired);
             keepInFile(image.data);
             frame_.channels[read.mode] = std::move(image);
         });

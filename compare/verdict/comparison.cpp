@@ -72,6 +72,13 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
+    for (const auto& [mode, pixels] : frame.repaired) {
+        const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
+        comparison.failures.push_back(fmt::format(
+            "{}: {} had {} pixel(s) that were NaN or infinite, the first at {},{}: taken as 0 or the "
+            "largest number, magenta in pictures",
+            frame.name, debugMode(mode).name, pixels.size(), pixels.front() % width, pixels.front() / width));
+    }
 }
 
 // Reports two runs of one path that differ: on a CPU device that is a race, on a GPU scheduling may cause it.

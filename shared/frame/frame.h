@@ -104,6 +104,9 @@ struct Frame {
     Settings settings;
     FrameCamera camera;
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
+    // By channel, the pixels (row by row from the top left) that were NaN or infinite when they were drawn
+    // and have been repaired since: NaN is 0, infinity the largest float32. Pictures mark them.
+    std::map<int, std::vector<std::uint32_t>> repaired;
     // Of `channels`, those that were requested, which are compared and written; the others are helpers
     // (exposure, background). Empty: all.
     std::vector<int> requested;

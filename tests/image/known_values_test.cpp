@@ -201,6 +201,7 @@ void expectSound(const std::vector<Frame>& frames) {
     expectSameChannels(frames[0], frames[1]);
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name;
+        EXPECT_TRUE(frame.repaired.empty()) << frame.name;
         EXPECT_EQ(coveredPixels(frame), frame.channels.at(0).pixels()) << frame.name;
         for (const int mode : {normals, 12})
             for (const float value : frame.channels.at(mode).data)

@@ -75,6 +75,7 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
         Frame frame = renderer.draw(settings, untimed());
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
         EXPECT_EQ(frame.counters.overflowed_lists, 0u);
+        EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
         return std::move(frame.channels.at(lit));
     }
     PreparedFrames frames = renderer.prepare({&settings, 1});

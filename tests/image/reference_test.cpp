@@ -30,6 +30,7 @@ ChannelStats against(const Frame& referenceFrame, const Frame& frame, int mode, 
 
 std::size_t nonfinite(const Frame& frame) {
     std::size_t count = 0;
+    for (const auto& [mode, pixels] : frame.repaired) count += pixels.size();
     for (const auto& [mode, image] : frame.channels)
         for (const float v : image.data) count += !std::isfinite(v);
     return count;

@@ -5,6 +5,7 @@
 #include "tests/tool/run.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace diptych {
 namespace {
@@ -43,6 +44,46 @@ TEST(ExtremeScenes, SmallLargeAndFarAway) {
                     fmt::format(R"({{"mesh": 0, "scale": [{0}, {0}, {0}], "translation": [{1}, {1}, {1}]}})",
                                 scale, offset),
                     1));
+}
+
+// Squares of its lengths end below float32: it is lit by numbers all the same, whatever lights it.
+TEST(ExtremeScenes, SoSmallThatSquaresVanish) {
+    const Folder folder;
+    for (const char* scale : {"1e-20", "1e-30", "1e-35"}) {
+        folder.write("small.gltf",
+                     sceneOf(fmt::format(R"({{"mesh": 0, "scale": [{0}, {0}, {0}]}})", scale), 1));
+        const Ran ran =
+            runTool(folder,
+                    "compare small.gltf --size 64x36 --runs 0 -q --force --ambient 1,1,1 --haze on "
+                    "--lights point:4 -o report");
+        EXPECT_EQ(ran.code, 0) << scale << ": " << ran.err;
+    }
+}
+
+// What float32 cannot hold is a failure that says where, and no output has it.
+TEST(ExtremeScenes, LightThatFloat32CannotHold) {
+    const Folder folder;
+    folder.write("bright.gltf", sceneOf(R"({"mesh": 0})", 1));
+    folder.write("lights.json",
+                 R"({"lights": [{"type": "point", "intensity": 3e38, "position": [0.2, 0.2, 0.01]}]})");
+    const Ran ran = runTool(folder,
+                            "compare bright.gltf --size 64x36 --runs 0 --lights lights.json --camera "
+                            "\"eye=0.3,0.3,2 target=0.3,0.3,0\" -o report --json");
+    EXPECT_EQ(ran.code, 1) << ran.err;
+    EXPECT_NE(contentsOf(folder / "report/index.html").find("that were NaN or infinite, the first at"),
+              std::string::npos);
+    const nlohmann::json report = nlohmann::json::parse(ran.out, nullptr, false);
+    ASSERT_TRUE(report.is_object()) << ran.out;
+    for (const auto& frame : report["frames"]) {
+        EXPECT_GT(frame["counters"]["nonfinite_pixels"].get<int>(), 0);
+        EXPECT_EQ(frame["repaired"]["lit"]["pixels"], frame["counters"]["nonfinite_pixels"]);
+    }
+    for (const char* name : {"deferred", "forward_plus"}) {
+        const Ran diff =
+            runTool(folder, fmt::format("diff report/{0}.exr report/{0}.exr --channels lit --json", name));
+        EXPECT_EQ(diff.code, 0) << diff.err;
+        EXPECT_EQ(diff.out.find("NaN"), diff.out.npos) << diff.out;
+    }
 }
 
 TEST(ExtremeScenes, NothingToDraw) {

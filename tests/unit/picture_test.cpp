@@ -116,6 +116,21 @@ TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
     EXPECT_EQ(at(3), nonfiniteColor);
 }
 
+TEST(Picture, WhatWasRepairedIsMarked) {
+    Frame frame;
+    frame.channels[0] = Image(3, 1, 3, 0.5f);
+    frame.channels[8] = Image(3, 1, 1, 0.0f);
+    frame.repaired[0] = {1};
+    const Image8 picture = channelPicture(debugMode(0), frame, {});
+    const auto at = [&](std::size_t i) {
+        return std::array<std::uint8_t, 3>{picture.data[3 * i], picture.data[3 * i + 1],
+                                           picture.data[3 * i + 2]};
+    };
+    EXPECT_EQ(at(1), nonfiniteColor);
+    EXPECT_NE(at(0), nonfiniteColor);
+    EXPECT_EQ(at(2), at(0));
+}
+
 TEST(Picture, HalfSizeAverages) {
     const Image8 image{2, 2, 3, {0, 0, 0, 4, 4, 4, 8, 8, 8, 12, 12, 12}};
     EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
