@@ -27,15 +27,18 @@ void pushLights(Case& pushed, const Subject&, double copies) {
     pushed.scene.lights = std::move(lights);
 }
 
-// Sums of float32, in order: each addition rounds to 2^-24 of what has been added so far, and equal terms are
-// rounded the same way for as long as the sum has one exponent; half of it on the mean of a sum that grows.
+// Sums of float32, in order: each addition rounds to 2^-24 of what has been added so far; equal terms are
+// rounded one way for as long as the sum has one exponent, half as far on the mean, and the other way in
+// every other.
 Predicted predictLights(const Subject& subject, const Settings&, double error) {
-    const auto local = static_cast<double>(std::ranges::count_if(
-        subject.given.scene.lights, [](const Light& light) { return light.kind != LightKind::directional; }));
-    return {.up = error * 0x1p24 * 2 / std::max(local, 1.0),
-            .because =
-                "light is added up in float32, one light after the other: N terms round by N 2^-25 where "
-                "all round one way"};
+    const auto reaching =
+        static_cast<double>(std::ranges::count_if(subject.given.scene.lights, [&](const Light& light) {
+            return light.kind != LightKind::directional &&
+                   glm::distance(light.position, subject.point) < double{light.range};
+        }));
+    return {
+        .up = error * 0x1p26 / std::max(reaching, 1.0),
+        .because = "light is added up in float32, one light after the other: N equal terms round by N 2^-26"};
 }
 
 template <class Value>
