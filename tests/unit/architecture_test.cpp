@@ -68,6 +68,7 @@ const std::vector<Module> modules = {
     {"compare/tradeoff", 70},
     {"compare/choose", 70},
     {"compare/bench", 70},
+    {"compare/probe", 70},
     {"compare/cli", 80},
     {"tests", 90},
 };

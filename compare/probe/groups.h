@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The probes, group by group; each function makes its part of the table.
+#pragma once
+
+#include "compare/probe/probe.h"
+
+namespace diptych::probe {
+
+std::vector<Probe> operationProbes();  // what a device does
+std::vector<Probe> brdfProbes();       // D, the lobe, F
+
+// All of them, in the order of the table: what a device does, then what is made of that.
+const std::vector<Probe>& allProbes();
+
+}  // namespace diptych::probe
