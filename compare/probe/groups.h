@@ -8,6 +8,9 @@ namespace diptych::probe {
 
 std::vector<Probe> operationProbes();  // what a device does
 std::vector<Probe> brdfProbes();       // D, the lobe, F
+std::vector<Probe> lightProbes();      // points and spots
+std::vector<Probe> codeProbes();       // octahedral, unorm, roots, 9.9.9.e5, all layouts of the G-buffer
+std::vector<Probe> placeProbes();      // positions from depth, cells of pixels
 
 // All of them, in the order of the table: what a device does, then what is made of that.
 const std::vector<Probe>& allProbes();

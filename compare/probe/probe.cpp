@@ -6,6 +6,15 @@
 
 namespace diptych::probe {
 
+float onLine(std::size_t row, std::size_t line, double from, double to) {
+    Random random(row / line);
+    const double place = static_cast<double>(row % line), offset = random.unit(),
+                 start = random.ends(from, to);
+    if (row / line % 2 == 0)
+        return static_cast<float>(from + (to - from) * (place + offset) / static_cast<double>(line));
+    return static_cast<float>(std::min(start + place * ulpOf(start), to));
+}
+
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows) {
     std::uint64_t name = 0;
     for (const char c : probe.name) name = name * 131 + static_cast<unsigned char>(c);
@@ -26,7 +35,7 @@ void judgeRow(const Probe& probe, std::size_t row, const float* in, const float*
     for (std::size_t k = 0; k < probe.outs; ++k) {
         const double e = expected[k];
         // What is below the normal range may be 0: that is judged, but is no matter of ULP.
-        const double step = probe.step                             ? probe.step(in, e)
+        const double step = probe.step                             ? probe.step(in, k, e)
                             : std::abs(e) < least_normal && e != 0 ? 0
                                                                    : ulpOf(e);
         tally.value(row, k, out[k], e, allowed[k], step);

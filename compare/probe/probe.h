@@ -45,7 +45,7 @@ struct Probe {
     // What a device might give that is as inexact as Vulkan allows; for tests.
     std::function<void(const float* in, float* out)> sloppy{};
     // What an error of an output is counted in; empty: the ULP of what is expected.
-    std::function<double(const float* in, double expected)> step{};
+    std::function<double(const float* in, std::size_t output, double expected)> step{};
     // Instead of definition and allowance: judges a line of rows.
     std::function<void(const float* in, const float* out, Tally&)> judge{};
 
@@ -72,6 +72,10 @@ void follow(Probe& probe, Sequence sequence) {
         for (std::size_t i = 0; i < m; ++i) out[i] = to[i].value;
     };
 }
+
+// A number of a row in a line of `line` rows that only grows: over [from, to] evenly, or, of every second
+// line, float after float from somewhere in it.
+float onLine(std::size_t row, std::size_t line, double from, double to);
 
 // `rows` rows of inputs from `first` on.
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows);

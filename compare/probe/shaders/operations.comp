@@ -24,7 +24,6 @@ void main() {
         case 12: out1(0, unpackHalf2x16(packHalf2x16(vec2(a, 0.0))).x); break;
         case 13: out1(0, floor(a)); break;
         case 14: out1(0, float(inBits(0))); break;
-        case 15: outBits(0, uint(a)); break;
         case 16: out1(0, dot(in3(0), in3(3))); break;
     }
 }
