@@ -62,8 +62,10 @@ int runDevices(const Options& options) {
         Device opened({std::to_string(device.index), options.validate});
         for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
         for (DeviceFact& fact : textureFacts(probeTextures(opened))) device.facts.push_back(std::move(fact));
-        if (options.probe)
+        if (options.probe) {
+            for (DeviceFact& fact : probe::roundingFacts(opened)) device.facts.push_back(std::move(fact));
             probes[device.index] = probe::runProbes(opened, probe::allProbes(), Stage(progress, device.name));
+        }
         checkValidation(opened);
     }
     progress.wipe();

@@ -12,6 +12,11 @@ std::vector<Probe> lightProbes();      // points and spots
 std::vector<Probe> codeProbes();       // octahedral, unorm, roots, 9.9.9.e5, all layouts of the G-buffer
 std::vector<Probe> placeProbes();      // positions from depth, cells of pixels
 
+std::vector<Probe> momentProbes();   // of shadow maps
+std::vector<Probe> airProbes();      // haze
+std::vector<Probe> ltcProbes();      // polygons of light
+std::vector<Probe> surfaceProbes();  // specular anti-aliasing, between microfacets, harmonics; the tone curve
+
 // All of them, in the order of the table: what a device does, then what is made of that.
 const std::vector<Probe>& allProbes();
 

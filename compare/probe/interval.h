@@ -65,8 +65,15 @@ inline Interval rounded(double lo, double hi) {
     if (!(lo <= hi)) return anything();  // what is no number
     return {floatBelow(lo), floatAbove(hi)};
 }
+// The smallest number that is `ulps` less than one of [lo, hi]; a ULP doubles at a power of two.
+inline double reachBelow(double lo, double hi, double ulps) {
+    double reach = lo - ulps * ulpOf(lo);
+    const double next = lo > 0 ? std::exp2(std::floor(std::log2(lo)) + 1) : hi;
+    if (lo > 0 && next <= hi) reach = std::min(reach, next - ulps * ulpOf(next));
+    return reach;
+}
 inline Interval within(double lo, double hi, double ulps) {
-    return rounded(lo - ulps * ulpOf(lo), hi + ulps * ulpOf(hi));
+    return rounded(reachBelow(lo, hi, ulps), -reachBelow(-hi, -lo, ulps));
 }
 inline Interval hull(Interval a, Interval b) {
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
@@ -135,8 +142,8 @@ Interval logarithm(Interval x, Of of) {
     if (x.lo <= 0) return anything();
     const double lo = of(x.lo), hi = of(x.hi), off = 0x1p-21;
     const bool near = x.hi >= 0.5 && x.lo <= 2;
-    return rounded(std::min(lo - 3 * ulpOf(lo), near ? lo - off : lo),
-                   std::max(hi + 3 * ulpOf(hi), near ? hi + off : hi));
+    return rounded(std::min(reachBelow(lo, hi, 3), near ? lo - off : lo),
+                   std::max(-reachBelow(-hi, -lo, 3), near ? hi + off : hi));
 }
 inline Interval binaryLogarithm(Interval x) {
     return logarithm(x, [](double v) { return std::log2(v); });
@@ -188,6 +195,13 @@ inline Interval chosen(Truth truth, Interval a, Interval b) {
 inline Interval approximating(Interval x, double relative, double absolute = 0) {
     const auto off = [&](double v) { return std::abs(v) * relative + absolute; };
     return {x.lo - off(x.lo), x.hi + off(x.hi)};
+}
+
+// What a function that only grows or only falls makes of it, within a share of that.
+template <class Of>
+Interval monotoneOf(Interval x, Of of, double relative) {
+    const double a = of(x.lo), b = of(x.hi);
+    return approximating({std::min(a, b), std::max(a, b)}, relative);
 }
 
 }  // namespace diptych::probe

@@ -49,9 +49,11 @@ Probe pointProbe() {
     p.ins = 4;
     p.outs = 4;
     p.rows = 1u << 17;
-    // The components of a direction are counted in ULP of its length.
-    p.step = [](const float*, std::size_t output, double expected) {
-        return output > 0 ? ulpOf(1) : expected != 0 && expected < least_normal ? 0 : ulpOf(expected);
+    // Near the range's end what is left is rounding: counted in ULP of what there is without a range; the
+    // components of the direction in ULP of its length.
+    p.unit = "ULP of 1/d2";
+    p.step = [](const float* in, std::size_t output, double) {
+        return ulpOf(output > 0 ? 1 : attenuation(exactVec(in), 0));
     };
     p.make = [](Random& random, std::size_t, float* in) {
         const double distance = random.logarithmic(1e-9, 1e17);
@@ -78,6 +80,8 @@ Probe fallOffProbe() {
     p.ins = 4;
     p.line = 256;
     p.monotone = -1;
+    p.unit = "ULP of 1/d2";
+    p.step = [](const float* in, std::size_t, double) { return ulpOf(attenuation(exactVec(in), 0)); };
     p.make = [](Random&, std::size_t row, float* in) {
         Random line(row / 256);
         in[0] = in[1] = 0;

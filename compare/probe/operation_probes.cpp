@@ -87,8 +87,10 @@ Probe fmaProbe() {
     p.definition = [](const float* in, double* out) {
         out[0] = std::fma(double{in[0]}, double{in[1]}, double{in[2]});
     };
-    p.unit = "ULP of a b";
-    p.step = [](const float* in, std::size_t, double) { return ulpOf(double{in[0]} * double{in[1]}); };
+    p.unit = "ULP of sum";
+    p.step = [](const float* in, std::size_t, double) {
+        return ulpOf(std::abs(double{in[0]} * double{in[1]}) + std::abs(double{in[2]}));
+    };
     follow(p, [](const auto* in, auto* out) { out[0] = in[0] * in[1] + in[2]; });
     return p;
 }

@@ -39,6 +39,12 @@ double depthByDefinition(const float* in) {
     return (double{in[0]} + z * double{in[1]}) / (double{in[2]} + z * double{in[3]});
 }
 
+// What is added on the way to it, which an orthographic depth is a difference of.
+double depthTerms(const float* in) {
+    const double z = double{in[4]};
+    return (std::abs(double{in[0]}) + std::abs(z * double{in[1]})) / (double{in[2]} + z * double{in[3]});
+}
+
 template <class N>
 N depthSequence(const N* in) {
     return (in[0] + in[1] * in[4]) / (in[2] + in[3] * in[4]);
@@ -58,6 +64,8 @@ Probe depthProbe() {
         makeDepths(line, line.bits() % 4 != 0, in);
         in[4] = onLine(row, 256, 1e-9, 1);
     };
+    p.unit = "ULP of sum";
+    p.step = [](const float* in, std::size_t, double) { return ulpOf(depthTerms(in)); };
     p.definition = [](const float* in, double* out) { out[0] = depthByDefinition(in); };
     follow(p, [](const auto* in, auto* out) { out[0] = depthSequence(in); });
     return p;
@@ -90,20 +98,19 @@ Probe positionProbe(bool perspective) {
         in[23] = static_cast<float>(std::floor(random.uniform(0, width)) + 0.5);
         in[24] = static_cast<float>(std::floor(random.uniform(0, height)) + 0.5);
     };
-    const auto parts = [](const float* in) {
+    p.definition = [](const float* in, double* out) {
         const double px = double{in[23]}, py = double{in[24]};
         const Vec<double> origin = exactVec(in + 14) + exactVec(in + 17) * px + exactVec(in + 20) * py;
         const Vec<double> direction = exactVec(in + 5) + exactVec(in + 8) * px + exactVec(in + 11) * py;
-        return std::array{origin, direction * depthByDefinition(in)};
-    };
-    p.definition = [parts](const float* in, double* out) {
-        const auto [origin, along] = parts(in);
-        const Vec<double> x = origin + along;
+        const Vec<double> x = origin + direction * depthByDefinition(in);
         out[0] = x.x, out[1] = x.y, out[2] = x.z;
     };
-    p.step = [parts](const float* in, std::size_t, double) {
-        const auto [origin, along] = parts(in);
-        return ulpOf(length(origin) + length(along));
+    p.step = [](const float* in, std::size_t, double) {
+        const auto terms = [&](std::size_t i) {
+            return length(exactVec(in + i)) + length(exactVec(in + i + 3)) * double{in[23]} +
+                   length(exactVec(in + i + 6)) * double{in[24]};
+        };
+        return ulpOf(terms(14) + terms(5) * depthTerms(in));
     };
     follow(p, [perspective]<class N>(const N* in, N* out) {
         const N depth = depthSequence(in);

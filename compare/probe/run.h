@@ -26,6 +26,9 @@ struct Result {
 Result runProbe(DeviceRows& rows, const Probe& probe, std::size_t most_rows = SIZE_MAX);
 Result concluded(const Probe& probe, Tally tally);
 
+// How the device rounds, which Vulkan leaves open: denormals, sums, fused products, halves.
+std::vector<DeviceFact> roundingFacts(Device& device);
+
 std::vector<Result> runProbes(Device& device, std::span<const Probe> probes, const Stage& progress);
 
 // A table of one line a probe; a probe that fails has lines more, with its input. `verbose`: also why so much

@@ -21,9 +21,10 @@ inline Random& sloppiness() {
 
 inline Sloppy anyOf(Interval x) {
     const double share = std::clamp(sloppiness().uniform(-0.5, 1.5), 0.0, 1.0);  // half of them the ends
-    const double lo = std::max(x.lo, -double{std::numeric_limits<float>::max()}),
-                 hi = std::min(x.hi, double{std::numeric_limits<float>::max()});
-    return static_cast<float>(std::clamp(lo + (hi - lo) * share, lo, hi));
+    const double most_value = double{std::numeric_limits<float>::max()};
+    const double lo = floatAbove(std::max(x.lo, -most_value)), hi = floatBelow(std::min(x.hi, most_value));
+    if (hi <= lo) return static_cast<float>(lo);
+    return static_cast<float>(std::clamp(double{static_cast<float>(lo + (hi - lo) * share)}, lo, hi));
 }
 
 inline Sloppy operator+(Sloppy a, Sloppy b) {
@@ -88,6 +89,10 @@ inline Sloppy chosen(bool truth, Sloppy a, Sloppy b) {
 }
 inline Sloppy approximating(Sloppy x, double relative, double absolute = 0) {
     return anyOf(approximating(Interval(x.value), relative, absolute));
+}
+template <class Of>
+Sloppy monotoneOf(Sloppy x, Of of, double relative) {
+    return anyOf(monotoneOf(Interval(x.value), of, relative));
 }
 
 }  // namespace diptych::probe

@@ -62,6 +62,26 @@ TEST(DeviceProbesOnDevice, PlantedFaultsAreFound) {
     EXPECT_TRUE(isCaught("G-buffer, compact", [](float* out) { out[19] += 0.01f; }))
         << "metallic: half a step";
     EXPECT_TRUE(isCaught("G-buffer, full", [](float* out) { out[9] = std::nextafter(out[9], 0.0f); }));
+    EXPECT_TRUE(isCaught("EVSM, four moments of a depth", times(1.001f)));
+    EXPECT_TRUE(isCaught("Chebyshev's bound", times(1.00001f)));
+    EXPECT_TRUE(isCaught("MSM, d to d^4 and back", times(1.001f)));
+    EXPECT_TRUE(isCaught("MSM of any moments", [](float* out) { out[0] += 0.5f; })) << "more than all";
+    EXPECT_TRUE(isCaught("e^x and e^x - 1", times(1.000001f)));
+    EXPECT_TRUE(isCaught("air along a ray", times(1.00001f)));
+    EXPECT_TRUE(isCaught("air of an endless ray", times(1.0001f)));
+    EXPECT_TRUE(isCaught("transmittance, scattered light", times(1.00001f)));
+    EXPECT_TRUE(isCaught("angle of a cosine and sine", times(1.0001f)));
+    EXPECT_TRUE(isCaught("an edge of an outline", times(-1)));
+    EXPECT_TRUE(isCaught("parallelogram, cosine", times(1.001f)));
+    EXPECT_TRUE(isCaught("parallelogram, transformed", times(1.001f)));
+    EXPECT_TRUE(isCaught("roughness, specular anti-aliasing", times(1.00001f)));
+    EXPECT_TRUE(isCaught("between microfacets, energy", times(1.00001f)));
+    EXPECT_TRUE(isCaught("between microfacets, Fdez-Aguera", [](float* out) { out[2] *= 1.0001f; }));
+    EXPECT_TRUE(isCaught("mean of Schlick's weight", times(1.001f)));
+    EXPECT_TRUE(isCaught("harmonics of an environment", times(1.00001f)));
+    EXPECT_TRUE(isCaught("harmonics of a draw's lights", times(1.00001f)));
+    EXPECT_TRUE(isCaught("level of a GGX width", times(1.0001f)));
+    EXPECT_TRUE(isCaught("tone curve, on the host", times(1.00001f)));
     EXPECT_TRUE(isCaught("froxel of a pixel and depth", [](float* out) { out[0] += 1; }));
 }
 
