@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 
+#include "compare/probe/groups.h"
+#include "compare/probe/run.h"
 #include "shared/material/texture_probe.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <map>
+
 namespace diptych::cli {
 namespace {
 
-nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices) {
+using ProbeResults = std::map<int, std::vector<probe::Result>>;  // by the device's index
+
+nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices, const ProbeResults& probes) {
     nlohmann::ordered_json json{{"schema", 1}, {"devices", nlohmann::ordered_json::array()}};
     for (const DeviceInfo& device : devices) {
         nlohmann::ordered_json facts = nlohmann::ordered_json::array();
@@ -25,6 +32,8 @@ nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices) {
                                    {"api_version", device.api_version},
                                    {"usable", device.usable()},
                                    {"facts", facts}});
+        if (const auto found = probes.find(device.index); found != probes.end())
+            json["devices"].back()["probes"] = probe::jsonOf(found->second);
     }
     return json;
 }
@@ -46,19 +55,34 @@ int runDevices(const Options& options) {
         const DeviceInfo chosen = Device({options.device, options.validate}).info();
         std::erase_if(devices, [&](const DeviceInfo& device) { return device.index != chosen.index; });
     }
+    ProbeResults probes;
+    Progress progress(progressOutput(options));
     for (DeviceInfo& device : devices) {
         if (!device.usable()) continue;
         Device opened({std::to_string(device.index), options.validate});
         for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
         for (DeviceFact& fact : textureFacts(probeTextures(opened))) device.facts.push_back(std::move(fact));
+        if (options.probe) {
+            for (DeviceFact& fact : probe::roundingFacts(opened)) device.facts.push_back(std::move(fact));
+            probes[device.index] = probe::runProbes(opened, probe::allProbes(), Stage(progress, device.name));
+        }
         checkValidation(opened);
     }
+    progress.wipe();
     if (options.json)
-        fmt::print("{}\n",
-                   jsonOf(devices).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        fmt::print(
+            "{}\n",
+            jsonOf(devices, probes).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     else if (!options.quiet)
-        for (const DeviceInfo& device : devices) print(device);
-    return 0;
+        for (const DeviceInfo& device : devices) {
+            print(device);
+            if (const auto found = probes.find(device.index); found != probes.end())
+                printColored(options, "\n" + probe::tableOf(found->second, options.verbose));
+        }
+    const auto failed = [](const auto& of) {
+        return std::ranges::any_of(of.second, [](const probe::Result& result) { return !result.passed; });
+    };
+    return std::ranges::any_of(probes, failed) ? 1 : 0;
 }
 
 }  // namespace diptych::cli

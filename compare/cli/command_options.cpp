@@ -320,6 +320,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addSettings(app, parsed);
         addPicture(app, options, parsed);
         addDevice(app, options);
+        app.add_flag(
+            "--probe", options.probe,
+            "run the shaders' functions on millions of inputs and hold them against double precision: "
+            "errors in ULP; exit code 1 where one is beyond what Vulkan allows");
         addFiles(app, options, "refused: devices writes no file, --json prints one");
         return addOutput(app, options);
     }

@@ -81,7 +81,8 @@ struct Options {
     bench::BenchOptions bench;
     ChooseOptions choose;
     AuditOptions audit;
-    std::string grid;  // tradeoff, choose: a file or JSON; empty: usualGrids()
+    bool probe = false;  // devices: runs the probes of compare/probe
+    std::string grid;    // tradeoff, choose: a file or JSON; empty: usualGrids()
 };
 
 // The animation time, s, of picture `frame` of --frames, from 0 on.

@@ -69,6 +69,7 @@ const std::vector<Module> modules = {
     {"compare/choose", 70},
     {"compare/audit", 70},
     {"compare/bench", 70},
+    {"compare/probe", 70},
     {"compare/cli", 80},
     {"tests", 90},
 };

@@ -118,6 +118,7 @@ TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
 
 TEST(Picture, WhatWasRepairedIsMarked) {
     Frame frame;
+    frame.settings.size = {3, 1};
     frame.channels[0] = Image(3, 1, 3, 0.5f);
     frame.channels[8] = Image(3, 1, 1, 0.0f);
     frame.repaired[0] = {1};

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/octahedral.glsl"
+#include "shaders/lib/packing.glsl"
+#include "compare/probe/shaders/rows.glsl"
+
+// Bits are constants wherever the product packs, so they are here: by the function's number.
+const uint OCTAHEDRAL_ENCODE = 0, OCTAHEDRAL_DECODE = 100, UNORM_PACK = 200, UNORM_UNPACK = 300, ROOT = 400,
+           ROOT_BACK = 401, SHARED_EXPONENT = 402;
+
+// A unit vector -> x and y of its code, what comes back
+void octahedral(uint bits) {
+    uint code = encodeOctahedral(in3(0), bits);
+    out1(0, float(bitfieldExtract(int(code), 0, int(bits))));
+    out1(1, float(bitfieldExtract(int(code), int(bits), int(bits))));
+    out3(2, decodeOctahedral(code, bits));
+}
+
+// x and y of a code -> a unit vector
+void decoded(uint bits) {
+    uint mask = (1u << bits) - 1u;
+    uint code = (uint(int(in1(0))) & mask) | ((uint(int(in1(1))) & mask) << bits);
+    out3(0, decodeOctahedral(code, bits));
+}
+
+void main() {
+    if (beyondRows()) return;
+    if (probed < OCTAHEDRAL_DECODE) {
+        octahedral(probed);
+    } else if (probed < UNORM_PACK) {
+        decoded(probed - OCTAHEDRAL_DECODE);
+    } else if (probed < UNORM_UNPACK) {
+        out1(0, float(packUnorm(in1(0), probed - UNORM_PACK)));
+    } else if (probed < ROOT) {
+        out1(0, unpackUnorm(uint(in1(0)), 0, probed - UNORM_UNPACK));
+    } else if (probed == ROOT) {
+        out1(0, float(packSqrt(vec3(0.0, in1(0), 0.0), 1.0) >> 8 & 255u));
+    } else if (probed == ROOT_BACK) {
+        out1(0, unpackSqrt(uint(in1(0)) << 8).g);
+    } else {
+        out3(0, unpackSharedExponent(packSharedExponent(in3(0))));
+    }
+}
