@@ -220,6 +220,16 @@ devices() {
     measured+="$(grep -E '^[0-9]|^ *no ' "$out/devices.txt" | sed 's/^/    /')"$'\n\n'
 }
 
+# How exact a device's arithmetic is, and the shipped functions of the shaders on it.
+arithmetic() {
+    local code=0
+    limited 300 "$program" devices --probe >"$out/arithmetic.txt" || code=$?
+    cat "$out/arithmetic.txt"
+    what=$(tail -n 1 "$out/arithmetic.txt")
+    measured+="How exact its arithmetic is: [arithmetic.txt](arithmetic.txt), ${what#"${what%%[! ]*}"}"$'\n\n'
+    return $code
+}
+
 # The channels of a report.json that failed.
 failed_channels() {
     awk '/"number":/ { channel = 1 }
@@ -359,6 +369,7 @@ case $amount in
 esac
 
 step devices 240 devices
+step arithmetic 300 arithmetic
 
 mapfile -t scenes < <("$program" render --list-scenes --json 2>/dev/null |
     sed -n 's/^ *"name": "\(builtin:[^"?]*\).*/\1/p')

@@ -79,10 +79,7 @@ int runDevices(const Options& options) {
             if (const auto found = probes.find(device.index); found != probes.end())
                 printColored(options, "\n" + probe::tableOf(found->second, options.verbose));
         }
-    const auto failed = [](const auto& of) {
-        return std::ranges::any_of(of.second, [](const probe::Result& result) { return !result.passed; });
-    };
-    return std::ranges::any_of(probes, failed) ? 1 : 0;
+    return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;
 }
 
 }  // namespace diptych::cli

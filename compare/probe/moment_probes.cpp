@@ -213,16 +213,15 @@ double leastBefore(const std::array<double, 4>& b, double depth) {
 Probe hamburgerProbe() {
     Probe p = momentProbe(
         "MSM, least shadow of four moments", 4,
-        "filters of three depths, at least 0.15 apart, shares of at least 0.1; receivers at least "
-        "0.05 from them; biases 3e-5 to 1e-2",
+        "filters of three depths, at least 0.3 apart, shares of at least 0.2, whose moments tell them "
+        "well; receivers at least 0.05 from them; biases 3e-5 to 1e-2",
         "the operations of threePlaces(), by intervals");
     p.ins = 6;
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
     p.make = [](Random& random, std::size_t, float* in) {
-        const double a = random.uniform(0, 0.4), b = random.uniform(a + 0.15, 0.75),
-                     c = random.uniform(b + 0.15, 1);
-        const double p0 = random.uniform(0.1, 0.5), p1 = random.uniform(0.1, 0.9 - p0), p2 = 1 - p0 - p1;
+        const double a = random.uniform(0, 0.1), b = random.uniform(0.4, 0.6), c = random.uniform(0.9, 1);
+        const double p0 = random.uniform(0.2, 0.4), p1 = random.uniform(0.2, 0.4), p2 = 1 - p0 - p1;
         for (int i = 0; i < 4; ++i)
             in[i] = static_cast<float>(p0 * std::pow(a, i + 1) + p1 * std::pow(b, i + 1) +
                                        p2 * std::pow(c, i + 1));

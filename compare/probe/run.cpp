@@ -74,6 +74,10 @@ Result runProbe(DeviceRows& device, const Probe& probe, std::size_t most_rows) {
     return concluded(probe, std::move(all));
 }
 
+bool allPassed(std::span<const Result> results) {
+    return std::ranges::all_of(results, &Result::passed);
+}
+
 std::vector<Result> runProbes(Device& device, std::span<const Probe> probes, const Stage& progress) {
     DeviceRows rows(device);
     std::vector<Result> results;

@@ -31,6 +31,8 @@ std::vector<DeviceFact> roundingFacts(Device& device);
 
 std::vector<Result> runProbes(Device& device, std::span<const Probe> probes, const Stage& progress);
 
+bool allPassed(std::span<const Result> results);
+
 // A table of one line a probe; a probe that fails has lines more, with its input. `verbose`: also why so much
 // is allowed, and how the errors are spread.
 std::string tableOf(std::span<const Result> results, bool verbose);

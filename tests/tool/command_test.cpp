@@ -193,6 +193,22 @@ TEST(Command, DevicesListsFacts) {
               std::string::npos);
 }
 
+// The shaders' functions on the device, only where that is asked for.
+TEST(Command, DevicesProbesThem) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "devices --device 0 --probe --json");
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    const Json device = parsed(ran)["devices"][0];
+    EXPECT_GT(device["probes"].size(), 50u);
+    for (const Json& probe : device["probes"]) {
+        EXPECT_EQ(probe["pass"], true) << probe;
+        EXPECT_LE(probe["of_limit"]["error"], 1) << probe;
+        EXPECT_FALSE(probe["because"].get<std::string>().empty());
+    }
+    EXPECT_FALSE(parsed(runTool(folder, "devices --device 0 --json"))["devices"][0].contains("probes"));
+    EXPECT_EQ(runTool(folder, "plan --probe builtin:triangle").code, 2);
+}
+
 TEST(Command, DevicesCanBeLimitedToOne) {
     const Folder folder;
     const Ran ran = runTool(folder, "devices --json --device 0");

@@ -135,6 +135,12 @@ TEST(CommandLine, DevicesParsesWhatAllCommandsShare) {
     EXPECT_EQ(options.settings.size, (Size{3, 3}));
 }
 
+TEST(CommandLine, DevicesMayBeProbed) {
+    EXPECT_FALSE(parseCommandLine({"devices"}).probe);
+    EXPECT_TRUE(parseCommandLine({"devices", "--probe"}).probe);
+    EXPECT_NE(parseCommandLine({"devices", "--help"}).help.find("--probe"), std::string::npos);
+}
+
 TEST(CommandLine, OffAndNoneAlwaysWork) {
     for (const std::string word : {"off", "none"}) {
         const Options options =

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <set>
 
 namespace diptych::probe {
@@ -40,6 +42,58 @@ TEST(DeviceProbes, EachHasANameInputsAndAReason) {
         EXPECT_EQ(p.rows % p.line, 0u) << p.name;
         EXPECT_LE(std::max(p.ins, p.outs), widest) << p.name;
     }
+}
+
+// What a probe that doubles a number gives of results that are `factor` times as large; in a line of four.
+Result doubled(const Probe& probe, float factor) {
+    const std::vector<float> in = inputsOf(probe, 0, 4);
+    std::vector<float> out;
+    for (const float x : in) out.push_back(2 * x * factor);
+    return concluded(probe, judged(probe, 0, in, out));
+}
+
+Probe doubling() {
+    Probe p;
+    p.group = "numbers", p.name = "2 a", p.inputs = "1 to 4", p.unit = "ULP", p.because = "a product";
+    p.line = p.rows = 4;
+    p.monotone = 1;
+    p.strict = true;
+    p.make = [](Random&, std::size_t row, float* in) { in[0] = static_cast<float>(row + 1); };
+    p.definition = [](const float* in, double* out) { out[0] = 2 * double{in[0]}; };
+    follow(p, [](const auto* in, auto* out) { out[0] = in[0] + in[0]; });
+    return p;
+}
+
+TEST(DeviceProbes, TheTableAndTheJsonSayWhatFailsAndOfWhichInput) {
+    const Probe probe = doubling();
+    const std::array results{doubled(probe, 1), doubled(probe, 1.5f)};
+    EXPECT_TRUE(results[0].passed);
+    EXPECT_FALSE(results[1].passed);
+    EXPECT_FALSE(allPassed(results));
+    EXPECT_TRUE(allPassed(std::span(results).first(1)));
+    const std::string table = tableOf(results, true);
+    EXPECT_NE(table.find("FAIL: 1 of 2 probes, 8 results"), std::string::npos) << table;
+    EXPECT_NE(table.find("3 instead of 2 (0 allowed), of 1"), std::string::npos) << table;
+    EXPECT_NE(table.find("allowed: a product"), std::string::npos) << table;
+    // A good one's table has a line a probe, and no reason.
+    const std::string good = tableOf(std::span(results).first(1), false);
+    EXPECT_EQ(std::ranges::count(good, '\n'), 4) << good;
+    EXPECT_NE(good.find("pass: all 1 probes"), std::string::npos) << good;
+    const nlohmann::ordered_json json = jsonOf(results);
+    EXPECT_EQ(json[0]["pass"], true);
+    EXPECT_EQ(json[1]["failures"], 4);
+    EXPECT_EQ(json[1]["of_limit"]["input"][0], 1.0f);
+    EXPECT_EQ(json[0]["histogram"][0]["results"], 4);
+}
+
+TEST(DeviceProbes, AStepBackFailsWhereNoDeviceMayTakeIt) {
+    Probe probe = doubling();
+    probe.allowance = [](const float*, double* allowed) { allowed[0] = 10; };
+    const auto judge = [&] { return concluded(probe, judged(probe, 0, {1, 2, 3, 4}, {2, 4, 3, 8})); };
+    EXPECT_FALSE(judge().passed);
+    probe.strict = false;
+    EXPECT_TRUE(judge().passed);
+    EXPECT_EQ(judge().tally.backward, 1u) << "it is counted";
 }
 
 // The same inputs in whatever pieces they are made.
