@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "compare/files/our_files.h"
+#include "compare/files/listed_folder.h"
 #include "compare/files/output.h"
-#include "compare/files/output_folder.h"
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace diptych::tradeoff {
@@ -30,40 +28,28 @@ void copyPicture(const fs::path& from, const fs::path& to) {
 
 std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const fs::path& kept,
                           const Image8& reference, bool force) {
-    const auto earlier = [&] {
-        checkReplaceable({OutputKind::folder, path}, tradeoffManifest, force);
-        return manifestFiles(path, tradeoffManifest);
-    };
-    earlier();
-    OutputFolder folder(path);
+    ListedFolder folder(path, tradeoffManifest, force);
     Tradeoff tradeoff = measured;
-    std::vector<std::string> files{"index.html", "tradeoff.csv", tradeoffManifest};
-    const auto text = [&](const std::string& name, const std::string& contents) {
-        writeFile(folder / name, contents);
-        if (std::ranges::count(files, name) == 0) files.push_back(name);
-    };
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         for (const auto& [member, name] :
              {std::pair{&TradeoffRow::picture, fmt::format("row-{:03}.png", i + 1)},
               {&TradeoffRow::errors_map, fmt::format("row-{:03}.flip.png", i + 1)}}) {
             copyPicture(kept / (tradeoff.rows[i].*member), folder / name);
             tradeoff.rows[i].*member = name;
-            files.push_back(name);
+            folder.list(name);
         }
     tradeoff.reference_picture = "reference.png";
     writePng(folder / tradeoff.reference_picture, reference);
-    files.push_back(tradeoff.reference_picture);
+    folder.list(tradeoff.reference_picture);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
-        text(plotName(figure, {}), tradeoffPlot(tradeoff, figure, {}, PlotPlace::file));
+        folder.put(plotName(figure, {}), tradeoffPlot(tradeoff, figure, {}, PlotPlace::file));
         for (const Path one : pathsOf(tradeoff))
-            text(plotName(figure, one), tradeoffPlot(tradeoff, figure, one, PlotPlace::file));
+            folder.put(plotName(figure, one), tradeoffPlot(tradeoff, figure, one, PlotPlace::file));
     }
-    text("tradeoff.csv", tradeoffCsv(tradeoff));
-    text("index.html", tradeoffHtml(tradeoff));
-    std::ranges::sort(files);
-    std::string json = tradeoffJson(tradeoff, files);
-    writeFile(folder / tradeoffManifest, json);
-    folder.put(files, earlier);
+    folder.put("tradeoff.csv", tradeoffCsv(tradeoff));
+    folder.put("index.html", tradeoffHtml(tradeoff));
+    std::string json = tradeoffJson(tradeoff, folder.files());
+    folder.finish(json);
     return json;
 }
 
