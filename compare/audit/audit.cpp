@@ -23,7 +23,7 @@ double flipOf(const Outcome& outcome) {
     return outcome.flip;
 }
 double nonfiniteOf(const Outcome& outcome) {
-    return outcome.failed.empty() ? static_cast<double>(outcome.nonfinite) : 0;
+    return static_cast<double>(outcome.nonfinite);
 }
 
 // The steps in an order that leads away from the usual one.
@@ -32,6 +32,8 @@ Reach reachOf(const Criterion& criterion, const std::vector<Step>& steps, std::s
     Reach reach{.last = steps[usual].magnitude};
     for (auto i = static_cast<std::ptrdiff_t>(usual) + way; i >= 0 && i < std::ssize(steps); i += way) {
         const Step& step = steps[static_cast<std::size_t>(i)];
+        // What a device refuses to draw is no failure of arithmetic.
+        if (!step.outcomes[series].failed.empty()) return reach;
         if (!holds(criterion, step.outcomes[series])) {
             reach.first = step.magnitude;
             reach.broken = true;
@@ -106,15 +108,17 @@ std::optional<double> nextMagnitude(const QuantityAudit& audit) {
 }
 
 QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
-                            const std::function<Step(std::span<const Series>, double magnitude)>& step) {
+                            const std::function<Step(std::span<const Series>, double magnitude)>& step,
+                            std::span<const double> beside) {
     QuantityAudit audit;
     audit.quantity = &quantity;
-    audit.lacks = quantity.lacks(subject);
+    audit.lacks = subject.bounds.empty() ? "the scene has nothing to draw" : quantity.lacks(subject);
     if (!audit.lacks.empty()) return audit;
     audit.usual = quantity.usual(subject);
     audit.series = seriesOf(quantity, subject);
     std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
     magnitudes.insert(audit.usual);
+    magnitudes.insert(beside.begin(), beside.end());
     const auto measure = [&](double magnitude) {
         Step measured = step(audit.series, magnitude);
         const auto after = std::ranges::lower_bound(audit.steps, magnitude, {}, &Step::magnitude);
@@ -138,6 +142,10 @@ Requirement judge(const QuantityAudit& audit, double magnitude) {
     Requirement requirement{.quantity = std::string(audit.quantity->name), .magnitude = magnitude};
     if (!audit.lacks.empty()) {
         requirement.because = "not pushed: " + audit.lacks;
+        return requirement;
+    }
+    if (std::ranges::all_of(audit.steps, [](const Step& step) { return step.covered == 0; })) {
+        requirement.because = "no surface is in view";
         return requirement;
     }
     requirement.met = true;

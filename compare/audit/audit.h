@@ -74,9 +74,11 @@ std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& s
 // nothing where all are, or where so many steps have been added as pay.
 std::optional<double> nextMagnitude(const QuantityAudit& audit);
 
-// Measures a quantity. `step`: measures at a magnitude, or finds what was measured before.
+// Measures a quantity. `step`: measures at a magnitude, or finds what was measured before. `beside`:
+// magnitudes that are measured too.
 QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
-                            const std::function<Step(std::span<const Series>, double magnitude)>& step);
+                            const std::function<Step(std::span<const Series>, double magnitude)>& step,
+                            std::span<const double> beside = {});
 
 // --require: whether every path, by its best series, holds requiredCriterion as far as the magnitude.
 struct Requirement {

@@ -77,10 +77,9 @@ Predicted predictNear(const Subject&, const Settings&, double) {
 
 // A vertex lies within 2^-24 of its distance; seen through so small an angle that is a part of a pixel, and
 // where the surface is inclined its depth differs by as much.
-Predicted predictFov(const Subject& subject, const Settings&, double error) {
+Predicted predictFov(const Subject& subject, const Settings&, double) {
     const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
     const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
-    (void)error;
     return {
         .down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
         .because = "a vertex is known to 2^-24 of its distance: at that angle the whole picture is as large"};

@@ -49,17 +49,18 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer,
     const auto test = [&](const Case& candidate) {
         const Step step = measurer.measure(candidate, std::span(&series, 1));
         const Outcome& outcome = step.outcomes.front();
-        // A picture of nothing, or of nothing that is lit, shows nothing.
+        // A picture of nothing shows nothing.
         const bool drawn = outcome.failed.empty() && step.covered > 0;
         return FailingPixel{drawn && !holds(criterion, outcome), outcome.worst_x, outcome.worst_y,
                             outcome.error()};
     };
-    const std::string at = fmt::format("{} breaks at {} {}", series.words(),
-                                       magnitudeInWords(broken->magnitude), of.quantity->unit);
+    const std::string at =
+        fmt::format("{} breaks at {}{}{}", series.words(), magnitudeInWords(broken->magnitude),
+                    of.quantity->unit.empty() ? "" : " ", of.quantity->unit);
     const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
     Failure failure;
     if (!reduced) {
-        failure.words = at + "; without its textures and motion the scene does not show it";
+        failure.words = at + "; without its textures, environment and motion the scene does not show it";
         of.failures.push_back(std::move(failure));
         return;
     }

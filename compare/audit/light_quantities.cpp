@@ -57,10 +57,11 @@ Predicted predictRange(const Subject&, const Settings&, double) {
                 "the window is of the squared ratio of distance and range, which is formed in one step"};
 }
 
-Predicted predictDistance(const Subject&, const Settings&, double) {
-    return {.because =
-                "a light's place is float32 from the camera: it is off by 2^-24 of its distance from there, "
-                "which matters to what is as near to it, less than one pixel in a hundred"};
+Predicted predictDistance(const Subject& subject, const Settings&, double error) {
+    return {.down = 0x1p-25 * glm::distance(subject.point, subject.view.eye()) / error,
+            .because =
+                "a light's place is float32 from the camera: its height over a surface is off by 2^-25 of "
+                "the distance of both from there"};
 }
 
 Predicted predictEye(const Subject&, const Settings&, double) {
@@ -178,6 +179,8 @@ void pushEnvironment(Case& pushed, const Subject&, double factor) {
 }  // namespace
 
 std::vector<Quantity> lightQuantities() {
+    std::vector<double> places = ladder(1e-9, 1e7);
+    places.insert(places.begin(), 0);
     std::vector<double> cones = ladder(0.01, 10);
     for (const double wide : {30.0, 90.0, 150.0, 179.0, 180.0}) cones.push_back(wide);
     return {
@@ -202,7 +205,7 @@ std::vector<Quantity> lightQuantities() {
         {.name = "distance",
          .unit = "m",
          .what = "local lights from the surface in the middle of the picture, as bright there as they were",
-         .magnitudes = ladder(1e-9, 1e7),
+         .magnitudes = places,
          .usual = usualDistance,
          .lacks = lacksDistance,
          .push = pushDistance,
@@ -210,7 +213,7 @@ std::vector<Quantity> lightQuantities() {
         {.name = "eye",
          .unit = "m",
          .what = "local lights from the camera",
-         .magnitudes = ladder(1e-9, 1e7),
+         .magnitudes = places,
          .usual = usualEye,
          .lacks = lacksLocalLight,
          .push = pushEye,

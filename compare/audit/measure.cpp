@@ -198,6 +198,11 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     outcome.depth = knownOrInfinite(statsOf(depthOf, truth.rays, rays, alike).p99);
     outcome.flip = knownOrInfinite(hdrFlip(truth.lit.channels.at(litOf), lit.channels.at(litOf)).mean);
     outcome.nonfinite = lit.counters.nonfinite_pixels;
+    if (const auto repaired = lit.repaired.find(litOf); repaired != lit.repaired.end()) {
+        const auto width = static_cast<std::uint32_t>(lit.settings.size.width);
+        outcome.worst_x = static_cast<int>(repaired->second.front() % width);
+        outcome.worst_y = static_cast<int>(repaired->second.front() / width);
+    }
     return outcome;
 }
 

@@ -40,11 +40,11 @@ struct Outcome {
     // (Case::exposure) the difference of a component, as a part of white.
     // `depth`: of view depth, against rays that the reference traces in double.
     double light = 0, depth = 0;
-    double flip = 0;              // mean HDR-FLIP of the whole picture, against the former
-    std::uint64_t misplaced = 0;  // pixels that show another material than the latter, or none
-    std::uint64_t nonfinite = 0;  // pixels of lit that are NaN or infinite
-    int worst_x = -1, worst_y = -1;
-    std::string failed;  // why nothing was drawn; then the errors are infinite
+    double flip = 0;                 // mean HDR-FLIP of the whole picture, against the former
+    std::uint64_t misplaced = 0;     // pixels that show another material than the latter, or none
+    std::uint64_t nonfinite = 0;     // pixels of lit that are NaN or infinite
+    int worst_x = -1, worst_y = -1;  // the first that is no number, or else of the largest error of lit
+    std::string failed;              // why nothing was drawn; then the errors are infinite
 
     // The larger of both; infinite where a pixel is no number.
     double error() const {

@@ -5,6 +5,7 @@
 #include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -28,8 +29,8 @@ std::vector<const Quantity*> quantitiesOf(std::span<const std::string> names, st
     for (const Quantity& quantity : quantities()) known.emplace_back(quantity.name);
     for (const std::string& name : names)
         if (std::ranges::count(known, name) == 0)
-            throw std::runtime_error(
-                fmt::format("{} {}: there is no such quantity{}", option, name, didYouMean(name, known)));
+            throw std::runtime_error(fmt::format("{} {}: there is no such quantity{}; there are {}", option,
+                                                 name, didYouMean(name, known), fmt::join(known, ", ")));
     std::vector<const Quantity*> found;
     for (const Quantity& quantity : quantities())
         if (names.empty() || std::ranges::count(names, quantity.name) > 0) found.push_back(&quantity);

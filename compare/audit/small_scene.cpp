@@ -133,6 +133,7 @@ std::optional<Case> flattened(const Case& whole) {
     const Pose pose = poseAt(whole.scene, whole.settings.time, whole.settings.animation);
     Case flat;
     flat.settings = whole.settings;
+    flat.exposure = whole.exposure;
     flat.settings.time = 0;
     flat.settings.animation.clear();
     flat.settings.camera = "0";

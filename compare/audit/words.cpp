@@ -40,6 +40,11 @@ Json jsonOf(const Series& series) {
     return {{"path", nameOf(series.path)}, {"settings", changes}};
 }
 
+Json agreement(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
+    const std::optional<bool> agree = agrees(audit, criterion, series);
+    return agree ? Json(*agree) : Json(nullptr);
+}
+
 Json jsonOf(const QuantityAudit& audit) {
     const Quantity& quantity = *audit.quantity;
     Json json{{"quantity", quantity.name}, {"unit", quantity.unit}, {"what", quantity.what}};
@@ -59,7 +64,7 @@ Json jsonOf(const QuantityAudit& audit) {
             series["predicted"][std::string(criteria[c].name)] = {{"down", predicted.down},
                                                                   {"up", numberOf(predicted.up)},
                                                                   {"because", predicted.because},
-                                                                  {"agrees", *agrees(audit, c, s)}};
+                                                                  {"agrees", agreement(audit, c, s)}};
         }
         json["series"].push_back(std::move(series));
     }
@@ -129,6 +134,21 @@ std::string inWords(const QuantityAudit& audit) {
                 out += fmt::format("        predicted for {}: {}: they do not agree\n", criteria[c].name,
                                    rangeInWords(audit.predicted[c][s], audit));
     }
+    for (std::size_t s = 0; s < audit.series.size(); ++s)
+        for (const Step& step : audit.steps)
+            if (const Outcome& outcome = step.outcomes[s]; outcome.nonfinite > 0) {
+                out += fmt::format("    {}: {} pixels are NaN or infinite at {}{}, the first at {},{}\n",
+                                   audit.series[s].words(), outcome.nonfinite,
+                                   magnitudeInWords(step.magnitude), unit, outcome.worst_x, outcome.worst_y);
+                break;
+            }
+    for (std::size_t s = 0; s < audit.series.size(); ++s)
+        for (const Step& step : audit.steps)
+            if (const Outcome& outcome = step.outcomes[s]; !outcome.failed.empty()) {
+                out += fmt::format("    {}: not drawn at {}{}: {}\n", audit.series[s].words(),
+                                   magnitudeInWords(step.magnitude), unit, outcome.failed);
+                break;
+            }
     for (const Failure& failure : audit.failures) {
         out += "    " + failure.words + "\n";
         if (!failure.command.empty()) out += "        " + failure.command + "\n";
@@ -190,6 +210,7 @@ Json toJson(const Audit& audit) {
               {"device",
                {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
               {"notes", audit.notes},
+              {"steps_kept", audit.kept},
               {"quantities", Json::array()},
               {"requirements", Json::array()}};
     for (const QuantityAudit& quantity : audit.quantities) json["quantities"].push_back(jsonOf(quantity));

@@ -2,6 +2,7 @@
 #include "compare/audit/audit.h"
 #include "compare/audit/failures.h"
 #include "compare/audit/quantities.h"
+#include "compare/audit/small_scene.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/cli/commands.h"
@@ -39,9 +40,20 @@ void checkAuditOptions(const Options& options) {
             fmt::format("{}: an audit is of one scene; run it once for each", options.scenes[1]));
     if (options.cameras.size() != 1)
         throw std::runtime_error(fmt::format("--camera {}: an audit is from one camera", options.cameras[1]));
-    if (options.settings.path == Path::reference)
-        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+    if (options.path_given)
+        throw std::runtime_error("--path: an audit is of both paths, against the reference; leave it out");
+    if (options.settings.msaa > 1)
+        throw std::runtime_error(
+            "--msaa: an audit compares one sample a pixel, as its reference has; leave it out");
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
+}
+
+// Its size and time, which tell whether what is not in view has changed; null of a built-in scene.
+Json fileFacts(const std::string& scene) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(scene, error);
+    if (error) return nullptr;
+    return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
 }
 
 class Auditor {
@@ -69,12 +81,16 @@ public:
             audit_.notes.emplace_back(
                 "--shadows off, but for quantities of shadows: a filter's own error would hide others");
         audit::Measurer measurer(device_, subject, [&](const std::string& step) { say(options_, step); });
-        KeptFolder kept(folder_, "audit", keyOf(measurer));
+        KeptFolder kept(folder_, "audit", keyOf(measurer, subject));
         if (kept.isRenewed())
             note(options_,
                  "what an audit that was cut short left is of another scene, device or Settings: anew");
         sayWhenInterrupted("the steps so far are kept: the same command goes on from there");
-        const std::vector<const audit::Quantity*> all = audit::quantitiesOf(options_.audit.quantities);
+        // What is required is pushed, too.
+        std::vector<std::string> names = options_.audit.quantities;
+        for (const auto& [name, magnitude] : options_.audit.required)
+            if (!names.empty()) names.push_back(name);
+        const std::vector<const audit::Quantity*> all = audit::quantitiesOf(names);
         for (std::size_t q = 0; q < all.size(); ++q) {
             const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
             measure(*all[q], subject, measurer, kept,
@@ -86,6 +102,9 @@ public:
                     audit_.requirements.push_back(audit::judge(quantity, magnitude));
         checkValidation(device_);
         stage.at(0.98, "write");
+        if (audit_.kept > 0)
+            note(options_,
+                 fmt::format("{} steps had been measured by a command that was cut short", audit_.kept));
         const std::string json = audit::writeAudit(audit_, folder_, options_.force);
         kept.remove();
         progress_.wipe();
@@ -108,12 +127,14 @@ private:
     }
 
     // All that a step depends on beside its magnitude and series: the truth's pixels stand for the scene.
-    Json keyOf(audit::Measurer& measurer) const {
+    Json keyOf(audit::Measurer& measurer, const audit::Subject& subject) const {
         return {{"schema", 1},
                 {"software", softwareName},
                 {"commit", commitName()},
                 {"scene", audit_.scene},
                 {"truth", measurer.fingerprint()},
+                {"lights", audit::lightsFileOf(subject.given)},
+                {"file", fileFacts(audit_.scene)},
                 {"settings", Json::parse(toJson(settings_))},
                 {"device", audit_.device.name},
                 {"driver", audit_.device.driver}};
@@ -123,17 +144,25 @@ private:
                  const KeptFolder& kept, const Stage& stage) {
         const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // and some between them
         double done = 0;
+        std::vector<double> required;
+        for (const auto& [name, magnitude] : options_.audit.required)
+            if (name == quantity.name) required.push_back(magnitude);
         audit_.quantities.push_back(audit::auditQuantity(
-            quantity, subject, [&](std::span<const audit::Series> series, double magnitude) {
+            quantity, subject,
+            [&](std::span<const audit::Series> series, double magnitude) {
                 stage.at(std::min(done / steps, 1.0),
                          fmt::format("{} {}", quantity.name, audit::magnitudeInWords(magnitude)));
                 done += 1;
                 const std::string name = fmt::format("{}-{:.17g}", quantity.name, magnitude);
-                if (auto step = keptStep(kept, name, series.size())) return *step;
+                if (auto step = keptStep(kept, name, series.size())) {
+                    ++audit_.kept;
+                    return *step;
+                }
                 audit::Step step = measurer.measure(quantity, series, magnitude);
                 kept.keep(name, audit::toJson(step));
                 return step;
-            }));
+            },
+            required));
         stage.at(1, fmt::format("{}: reduce what fails", quantity.name));
         audit::addFailures(audit_.quantities.back(), subject, measurer, folder_, audit_.scenes);
         print(audit::inWords(audit_.quantities.back()));

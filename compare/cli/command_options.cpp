@@ -251,8 +251,12 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
 
 void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
     app.option_defaults()->group("What is pushed");
-    app.add_option("--quantity", audit.quantities,
-                   "names of what is pushed: offset, scale, near, fov, intensity, ... (all)")
+    app.add_option(
+           "--quantity", audit.quantities,
+           "names of what is pushed (all): offset, vertex, scale, exposure, near, fov, grazing, intensity, "
+           "range, distance, eye, cone, environment, roughness, normal_map, emission, color, "
+           "shadow_depth, evsm_exponent, haze, lights, triangles, size, time. Without --size pictures "
+           "are 160x90, without --shadows there are none but where they are pushed")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);

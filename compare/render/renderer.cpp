@@ -50,7 +50,10 @@ public:
         drawLit();
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);
-        frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
+        if (auto repaired = repairNonfinite(lit_); !repaired.empty()) {
+            frame_.counters.nonfinite_pixels = repaired.size();
+            if (isRequested(lit)) frame_.repaired[lit] = std::move(repaired);
+        }
         if (!options_.channels.empty()) capture();
         frame_.requested = options_.requested;
         frame_.made_in_ms =
@@ -130,7 +133,7 @@ private:
         const std::size_t first = passes.size();
         std::vector<CapturedImage> captured =
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
-        readCaptured(first, captured, [this](const CapturedImage& read, Image image) {
+        readCaptured(first, captured, [this](const CapturedImage& read, Image image, Repaired repaired) {
             if (read.before_blending) return takeUnblended(read, std::move(image));
             if (read.surface) return takeEncoded(read, std::move(image));
             if (read.mode == lit) {
@@ -138,8 +141,7 @@ private:
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
                 image = std::move(lit_);
             }
-            if (auto repaired = repairNonfinite(image); !repaired.empty())
-                frame_.repaired[read.mode] = std::move(repaired);
+            if (read.mode != lit && !repaired.empty()) frame_.repaired[read.mode] = std::move(repaired);
             keepInFile(image.data);
             frame_.channels[read.mode] = std::move(image);
         });
@@ -153,21 +155,26 @@ private:
             announce("once more");
             step("draw once more", 2);
             passes.run(0, first);
-            addNoise(lit, readLit(prepared_));
+            Image again = readLit(prepared_);
+            repairNonfinite(again);
+            addNoise(lit, again);
             step("capture once more", captureFrames);
             // What the encoding makes comes last, and is drawn once.
             std::erase_if(captured, [](const CapturedImage& read) { return read.surface.has_value(); });
-            readCaptured(first, captured, [this](const CapturedImage& read, const Image& image) {
-                if (read.mode != lit) addNoise(read.mode, image);
-            });
+            readCaptured(first, captured,
+                         [this](const CapturedImage& read, const Image& image, const Repaired&) {
+                             if (read.mode != lit) addNoise(read.mode, image);
+                         });
         }
         if (!isRequested(lit)) frame_.channels.erase(lit);
     }
 
     // Runs the capture's passes group by group, from pass `first` on, and hands out what each group left, one
-    // image after the other: each is gone before the next is read, and only few are there at a time.
+    // image after the other, without NaN and infinity: each is gone before the next is read, and only few are
+    // there at a time.
+    using Repaired = std::vector<std::uint32_t>;
     void readCaptured(std::size_t first, std::span<const CapturedImage> captured,
-                      const std::function<void(const CapturedImage&, Image)>& take) {
+                      const std::function<void(const CapturedImage&, Image, Repaired)>& take) {
         PassList& passes = prepared_.passes;
         while (!captured.empty()) {
             const std::size_t pass = captured.front().pass;
@@ -176,7 +183,9 @@ private:
                  captured = captured.subspan(1)) {
                 const PassList::ReadBack request{captured.front().image,
                                                  debugMode(captured.front().mode).width};
-                take(captured.front(), std::move(readImages(passes, std::span(&request, 1)).front()));
+                Image image = std::move(readImages(passes, std::span(&request, 1)).front());
+                Repaired repaired = repairNonfinite(image);
+                take(captured.front(), std::move(image), std::move(repaired));
             }
         }
     }
