@@ -27,6 +27,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Step stepOf(double magnitude, double error, double flip = 0, std::uint64_t nonfinite = 0) {
     Step step;
     step.magnitude = magnitude;
+    step.covered = 1;
     Outcome outcome;
     outcome.light = error;
     outcome.depth = error / 2;
@@ -137,6 +138,40 @@ TEST(Audit, ARequirementIsOfBothPathsAndTheirBestSeries) {
     EXPECT_NE(requirement.because.find("forward_plus: the error is below 1e-2 as far as 1e+05"),
               std::string::npos)
         << requirement.because;
+}
+
+TEST(Audit, NothingInViewMeetsNothing) {
+    const Subject subject = gallery();
+    QuantityAudit audit = audited(quantityOf("offset"), subject, [](double) { return 0.0; });
+    for (Step& step : audit.steps) step.covered = 0;
+    const Requirement requirement = judge(audit, 1e3);
+    EXPECT_FALSE(requirement.met);
+    EXPECT_EQ(requirement.because, "no surface is in view");
+}
+
+TEST(Audit, WhatADeviceRefusesIsNoFailure) {
+    std::vector<Step> steps{stepOf(1, 1e-6), stepOf(10, 1e-6), stepOf(100, infinity)};
+    steps.back().outcomes.front().failed = "--size 99999x9: draws up to 16384x16384";
+    for (const auto& of : holdsOf(steps, 1, 1)) {
+        EXPECT_TRUE(of[0].usual);
+        EXPECT_FALSE(of[0].up.broken);
+        EXPECT_EQ(of[0].up.last, 10);
+    }
+}
+
+TEST(Audit, WhatIsRequiredIsMeasuredItself) {
+    const Subject subject = gallery();
+    const std::array beside{5e9};
+    const QuantityAudit audit = auditQuantity(
+        quantityOf("offset"), subject,
+        [](std::span<const Series> series, double magnitude) {
+            Step step = stepOf(magnitude, 1e-6);
+            step.outcomes.resize(series.size(), step.outcomes.front());
+            return step;
+        },
+        beside);
+    EXPECT_EQ(audit.steps.back().magnitude, 5e9);
+    EXPECT_TRUE(judge(audit, 5e9).met);
 }
 
 TEST(Audit, StepsComeBackFromJson) {
