@@ -414,7 +414,11 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     if (command == "bench") addBench(app, parsed);
     addOutput(app, options);
     if (command == "choose") addChoose(app, options.choose, parsed);
-    if (command == "audit") addAudit(app, options.audit, parsed);
+    if (command == "audit") {
+        addAudit(app, options.audit, parsed);
+        app.get_option("--size")->description("picture size, WxH (160x90)");
+        app.get_option("--shadows")->description("technique (off, but where shadows are what is pushed)");
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "compare/cli/render_output.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/output_folder.h"
+#include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "shared/image/atomic_file.h"
@@ -142,6 +143,7 @@ int runRender(const Options& options) {
                    frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
         if (output.kind != OutputKind::exr) fmt::print("  picture: {}\n", exposureLine(frame, picture));
         for (const std::string& line : frame.notes) fmt::print("  note: {}\n", line);
+        for (const std::string& line : repairedInWords(frame)) fmt::print("  note: {}\n", line);
     }
     if (options.json) fmt::print("{}", jsonText(result));
     return 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/frame_facts.h"
 
+#include "shared/frame/debug_modes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,6 +88,17 @@ std::vector<std::uint32_t> repairNonfinite(Image& image) {
             if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(most, p[c]);
     }
     return repaired;
+}
+
+std::vector<std::string> repairedInWords(const Frame& frame) {
+    std::vector<std::string> lines;
+    const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
+    for (const auto& [mode, pixels] : frame.repaired)
+        lines.push_back(
+            fmt::format("{} had {} pixel(s) that were NaN or infinite, the first at {},{}: taken as 0 or the "
+                        "largest number, magenta in pictures",
+                        debugMode(mode).name, pixels.size(), pixels.front() % width, pixels.front() / width));
+    return lines;
 }
 
 FrameTime timeOf(std::vector<double> ms) {

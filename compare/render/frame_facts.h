@@ -7,6 +7,7 @@
 #include "shared/scene/scene_view.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -25,6 +26,10 @@ std::uint64_t nonfinitePixels(const Image& image);
 
 // Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the pixels that had some.
 std::vector<std::uint32_t> repairNonfinite(Image& image);
+
+// Of each channel that was repaired a line: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
+// ...".
+std::vector<std::string> repairedInWords(const Frame& frame);
 
 // Median, least and greatest, ms.
 FrameTime timeOf(std::vector<double> ms);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/comparison.h"
 
+#include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/one_sided.h"
 #include "shared/contract/debug_mode.h"
@@ -72,13 +73,8 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
-    for (const auto& [mode, pixels] : frame.repaired) {
-        const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
-        comparison.failures.push_back(fmt::format(
-            "{}: {} had {} pixel(s) that were NaN or infinite, the first at {},{}: taken as 0 or the "
-            "largest number, magenta in pictures",
-            frame.name, debugMode(mode).name, pixels.size(), pixels.front() % width, pixels.front() / width));
-    }
+    for (const std::string& line : repairedInWords(frame))
+        comparison.failures.push_back(frame.name + ": " + line);
 }
 
 // Reports two runs of one path that differ: on a CPU device that is a race, on a GPU scheduling may cause it.

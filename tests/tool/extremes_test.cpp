@@ -78,6 +78,11 @@ TEST(ExtremeScenes, LightThatFloat32CannotHold) {
         EXPECT_GT(frame["counters"]["nonfinite_pixels"].get<int>(), 0);
         EXPECT_EQ(frame["repaired"]["lit"]["pixels"], frame["counters"]["nonfinite_pixels"]);
     }
+    const Ran render = runTool(folder,
+                               "render bright.gltf --size 64x36 --runs 0 --lights lights.json --camera "
+                               "\"eye=0.3,0.3,2 target=0.3,0.3,0\" -o bright.png");
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_NE(render.out.find("note: lit had "), render.out.npos) << render.out;
     for (const char* name : {"deferred", "forward_plus"}) {
         const Ran diff =
             runTool(folder, fmt::format("diff report/{0}.exr report/{0}.exr --channels lit --json", name));
