@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
+#include <span>
+#include <utility>
 
 namespace diptych::audit {
 

@@ -24,8 +24,6 @@ struct Series {
 
     Settings applied(Settings settings) const;
     std::string words() const;  // "deferred, gbuffer full"
-    // Its path, with its changes alone; unique within a quantity.
-    bool operator==(const Series& other) const { return words() == other.words(); }
 };
 
 // The series of a quantity: both paths as they are given; deferred with a G-buffer of float32, which rounds
