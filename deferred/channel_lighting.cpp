@@ -19,10 +19,10 @@ namespace diptych {
 
 namespace {
 
-// Shades surfaces of channels into `targets`, each cleared to 0.
+// Shades surfaces of channels into `targets` of a format, each cleared to 0.
 void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::shared_ptr<const DescriptorSets> channels, const char* name, Shader fragment,
-                std::span<const ImageRef> targets) {
+                std::span<const ImageRef> targets, VkFormat format) {
     const gpu::uint most = inputs.device.profile().packets_per_draw;
     if (inputs.longest_list > most)
         throw std::runtime_error(fmt::format(
@@ -35,14 +35,14 @@ void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
     inputs.shadow.read(pass);
     pass.samples(depth, inFragment).depthTest(depth);
     const VkPipeline pipeline =
-        inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
-                                         .fragment = fragment,
-                                         .variant = lightingVariant(inputs),
-                                         .input = NO_VERTICES,
-                                         .colors = std::vector<VkFormat>(targets.size(), litFormat),
-                                         .depth = depthFormat,
-                                         .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                         .depth_write = false});
+        inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
+                                                  .fragment = fragment,
+                                                  .variant = lightingVariant(inputs),
+                                                  .input = NO_VERTICES,
+                                                  .colors = std::vector<VkFormat>(targets.size(), format),
+                                                  .depth = depthFormat,
+                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                                  .depth_write = false}));
     pass.record(recordVertices(inputs, pipeline, std::move(channels), 3, 1));
 }
 
@@ -50,9 +50,9 @@ void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
 
 ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                             std::shared_ptr<const DescriptorSets> channels) {
-    const ImageRef lit = passes.image({.name = "lit of channels", .format = litFormat});
+    const ImageRef lit = passes.image({.name = "lit of channels", .format = inputs.lit_format});
     addShading(passes, inputs, depth, std::move(channels), "shade channels", Shader::deferred_channels_frag,
-               std::span(&lit, 1));
+               std::span(&lit, 1), inputs.lit_format);
     addBackground(passes, inputs, depth, lit);
     addTransparent(passes, inputs, depth, lit);
     return lit;
@@ -63,7 +63,7 @@ std::array<ImageRef, 5> addChannelTerms(PassList& passes, const FrameInputs& inp
     std::array<ImageRef, 5> terms;
     for (ImageRef& term : terms) term = passes.image({.name = "term of channels", .format = litFormat});
     addShading(passes, inputs, depth, std::move(channels), "shade terms of channels",
-               Shader::deferred_channel_terms_frag, terms);
+               Shader::deferred_channel_terms_frag, terms, litFormat);
     return terms;
 }
 

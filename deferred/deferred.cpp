@@ -52,15 +52,17 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     inputs.shadow.read(pass);
     pass.samples(frame.depth, inFragment).depthTest(frame.depth).takes(shadingMs(passes, inputs, batch));
     variant.set(gpu::FEATURE_light_batch, batch.kind);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
-                                                                 .fragment = fragment,
-                                                                 .variant = variant,
-                                                                 .input = NO_VERTICES,
-                                                                 .colors = colors,
-                                                                 .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                                 .depth_write = false,
-                                                                 .samples = inputs.samples});
+    const DepthStorage drawn = frame.groups.valid() ? DepthStorage() : inputs.depth;
+    const VkPipeline pipeline =
+        inputs.pipelines.get(drawn.stored({.vertex = Shader::deferred_lighting_vert,
+                                           .fragment = fragment,
+                                           .variant = variant,
+                                           .input = NO_VERTICES,
+                                           .colors = colors,
+                                           .depth = depthFormat,
+                                           .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                           .depth_write = false,
+                                           .samples = inputs.samples}));
     pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, groups));
 }
 
@@ -94,7 +96,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
-    images.depth = sampledImage(passes, inputs, "depth", depthFormat);
+    images.depth = sceneDepth(passes, inputs);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
         if (format == VK_FORMAT_UNDEFINED) continue;
@@ -107,12 +109,13 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     const LightBatch last = addEarlierLighting(passes, inputs, shaded);
     const ImageRef lit =
         passes.image({.name = "lit",
-                      .format = litFormat,
+                      .format = inputs.lit_format,
                       .samples = inputs.samples,
                       .usage = further.any() ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT} : 0});
     Pass& shade = passes.draw("shade").color(lit, Load::clear);
     addDeferredLighting(passes, shade, inputs, shaded, Shader::deferred_shade_frag, lightingVariant(inputs),
-                        {litFormat}, last, further.any() ? 1u : static_cast<gpu::uint>(inputs.samples));
+                        {inputs.lit_format}, last,
+                        further.any() ? 1u : static_cast<gpu::uint>(inputs.samples));
     addFurtherGroups(passes, inputs, shaded, further, lit);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
@@ -131,7 +134,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         addGBuffer(passes, inputs, frame, true);
     const FrameImages shaded = forLighting(frame);
     const LightBatch last = addEarlierLighting(passes, inputs, shaded);
-    for (const CaptureGroup& group : captureGroups(request.modes, mostCaptured(inputs))) {
+    for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit, inputs.samples))

@@ -22,7 +22,8 @@ namespace {
 std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const FrameInputs& inputs,
                                                   const FrameImages& images) {
     // With several samples a pixel a fragment is shaded between them, where no depth is stored.
-    if (inputs.samples > 1 || !inputs.prepass || !inputs.device.profile().fetches_depth) return nullptr;
+    if (inputs.samples > 1 || !inputs.prepass) return nullptr;
+    if (!inputs.device.profile().fetches_depth && !inputs.depth.inSteps()) return nullptr;
     return std::make_shared<const DescriptorSets>(gbufferSet(passes, inputs, images));
 }
 
@@ -52,7 +53,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
-    images.depth = sampledImage(passes, inputs, "depth", depthFormat);
+    images.depth = sceneDepth(passes, inputs);
     if (inputs.prepass)
         inputs.posing.read(passes, passes.draw("depth pre-pass"))
             .depth(images.depth, Load::clear)
@@ -75,7 +76,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
         addShading(pass, batch, forwardBatchKey);
     });
-    const ImageRef lit = sampledImage(passes, inputs, "lit", litFormat);
+    const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
     addShading(passes.draw("shade").color(lit, Load::clear), last, forwardKey);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
@@ -101,7 +102,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                 },
                 shaded);
         });
-        for (const CaptureGroup& group : captureGroups(modes, mostCaptured(inputs))) {
+        for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
             for (CapturedImage image : addCaptureImages(passes, pass, group, lit, inputs.samples)) {

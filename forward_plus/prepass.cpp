@@ -67,7 +67,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);
-    const ImageRef depth = sampledImage(passes, inputs, "depth", depthFormat);
+    const ImageRef depth = sceneDepth(passes, inputs);
     const auto draws = recordDraws(inputs, depthKey);
     inputs.posing.read(passes, passes.draw("count fragments"))
         .depth(depth, Load::clear)
@@ -77,15 +77,16 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
             queries.end(commands, 0);
         });
     // The full-screen triangle passes the depth test where something was drawn, as in deferred lighting.
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::full_screen_vert,
-                                                                 .fragment = Shader::none,
-                                                                 .variant = {},
-                                                                 .input = NO_VERTICES,
-                                                                 .colors = {},
-                                                                 .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                                 .depth_write = false,
-                                                                 .samples = inputs.samples});
+    const VkPipeline pipeline =
+        inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::full_screen_vert,
+                                                  .fragment = Shader::none,
+                                                  .variant = {},
+                                                  .input = NO_VERTICES,
+                                                  .colors = {},
+                                                  .depth = depthFormat,
+                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                                  .depth_write = false,
+                                                  .samples = inputs.samples}));
     passes.draw("count pixels").depthTest(depth).record([&](VkCommandBuffer commands) {
         queries.begin(commands, 1);
         recordTriangle(commands, pipeline);
@@ -116,6 +117,8 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, const Devic
 
 std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings& settings) {
     inputs.prepass = settings.prepass != Switch::off;
+    // Both paths shade the depth that was stored.
+    if (inputs.depth.inSteps()) return {};
     // Tiles are bounded by depth, so they need a pre-pass.
     if (settings.prepass != Switch::automatic || settings.assign == Assignment::tiled) return {};
     if (inputs.samples > 1 && inputs.device.profile().shades_failed_samples) {

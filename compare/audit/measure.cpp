@@ -105,10 +105,25 @@ RenderOptions drawing(std::vector<int> channels) {
 
 Outcome failedOutcome(const std::string& why) {
     Outcome outcome;
-    outcome.light = outcome.depth = outcome.flip = infinity;
+    outcome.light = outcome.light_999 = outcome.depth = outcome.flip = infinity;
     outcome.failed = why;
     return outcome;
 }
+
+// The scene that a planted fault makes of another, and what draws it.
+struct Drawn {
+    std::optional<Case> spoilt;
+    std::optional<SceneViews> views;
+    std::optional<Renderer> renderer;
+
+    void make(Device& device, const Case& pushed, const Measurer::Fault& fault,
+              const std::shared_ptr<PipelineSet>& pipelines) {
+        spoilt = pushed;
+        fault.scene(*spoilt);
+        views.emplace(spoilt->scene);
+        renderer.emplace(device, *views, pipelines);
+    }
+};
 
 }  // namespace
 
@@ -187,6 +202,7 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i); });
     const ChannelStats light = statsOf(litOf, truth.lit, lit, opaque);
     outcome.light = knownOrInfinite(light.p99);
+    outcome.light_999 = knownOrInfinite(light.p999);
     outcome.worst_x = light.worst_x;
     outcome.worst_y = light.worst_y;
     if (exposure > 0) outcome.light = pictureError(truth.lit, lit, opaque, exposure);
@@ -235,12 +251,18 @@ Step Measurer::measure(Case pushed, std::span<const Series> series, const Quanti
             SceneViews views(pushed.scene);
             Renderer renderer(device_, views, pipelines_);
             lit = litOfSurfaces(renderer, pushed.settings);
+            Drawn other;
+            if (fault_.scene) other.make(device_, pushed, fault_, pipelines_);
+            std::vector<int> channels{litOf, idsOf, depthOf};
+            channels.insert(channels.end(), fault_.channels.begin(), fault_.channels.end());
             for (const Series& one : series) {
                 Outcome& outcome = step.outcomes.emplace_back();
                 frames.emplace_back();
                 try {
-                    frames.back() = renderer.draw(withoutReference(one.applied(pushed.settings)),
-                                                  drawing({litOf, idsOf, depthOf}));
+                    Renderer& drawer = other.renderer ? *other.renderer : renderer;
+                    frames.back() =
+                        drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
+                    if (fault_.picture) fault_.picture(pushed, frames.back());
                 } catch (const std::exception& error) {
                     outcome = failedOutcome(error.what());
                 }

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych::audit {
@@ -43,6 +44,7 @@ struct Outcome {
     std::uint64_t nonfinite = 0;     // pixels of lit that are NaN or infinite
     int worst_x = -1, worst_y = -1;  // the first that is no number, or else of the largest error of lit
     std::string failed;              // why nothing was drawn; then the errors are infinite
+    double light_999 = 0;            // `light` of 99.9 % of the pixels; of what is measured now alone
 
     // The larger of both; infinite where a pixel is no number.
     double error() const {
@@ -64,6 +66,15 @@ class Measurer {
 public:
     // `device` and `subject` outlive it. Draws the reference of the subject as it is.
     Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep);
+
+    // What is wrong with the paths, for tests of what an audit finds: they draw another scene than the truth
+    // is of, or their picture is another one. `channels`: what of it `picture` reads beside lit and depth.
+    struct Fault {
+        std::function<void(Case&)> scene{};
+        std::function<void(const Case&, Frame&)> picture{};
+        std::vector<int> channels{};
+    };
+    void plant(Fault fault) { fault_ = std::move(fault); }
 
     // Of the pixels of the truth of the subject as it is, which stand for whatever files it comes from.
     std::string fingerprint();
@@ -89,6 +100,7 @@ private:
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
     std::optional<Truth> usual_;  // of the subject as it is
+    Fault fault_{};
 };
 
 }  // namespace diptych::audit

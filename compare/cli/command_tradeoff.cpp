@@ -12,6 +12,7 @@
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "shared/draw/depth_storage.h"
 
 #include <fmt/format.h>
 
@@ -95,6 +96,8 @@ public:
           progress_(progressOutput(options)),
           device_(deviceOptions(options)) {
         say(options, "on " + device_.info().name);
+        sweep_ = withoutRefused(std::move(sweep_), options.settings,
+                                [&](const Settings& row) { return drawingProblem(device_, row); });
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
         tradeoff_.given = truthFor(options.settings, sweep_.rows);

@@ -11,6 +11,7 @@
 #include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/sweep.h"
+#include "shared/draw/depth_storage.h"
 #include "shared/vulkan/pipeline_cache.h"
 
 #include <fmt/format.h>
@@ -44,11 +45,14 @@ std::size_t figureOf(const std::string& name) {
 }
 
 // What may be chosen: with --grid what that says, else what a sweep tries of what the scene feels.
-std::vector<Settings> candidatesFor(const Options& options, const SceneView& view, const Scene& scene) {
+std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
+                                    const Scene& scene) {
     const Settings& given = options.settings;
     tradeoff::SweepRows sweep = tradeoff::makeSweepRows(
         given, options.grid.empty() ? tradeoff::usualGrids(given) : tradeoff::readGrids(options.grid, given));
     if (options.grid.empty()) sweep = tradeoff::rowsThatAreFelt(sweep, view.lights, &scene);
+    sweep = tradeoff::withoutRefused(std::move(sweep), given,
+                                     [&](const Settings& row) { return drawingProblem(device, row); });
     // What the command line says comes first of its path: the others are told by what they change of it.
     std::ranges::stable_sort(sweep.rows, {},
                              [&](const Settings& row) { return tradeoff::choicesOf(row, given).size(); });
@@ -132,7 +136,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     Options asked = options_;
     asked.settings = given;
     const std::vector<Settings> candidates =
-        candidatesFor(asked, held.views.at(viewRequest(given)), held.scene);
+        candidatesFor(asked, device_, held.views.at(viewRequest(given)), held.scene);
 
     ChoiceReport report;
     report.scene = where;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -74,6 +75,20 @@ std::uint64_t nonfinitePixels(const Image& image) {
         count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
     }
     return count;
+}
+
+std::optional<std::string> overflowInWords(const Image& lit, LitFormat format) {
+    if (format == LitFormat::fp32) return {};
+    const std::array<float, 3> most = format == LitFormat::fp16 ? std::array{65504.0f, 65504.0f, 65504.0f}
+                                                                : std::array{65024.0f, 65024.0f, 64512.0f};
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < lit.pixels(); ++i) {
+        const float* const p = lit.pixel(i);
+        count += p[0] >= most[0] || p[1] >= most[1] || p[2] >= most[2];
+    }
+    if (count == 0) return {};
+    return fmt::format("lit: {} pixel(s) are as large as {} holds, or larger, and cut; use --lit-format fp32",
+                       count, nameOf(format));
 }
 
 std::vector<std::uint32_t> repairNonfinite(Image& image) {

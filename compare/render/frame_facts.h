@@ -7,6 +7,7 @@
 #include "shared/scene/scene_view.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ FrameCamera cameraOf(const View& view);
 
 // Pixels with a component that is NaN or infinite.
 std::uint64_t nonfinitePixels(const Image& image);
+
+// What a picture says where some of its lit is as large as its format holds, or larger; nothing elsewhere.
+std::optional<std::string> overflowInWords(const Image& lit, LitFormat format);
 
 // Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the pixels that had some.
 std::vector<std::uint32_t> repairNonfinite(Image& image);

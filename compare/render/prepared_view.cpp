@@ -139,6 +139,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .lists = buffers.lists(),
           .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, draws, settings),
           .gbuffer = gbuffer,
+          .depth = depthStorage(settings.depth_format),
+          .lit_format = litFormatOf(settings.lit_format),
           .shadow = shadow,
           .transparency = settings.transparency,
           .blended = blendedRange(draws, scene.view),
@@ -148,6 +150,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .edges = settings.msaa_edges,
           .alpha_to_coverage = settings.alpha_to_coverage,
       } {
+    if (const auto problem = drawingProblem(device, settings)) throw std::runtime_error(*problem);
+    inputs.variant.set(gpu::FEATURE_depth_format, inputs.depth.kind);
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));
     shadow.specialise(inputs.variant);

@@ -50,6 +50,7 @@ public:
         drawLit();
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);
+        if (auto cut = overflowInWords(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
         if (auto repaired = repairNonfinite(lit_); !repaired.empty()) {
             frame_.counters.nonfinite_pixels = repaired.size();
             if (isRequested(lit)) frame_.repaired[lit] = std::move(repaired);

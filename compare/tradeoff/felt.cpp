@@ -62,6 +62,8 @@ public:
             reset("area-lights", "there is no area light");
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
+        if (std::ranges::all_of(lights, [](const Light& light) { return isArea(light.kind); }))
+            reset("shading-precision", "no point, spot or sun lights anything");
         noteShadows(lights);
         noteEnvironment(surfaces);
         if (row_.multiscatter == Multiscatter::off && row_.ambient == Settings().ambient &&

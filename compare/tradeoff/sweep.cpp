@@ -180,6 +180,19 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
     return sweep;
 }
 
+SweepRows withoutRefused(SweepRows sweep, const Settings& given,
+                         const std::function<std::optional<std::string>(const Settings&)>& problem) {
+    std::vector<Settings> drawn;
+    for (Settings& row : sweep.rows)
+        if (const auto why = problem(row))
+            sweep.skips.push_back({choicesOf(row, given), *why});
+        else
+            drawn.push_back(std::move(row));
+    sweep.rows = std::move(drawn);
+    if (sweep.rows.empty()) throw std::runtime_error("nothing to sweep: " + sweep.skips.back().reason);
+    return sweep;
+}
+
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
     std::vector<Choice> choices{{"path", std::string(nameOf(row.path))}};
     for (const Field& field : settingFields()) {

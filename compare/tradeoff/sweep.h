@@ -4,6 +4,8 @@
 
 #include "shared/frame/settings.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +37,11 @@ std::vector<Grid> usualGrids(const Settings& given);
 // than mostCombinations are asked for.
 SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
 inline constexpr std::size_t mostCombinations = 10'000;
+
+// The same without the rows that `problem` gives a reason against, such as a format that a device lacks; they
+// become skips. Throws std::runtime_error where nothing is left.
+SweepRows withoutRefused(SweepRows sweep, const Settings& given,
+                         const std::function<std::optional<std::string>(const Settings&)>& problem);
 
 // What the reference of the rows follows: the given Settings, but with shadows where any row has them. A
 // sweep over shadows is held against the shadowed truth, one over compensations of light between microfacets

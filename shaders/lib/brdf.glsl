@@ -6,6 +6,14 @@
 
 #include "shaders/lib/surface.glsl"
 
+// HALF: 1 in the modules that shade in floats of 16 bits, which a device may lack.
+#ifndef HALF
+#define HALF 0
+#endif
+#if HALF
+#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
+#endif
+
 // What does not depend on the light.
 struct Brdf {
     vec3 diffuse;    // (1 - metallic) albedo / pi, 1/sr
@@ -73,8 +81,48 @@ float schlickWeight(float v_dot_h) {
     return x2 * x2 * x;
 }
 
-// Adds what light of `irradiance` (W/m^2, across its direction) from the unit vector `l` sends to `v`.
-void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
+// Of what arrives from one direction.
+struct Reflected {
+    float n_dot_l;  // 0 to 1
+    vec3 base;      // 1/sr
+    vec3 lobe;      // 1/sr
+};
+
+#if HALF
+// The specular lobe in floats of 16 bits, as renderers for phones have it: what a surface reflects, while
+// light and its sums stay in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 / pi of a half vector of
+// unit length, so that nothing small is squared, and is cut at what 16 bits hold; the visibility term is cut
+// where it would be infinite.
+float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
+    f16vec3 n_cross_h = n.yzx * h.zxy - n.zxy * h.yzx;
+    float16_t alpha = float16_t(b.alpha), alpha2 = float16_t(b.alpha2), n_dot_v = float16_t(b.n_dot_v);
+    float16_t a = dot(n, h) * alpha;
+    float16_t k = alpha / max(dot(n_cross_h, n_cross_h) + a * a, float16_t(6e-8));
+    k = min(k, float16_t(450.0));  // 65504 pi is the square of 453.6
+    float16_t lambda = n_dot_l * float16_t(b.smith_v) +
+                       n_dot_v * sqrt(n_dot_l * n_dot_l * (float16_t(1.0) - alpha2) + alpha2);
+    float16_t visibility = float16_t(0.5) / max(lambda, float16_t(1e-5));
+    float lobe = float(k * k * float16_t(INVERSE_PI)) * float(visibility);
+    return dot(n, h) > float16_t(0.0) ? lobe : 0.0;
+}
+
+Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) {
+    f16vec3 n = f16vec3(normal), v = f16vec3(view_vector), l = f16vec3(to_light);
+    float16_t n_dot_l = clamp(dot(n, l), float16_t(0.0), float16_t(1.0));
+    f16vec3 s = l + v;
+    f16vec3 h = s * inversesqrt(max(dot(s, s), float16_t(1e-6)));
+    float16_t x = clamp(float16_t(1.0) - dot(v, h), float16_t(0.0), float16_t(1.0));
+    float16_t x2 = x * x, weight = x2 * x2 * x;
+    f16vec3 f0 = f16vec3(b.f0), fresnel = f0 + (f16vec3(b.f90) - f0) * weight;
+    float16_t base_f0 = float16_t(b.base_f0);
+    float16_t base = float16_t(1.0) - (base_f0 + (float16_t(b.base_f90) - base_f0) * weight);
+    return Reflected(float(n_dot_l), vec3(f16vec3(b.diffuse) * base),
+                     vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
+}
+#endif
+
+// l: unit, to the light.
+Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     vec3 s = l + v;
     float s2 = dot(s, s);
@@ -82,11 +130,19 @@ void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffus
     vec3 fresnel = b.f0 + (b.f90 - b.f0) * weight;
     float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
-    vec3 received = irradiance * n_dot_l;
-    vec3 from_base = b.diffuse * base * received;
-    vec3 from_lobe = fresnel * lobe * received;
+    return Reflected(n_dot_l, b.diffuse * base, fresnel * lobe);
+}
+
+// Adds what light of `irradiance` (W/m^2, across its direction) from the unit vector `l` sends to `v`.
+void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
+    Reflected reflected = reflectedLight(b, n, v, l);
+#if HALF
+    if (on(feature_half_shading)) reflected = reflectedInHalf(b, n, v, l);
+#endif
+    vec3 received = irradiance * reflected.n_dot_l;
+    vec3 from_lobe = reflected.lobe * received;
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;
-    diffuse += from_base;
+    diffuse += reflected.base * received;
     specular += from_lobe;
 }
 

@@ -19,6 +19,7 @@
 #define INPUT(at, type, name) layout(location = at) out type name;
 #define UNREAD(type, name)
 #else
+#include "shaders/lib/reversed_depth.glsl"
 #include "shaders/lib/samples.glsl"
 #define INPUT(at, type, name) layout(location = at) in type name;
 #define UNREAD(type, name) const type name = type(0.0);
@@ -95,8 +96,10 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 vec2 shadedPixel() {
     return multisampled() ? floor(gl_FragCoord.xy) + placeOf(uint(gl_SampleMaskIn[0])) : gl_FragCoord.xy;
 }
+// At the pixel's middle.
+float middleDepth() { return reversedDepth(gl_FragCoord.z); }
 float fragmentDepth() {
-    if (!multisampled()) return gl_FragCoord.z;
+    if (!multisampled()) return middleDepth();
     vec2 from = shadedPixel() - gl_FragCoord.xy;
     float z = gl_FragCoord.z + from.x * dFdxFine(gl_FragCoord.z) + from.y * dFdyFine(gl_FragCoord.z);
     return clamp(z, 0.0, 1.0);

@@ -4,7 +4,7 @@
 #ifndef STORED_DEPTH_GLSL
 #define STORED_DEPTH_GLSL
 
-#include "shaders/lib/contract.glsl"
+#include "shaders/lib/reversed_depth.glsl"
 
 #ifndef SAMPLES
 #define SAMPLES 0
@@ -17,7 +17,7 @@ layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_dep
 #endif
 
 // Reversed, in [0, 1]. i: the sample, 0 where pixels have one.
-float depthAt(ivec2 p, int i) { return texelFetch(gbuffer_depth, p, i).r; }
+float depthAt(ivec2 p, int i) { return reversedDepth(texelFetch(gbuffer_depth, p, i).r); }
 float depthAt(ivec2 p) { return depthAt(p, 0); }
 
 #endif

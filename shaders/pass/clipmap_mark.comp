@@ -6,6 +6,7 @@
 // MULTISAMPLED: 0 to 1, the surfaces of all of its samples, as if each were shaded where the sample is.
 #include "shaders/lib/clipmap.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/reversed_depth.glsl"
 #include "shaders/lib/samples.glsl"
 
 layout(local_size_x = CLIPMAP_MARK_SIDE, local_size_y = CLIPMAP_MARK_SIDE) in;
@@ -34,9 +35,9 @@ void main() {
 #if MULTISAMPLED
     uint i = 0u;
     do {
-        mark(vec2(p) + samplePlace(i), texelFetch(depth, p, int(i)).r);
+        mark(vec2(p) + samplePlace(i), reversedDepth(texelFetch(depth, p, int(i)).r));
     } while (++i < feature_samples);
 #else
-    mark(vec2(p) + 0.5, texelFetch(depth, p, 0).r);
+    mark(vec2(p) + 0.5, reversedDepth(texelFetch(depth, p, 0).r));
 #endif
 }

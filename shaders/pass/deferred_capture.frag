@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// HALF: 0 to 1
 
 // ATTACHMENTS: 1 to 8 channels.
 // SAMPLES: 0 to 1

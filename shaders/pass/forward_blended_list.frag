@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// HALF: 0 to 1
 // INPUTS: 0 to 3
 
 // To the place of its pixel's list that its key has found.
@@ -16,7 +17,7 @@ void main() {
     BlendedFragment f = blendedFragment();
     if (!isListed(p) || !f.covers) return;
     uint pixel = listedPixel(p);
-    uint place = placeOf(pixel, fragmentKey(gl_FragCoord.z, constants.triangle + uint(gl_PrimitiveID)));
+    uint place = placeOf(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
     if (place < list_of.layers) {
         fragments[place * listedPixels() + pixel] = vec4(f.radiance, f.opacity);
         return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// HALF: 0 to 1
 // INPUTS: 0 to 3
 
 // Sums of radiance and opacity, each layer weighted by what the layers before it let through.
@@ -12,6 +13,6 @@ layout(location = 0) out vec4 out_sums;
 
 void main() {
     BlendedFragment f = blendedFragment();
-    float weight = transmittanceBefore(ivec2(gl_FragCoord.xy), gl_FragCoord.z);
+    float weight = transmittanceBefore(ivec2(gl_FragCoord.xy), middleDepth());
     out_sums = vec4(f.radiance, f.opacity) * weight;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// HALF: 0 to 1
 // INPUTS: 0 to 3
 
 // Weighted blended order-independent transparency (McGuire and Bavoil 2013): sums of radiance and opacity,
@@ -16,7 +17,7 @@ void main() {
     BlendedFragment f = blendedFragment();
     // Falls to 1/20 over the range of blended surfaces: of exp(-k depth) the k with the least error over 2 to
     // 8 layers of opacities from 0.2 to 0.9 (shared/transparent/README.md).
-    float weight = exp(-3.0 * blendedDepth(gl_FragCoord.z));
+    float weight = exp(-3.0 * blendedDepth(middleDepth()));
     out_sums = vec4(f.radiance, f.opacity) * weight;
     out_optical_depth = opticalDepth(f.opacity, MOST_OPTICAL_DEPTH);
 }

@@ -9,6 +9,7 @@
 // MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/reversed_depth.glsl"
 
 layout(local_size_x = LIGHT_TILE / 2, local_size_y = LIGHT_TILE / 2) in;
 
@@ -52,18 +53,18 @@ void main() {
             ivec2 last = size() - 1;
             int s = 0;
             do {
-                add(texelFetch(depth, p, s).r, near, deep);
-                add(texelFetch(depth, min(p + ivec2(1, 0), last), s).r, near, deep);
-                add(texelFetch(depth, min(p + ivec2(0, 1), last), s).r, near, deep);
-                add(texelFetch(depth, min(p + 1, last), s).r, near, deep);
+                add(reversedDepth(texelFetch(depth, p, s).r), near, deep);
+                add(reversedDepth(texelFetch(depth, min(p + ivec2(1, 0), last), s).r), near, deep);
+                add(reversedDepth(texelFetch(depth, min(p + ivec2(0, 1), last), s).r), near, deep);
+                add(reversedDepth(texelFetch(depth, min(p + 1, last), s).r), near, deep);
             } while (++s < textureSamples(depth));
 #else
             // Beyond the picture's edge the last pixel is repeated.
             vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
-            add(z.x, near, deep);
-            add(z.y, near, deep);
-            add(z.z, near, deep);
-            add(z.w, near, deep);
+            add(reversedDepth(z.x), near, deep);
+            add(reversedDepth(z.y), near, deep);
+            add(reversedDepth(z.z), near, deep);
+            add(reversedDepth(z.w), near, deep);
 #endif
         }
     } while (++i < steps * steps);

@@ -6,7 +6,7 @@
 // The least and the largest reversed depth that is drawn in a picture. One thread reads two columns of
 // DEPTH_BOUNDS_ROWS rows.
 // MULTISAMPLED: 0 to 1, over all samples of all pixels.
-#include "shaders/lib/contract.glsl"
+#include "shaders/lib/reversed_depth.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;
 layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform
@@ -40,12 +40,12 @@ void main() {
         do {
             for (int i = 0; i < 4; ++i) {
                 ivec2 p = min(first + ivec2(i & 1, y + (i >> 1)), size - 1);
-                add(texelFetch(depth, p, s).r, nearest, deepest);
+                add(reversedDepth(texelFetch(depth, p, s).r), nearest, deepest);
             }
         } while (++s < textureSamples(depth));
 #else
         vec4 z = textureGather(depth, vec2(min(first + ivec2(0, y), size - 1) + 1) / vec2(size));
-        for (int i = 0; i < 4; ++i) add(z[i], nearest, deepest);
+        for (int i = 0; i < 4; ++i) add(reversedDepth(z[i]), nearest, deepest);
 #endif
     }
     // One atomic operation for each subgroup, as those of single threads would wait for each other.

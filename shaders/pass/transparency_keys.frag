@@ -15,5 +15,5 @@ void main() {
     cutOut(base_color);
     // What covers nothing takes no room.
     if (coverageOf(base_color) == 0.0 || !isListed(p)) return;
-    insertKey(listedPixel(p), fragmentKey(gl_FragCoord.z, constants.triangle + uint(gl_PrimitiveID)));
+    insertKey(listedPixel(p), fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
 }

@@ -17,5 +17,5 @@ void main() {
     if (on(feature_transmission)) opacity = opacityOf(surfaceFromMaterial(base_color), base_color);
     float optical_depth = opticalDepth(opacity, MOST_OPTICAL_DEPTH_OF_MOMENTS);
     out_optical_depth = optical_depth;
-    out_moments = powersOf(momentDepth(gl_FragCoord.z)) * optical_depth;
+    out_moments = powersOf(momentDepth(middleDepth())) * optical_depth;
 }

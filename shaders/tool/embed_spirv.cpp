@@ -77,11 +77,11 @@ int writeLayoutChecks(std::ofstream& out, const Reflection& r) {
 }
 
 // A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit]
-// [.samples or .coverage][.inputsN].
+// [.samples, .coverage or .half][.inputsN]. What is .half has the code of area lights, too.
 struct Module {
     std::string name, shader;
     unsigned number = 0;
-    bool area_lights = false, lights = true, samples = false, coverage = false;
+    bool area_lights = false, lights = true, samples = false, coverage = false, half = false;
     int inputs = 3;
     Words words;
 
@@ -90,7 +90,9 @@ struct Module {
         std::ranges::replace(symbol, '.', '_');
         return symbol;
     }
-    auto order() const { return std::tie(shader, number, lights, area_lights, samples, coverage, inputs); }
+    auto order() const {
+        return std::tie(shader, number, lights, area_lights, samples, coverage, half, inputs);
+    }
 };
 
 Module moduleOf(const std::filesystem::path& file) {
@@ -111,6 +113,8 @@ Module moduleOf(const std::filesystem::path& file) {
             module.samples = true;
         else if (part == "coverage")
             module.coverage = true;
+        else if (part == "half")
+            module.half = module.area_lights = true;
         else if (part.starts_with("inputs"))
             module.inputs = std::stoi(part.substr(std::string("inputs").size()));
         else
@@ -125,7 +129,7 @@ void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
     for (const Module& m : modules)
         out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
             << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.coverage
-            << ", " << m.inputs << ", " << m.symbol() << "},\n";
+            << ", " << m.half << ", " << m.inputs << ", " << m.symbol() << "},\n";
     out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
 }
 

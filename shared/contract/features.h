@@ -108,7 +108,11 @@
     /* SPECULAR_AA_* of material.h, and the two numbers of shaders/lib/specular_aa.glsl, bits of float32 */  \
     X(60, specular_aa,                frame,   0, PASSES_SURFACE)                                           \
     X(61, specular_aa_variance,       frame,   0, PASSES_SURFACE)                                           \
-    X(62, specular_aa_limit,          frame,   0, PASSES_SURFACE)
+    X(62, specular_aa_limit,          frame,   0, PASSES_SURFACE)                                           \
+    /* DEPTH_* of view.h: how the scene's depth is stored */                                                \
+    X(63, depth_format,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS) \
+    /* the light of points, spots and suns in floats of 16 bits */                                          \
+    X(64, half_shading,               frame,   0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN

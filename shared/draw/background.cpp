@@ -24,15 +24,16 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_BACKGROUND));
     if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
         variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
-                                                                 .fragment = Shader::background_frag,
-                                                                 .variant = variant,
-                                                                 .input = NO_VERTICES,
-                                                                 .colors = {litFormat},
-                                                                 .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_GREATER,
-                                                                 .depth_write = false,
-                                                                 .samples = inputs.samples});
+    const VkPipeline pipeline =
+        inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
+                                                  .fragment = Shader::background_frag,
+                                                  .variant = variant,
+                                                  .input = NO_VERTICES,
+                                                  .colors = {inputs.lit_format},
+                                                  .depth = depthFormat,
+                                                  .depth_compare = VK_COMPARE_OP_GREATER,
+                                                  .depth_write = false,
+                                                  .samples = inputs.samples}));
     passes.draw("background").color(lit, load).depthTest(depth).record(recordFullScreen(inputs, pipeline));
 }
 
@@ -41,7 +42,7 @@ ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, Image
     const bool shown = std::ranges::count(group.modes, static_cast<int>(gpu::DEBUG_lit)) > 0;
     if (!shown || !isSeen(inputs)) return {};
     const ImageRef lit = passes.image({.name = "lit",
-                                       .format = litFormat,
+                                       .format = inputs.lit_format,
                                        .samples = inputs.samples,
                                        .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                        .life = Life::transient});

@@ -26,14 +26,15 @@ void CaptureGroup::specialise(Variant& variant) const {
                     i < modes.size() ? static_cast<gpu::uint>(modes[i]) : gpu::DEBUG_none);
 }
 
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes, std::size_t most) {
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit, std::size_t most) {
     std::vector<int> ordered(modes.begin(), modes.end());
     std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isShaded(mode); });
     std::vector<CaptureGroup> groups;
     for (std::size_t i = 0; i < ordered.size(); ++i) {
         if (i % most == 0) groups.emplace_back();
         groups.back().modes.push_back(ordered[i]);
-        groups.back().formats.push_back(formatFor(debugMode(ordered[i])));
+        groups.back().formats.push_back(
+            ordered[i] == static_cast<int>(gpu::DEBUG_lit) ? lit : formatFor(debugMode(ordered[i])));
     }
     return groups;
 }

@@ -16,11 +16,11 @@ namespace diptych {
 // passes as the attachments allow hold them all and only the last ones shade.
 struct CaptureGroup {
     std::vector<int> modes;         // debug modes, one an attachment
-    std::vector<VkFormat> formats;  // float32, as wide as the channel
+    std::vector<VkFormat> formats;  // float32, as wide as the channel; of lit the frame's own
     void specialise(Variant& variant) const;
 };
-// `most`: attachments of a group.
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes,
+// `lit`: the format of lit, over which something may be blended. `most`: attachments of a group.
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit,
                                         std::size_t most = gpu::CAPTURE_ATTACHMENTS);
 
 // Groups share their images' memory: each is run, and read back, before the next one runs.

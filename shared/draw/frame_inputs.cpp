@@ -65,7 +65,8 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_lights_in_front, !draws.blended().empty())
         .set(gpu::FEATURE_samples, settings.msaa > 1 ? static_cast<gpu::uint>(settings.msaa) : 0)
         .set(gpu::FEATURE_tonemapped_resolve, settings.resolve == Resolve::tonemapped)
-        .set(gpu::FEATURE_orthographic, view.camera.orthographic);
+        .set(gpu::FEATURE_orthographic, view.camera.orthographic)
+        .set(gpu::FEATURE_half_shading, settings.shading_precision == ShadingPrecision::fp16);
     addSpecularAa(variant, settings);
     gbuffer.specialise(variant);
     return variant;
@@ -73,6 +74,10 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
 
 ImageRef sampledImage(PassList& passes, const FrameInputs& inputs, const std::string& name, VkFormat format) {
     return passes.image({.name = name, .format = format, .samples = inputs.samples});
+}
+
+ImageRef sceneDepth(PassList& passes, const FrameInputs& inputs, const char* name) {
+    return passes.image(inputs.depth.image(name, inputs.samples));
 }
 
 DescriptorSets blendedSet(const FrameInputs& inputs) {

@@ -2,6 +2,7 @@
 // What a path is given, and what it gives.
 #pragma once
 
+#include "shared/draw/depth_storage.h"
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
 #include "shared/draw/posing.h"
@@ -34,6 +35,8 @@ struct FrameInputs {
     LightLists& lists;
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
+    DepthStorage depth{};
+    VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // of what a picture's radiance is drawn to
     ShadowMaps& shadow;
     Transparency transparency = Transparency::sorted;
     gpu::BlendedConstants blended{};           // of all passes of blended surfaces
@@ -47,15 +50,17 @@ struct FrameInputs {
 };
 
 struct FrameImages {
-    ImageRef lit;                                              // RGBA32F, linear scene-referred radiance
-    ImageRef lit_samples;                                      // of every sample, before the resolve
-    ImageRef depth;                                            // D32F, reversed
+    ImageRef lit;          // linear scene-referred radiance, of FrameInputs::lit_format
+    ImageRef lit_samples;  // of every sample, before the resolve
+    ImageRef depth;        // as FrameInputs::depth says
     std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
     ImageRef groups{};  // deferred, with several samples a pixel: which of them are shaded as one, as a depth
 };
 
 // A transient that the scene's triangles draw to: with all samples of the frame.
 ImageRef sampledImage(PassList& passes, const FrameInputs& inputs, const std::string& name, VkFormat format);
+// The depth of the scene's triangles, as FrameInputs::depth stores it.
+ImageRef sceneDepth(PassList& passes, const FrameInputs& inputs, const char* name = "depth");
 
 // SET_GBUFFER of what `images` has. Made when they have memory, once a pass is prepared at the latest.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images);
@@ -66,6 +71,7 @@ DescriptorSets blendedSet(const FrameInputs& inputs);
 // Of local lights those that a pixel evaluates, about, and the directional ones.
 double lightsAtPixel(const FrameInputs& inputs);
 
+// Of sums of light that are no picture; of shadow maps, and of what else stores depths reversed.
 constexpr VkFormat litFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 

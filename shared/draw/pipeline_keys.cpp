@@ -31,7 +31,7 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
                     .fragment = Shader::forward_shade_frag,
                     .variant = item.variant.only(read & featuresSetBy(FeatureSource::item)),
                     .input = VERTEX_ALL,
-                    .colors = {litFormat},
+                    .colors = {inputs.lit_format},
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = false};
@@ -63,7 +63,8 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = false};
-    key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic));
+    key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
+        .set(gpu::FEATURE_depth_format, inputs.depth.kind);
     // What passes a surface depends on all that it is.
     if (item.variant.get(gpu::FEATURE_transmission) != 0) key.variant = forwardKey(inputs, item, {}).variant;
     return key;

@@ -19,7 +19,9 @@ namespace {
 // Of the lights of an object only those that are shaded at vertices need one.
 int inputsOf(const Variant& variant, int sets) {
     if ((variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0) return 3;
-    if (variant.get(gpu::FEATURE_alpha_mask) == gpu::MASK_COVERS) return 3;  // no others are compiled
+    if (variant.get(gpu::FEATURE_alpha_mask) == gpu::MASK_COVERS ||
+        variant.get(gpu::FEATURE_half_shading) != 0)
+        return 3;  // no others are compiled
     const int least = 4 - sets;
     for (int inputs = 3; inputs > least; --inputs)
         if (variant.any(featuresNeedingInputs(inputs))) return inputs;
@@ -43,9 +45,10 @@ const ShaderModule* moduleOf(Shader shader, std::size_t attachments, const Varia
     const bool lights = needsLights(variant), areaLights = variant.get(gpu::FEATURE_area_lights) != 0;
     const bool samples = variant.get(gpu::FEATURE_samples) != 0;
     const bool coverage = variant.get(gpu::FEATURE_alpha_mask) == gpu::MASK_COVERS;
+    const bool half = variant.get(gpu::FEATURE_half_shading) != 0;
     const auto unfit = [&](const ShaderModule& module) {
-        return std::tuple(module.coverage != coverage, module.samples != samples, module.lights != lights,
-                          module.area_lights != areaLights, module.inputs);
+        return std::tuple(module.half != half, module.coverage != coverage, module.samples != samples,
+                          module.lights != lights, module.area_lights != areaLights, module.inputs);
     };
     for (const ShaderModule& module : shaderModules(shader))
         if (module.number == best->number && module.inputs >= inputs && unfit(module) < unfit(*best))

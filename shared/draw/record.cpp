@@ -58,6 +58,7 @@ std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const D
         PipelineKey& key = keys.back();
         key.variant.set(gpu::FEATURE_vertex_posing, inputs.posing.isPosedInShader(item));
         if (sampled) {
+            key = inputs.depth.stored(std::move(key));
             key.samples = inputs.samples;
             key.sample_shading = inputs.sample_shading;
             if (inputs.alpha_to_coverage && key.variant.get(gpu::FEATURE_alpha_mask) != 0)

@@ -55,7 +55,7 @@ void checkSamples(const FrameInputs& inputs) {
     };
     if (device.limits().standardSampleLocations != VK_TRUE)
         fail("has no standard places of samples; use --msaa 1");
-    std::vector<VkFormat> formats{litFormat, depthFormat};
+    std::vector<VkFormat> formats{inputs.lit_format, depthFormat};
     for (const VkFormat format : inputs.gbuffer.formats)
         if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
     for (const VkFormat format : formats) {
@@ -77,7 +77,7 @@ void checkSamples(const FrameInputs& inputs) {
 ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life) {
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return lit;
     const ImageRef resolved = passes.image(
-        {.name = "lit", .format = litFormat, .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT, .life = life});
+        {.name = "lit", .format = inputs.lit_format, .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT, .life = life});
     addReading(passes, inputs, Shader::sample_resolve_frag, "resolve", {lit}, {resolved});
     return resolved;
 }

@@ -104,6 +104,27 @@ inline constexpr auto enum_names<Multiscatter> =
                                            {Multiscatter::fdez, "fdez"},
                                            {Multiscatter::walk, "walk"}});
 
+// How the depth of the scene's nearest surfaces is stored. d32f: reversed, 1 at the near plane, so that the
+// steps of a float are small where those of 1 / distance are; d32f_standard: 0 at the near plane; d24, d16:
+// equal steps, where turning them round changes nothing.
+enum class DepthFormat { d32f, d32f_standard, d24, d16 };
+template <>
+inline constexpr auto enum_names<DepthFormat> =
+    std::to_array<EnumName<DepthFormat>>({{DepthFormat::d32f, "d32f"},
+                                          {DepthFormat::d32f_standard, "d32f-standard"},
+                                          {DepthFormat::d24, "d24"},
+                                          {DepthFormat::d16, "d16"}});
+
+enum class LitFormat { fp32, fp16, b10g11r11 };
+template <>
+inline constexpr auto enum_names<LitFormat> = std::to_array<EnumName<LitFormat>>(
+    {{LitFormat::fp32, "fp32"}, {LitFormat::fp16, "fp16"}, {LitFormat::b10g11r11, "b10g11r11"}});
+
+enum class ShadingPrecision { fp32, fp16 };
+template <>
+inline constexpr auto enum_names<ShadingPrecision> = std::to_array<EnumName<ShadingPrecision>>(
+    {{ShadingPrecision::fp32, "fp32"}, {ShadingPrecision::fp16, "fp16"}});
+
 // How the specular lobe takes light of an environment.
 enum class Ibl { split, sampled };
 template <>

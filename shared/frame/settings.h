@@ -22,6 +22,9 @@ struct Settings {
     LightKernel light_kernel = LightKernel::automatic;
     Switch prepass = Switch::automatic;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
+    DepthFormat depth_format = DepthFormat::d32f;
+    LitFormat lit_format = LitFormat::fp32;
+    ShadingPrecision shading_precision = ShadingPrecision::fp32;
     Size size;
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
@@ -214,6 +217,9 @@ inline constexpr std::string_view own_samples = "the reference takes as many sam
 inline bool hasMsaa(const Settings& s) {
     return s.msaa > 1;
 }
+inline bool hasOneSample(const Settings& s) {
+    return !hasMsaa(s);
+}
 inline bool hasReferenceSamples(const Settings& s) {
     return isReference(s) && s.reference_mode == ReferenceMode::scene && s.spp > 1;
 }
@@ -283,6 +289,32 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all",
                 .for_surfaces = "full"},  // the geometric normal is not packed either
           &Settings::gbuffer);
+    visit(Field{.option = "depth-format",
+                .help = "what the scene's depth is stored as: reversed floats, floats that grow with the "
+                        "distance, or reversed steps of 24 or 16 bits",
+                .default_only = {"has no meaning with --msaa 4: what several samples are shaded at is "
+                                 "interpolated, not stored",
+                                 row::hasOneSample},
+                .ignored = {.reference = "the reference stores no depth"},
+                .sweep = "all",
+                .for_surfaces = "d32f"},
+          &Settings::depth_format);
+    visit(Field{.option = "lit-format",
+                .help = "what radiance is drawn to: 32-bit floats, 16-bit floats, or 11, 11 and 10 bits",
+                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
+                .ignored = {.reference = "the reference sums in double"},
+                .sweep = "all",
+                .for_surfaces = "fp32"},
+          &Settings::lit_format);
+    visit(Field{.option = "shading-precision",
+                .help =
+                    "floats that the light of points, spots and suns is computed with, where the device has "
+                    "such",
+                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
+                .ignored = {.reference = "the reference shades in double"},
+                .sweep = "all",
+                .for_surfaces = "fp32"},
+          &Settings::shading_precision);
     visit(Field{.option = "size",
                 .help = "picture size, WxH",
                 .valid = {"width and height are 1 to 16384",

@@ -28,6 +28,16 @@ std::optional<std::string> tilesNeedDepths(const Settings& s) {
            "use --prepass on";
 }
 
+std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
+    const bool steps = s.depth_format == DepthFormat::d24 || s.depth_format == DepthFormat::d16;
+    if (s.path != Path::forward_plus || s.prepass != Switch::off || !steps) return {};
+    return fmt::format(
+        "--depth-format {} has no meaning with --prepass off: both paths shade the depth that was stored; "
+        "use "
+        "--prepass on",
+        nameOf(s.depth_format));
+}
+
 std::optional<std::string> levelsHavePages(const Settings& s) {
     if (s.path == Path::reference || s.shadows != Shadows::clipmap ||
         s.shadow_size >= 4 * s.clipmap_page_size)
@@ -54,8 +64,9 @@ std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
         nameOf(s.transparency), s.msaa);
 }
 
-constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths,
-                          levelsHavePages,       onlyTheReferenceWalks,  sumsOfLayersHaveOneSample};
+constexpr Rule rules[] = {surfacesHaveOneSample,    deferredKnowsNoObjects, tilesNeedDepths,
+                          storedDepthsAreShaded,    levelsHavePages,        onlyTheReferenceWalks,
+                          sumsOfLayersHaveOneSample};
 
 // "''" of a value without any.
 std::string quotedValue(const Settings& settings, std::string_view option) {

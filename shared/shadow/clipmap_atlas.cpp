@@ -195,7 +195,7 @@ std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, co
         const ImageRef drawn = passes.image("shadow page", depthFormat);
         for (std::size_t i = 0; i < now.size(); ++i) {
             inputs.posing.read(passes, passes.draw("shadow page"))
-                .depth(drawn, Load::clear, 0.0f)
+                .depth(drawn, Load::clear)
                 .record(recordCasters(inputs, lists[i], buffer.handle()));
             passes.copy("shadow page to atlas")
                 .uses(drawn, access::copiedFromImage, {})

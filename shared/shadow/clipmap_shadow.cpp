@@ -86,7 +86,7 @@ std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) cons
 
 void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
     PassList passes(device_, extent_.width, extent_.height);
-    const ImageRef depth = sampledImage(passes, inputs, "depth", depthFormat);
+    const ImageRef depth = sceneDepth(passes, inputs);
     inputs.posing.read(passes, passes.draw("depth of shadow pages"))
         .depth(depth, Load::clear)
         .record(recordDraws(inputs, depthKey));
@@ -108,7 +108,8 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
     const char* const name = "mark shadow pages";
     Variant variant;
     variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
-        .set(gpu::FEATURE_samples, inputs.variant.get(gpu::FEATURE_samples));
+        .set(gpu::FEATURE_samples, inputs.variant.get(gpu::FEATURE_samples))
+        .set(gpu::FEATURE_depth_format, inputs.depth.kind);
     const VkPipeline pipeline =
         inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline(), inputs.samples > 1);
     sets_.image(set, gpu::BINDING_CLIPMAP_DEPTH, passes.view(depth), sampler_,

@@ -50,7 +50,7 @@ DepthBounds::DepthBounds(Device& device)
 
 void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
     const char* const name = "shadow depth bounds";
-    const ImageRef depth = sampledImage(passes, inputs, "shown depth", depthFormat);
+    const ImageRef depth = sceneDepth(passes, inputs, "shown depth");
     const BufferRef bounds = passes.buffer("depth bounds", bounds_),
                     seen = passes.buffer("depth bounds, read back", seen_);
     inputs.posing.read(passes, passes.draw(name))
@@ -63,8 +63,10 @@ void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
     });
     sets_.image(0, gpu::BINDING_BOUNDED_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    const VkPipeline reduce =
-        inputs.pipelines.compute(Shader::shadow_depth_bounds_comp, {}, pipeline_layout_, inputs.samples > 1);
+    Variant variant;
+    variant.set(gpu::FEATURE_depth_format, inputs.depth.kind);
+    const VkPipeline reduce = inputs.pipelines.compute(Shader::shadow_depth_bounds_comp, variant,
+                                                       pipeline_layout_, inputs.samples > 1);
     const auto groups = [](std::uint32_t pixels, std::uint32_t each) { return (pixels + each - 1) / each; };
     passes.compute(name)
         .samples(depth, inCompute)

@@ -294,7 +294,7 @@ void SunShadow::addPasses(PassList& passes, const FrameInputs& inputs) {
                            .array = true});
     for (std::uint32_t layer = 0; layer < maps_.size(); ++layer)
         inputs.posing.read(passes, passes.draw("shadow maps"))
-            .depth(image_, Load::clear, 0.0f, {.layer = layer})
+            .depth(image_, Load::clear, {.layer = layer})
             .record(recordCasters(inputs, maps_[layer].casters, maps_[layer].draws.handle()));
     if (moments_)
         image_ = moment_maps_->addPasses(passes, inputs.pipelines, image_, side,

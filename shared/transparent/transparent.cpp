@@ -36,12 +36,12 @@ Pass& shades(Pass& pass, PassList& passes, const FrameInputs& inputs) {
     return pass.takes(shadingMs(passes, inputs, {}));
 }
 
-PipelineKey composeKey(Shader fragment) {
+PipelineKey composeKey(const FrameInputs& inputs, Shader fragment) {
     return {.vertex = Shader::full_screen_vert,
             .fragment = fragment,
             .variant = {},
             .input = NO_VERTICES,
-            .colors = {litFormat},
+            .colors = {inputs.lit_format},
             .blends = {Blend::through}};
 }
 
@@ -117,7 +117,7 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
             std::move(read), inputs.blended));
     Pass& compose = passes.draw(name).color(lit, Load::keep);
     compose.record(
-        recordFullScreen(inputs, inputs.pipelines.get(composeKey(Shader::compose_sums_frag)),
+        recordFullScreen(inputs, inputs.pipelines.get(composeKey(inputs, Shader::compose_sums_frag)),
                          reads(compose, passes, inputs,
                                {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
                          inputs.blended));
@@ -156,8 +156,8 @@ void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, Image
                 bound, constants));
         Pass& compose = passes.draw(name).color(lit, Load::keep);
         lists.use(passes, compose);
-        compose.record(recordFullScreen(inputs, inputs.pipelines.get(composeKey(Shader::compose_list_frag)),
-                                        bound, constants));
+        compose.record(recordFullScreen(
+            inputs, inputs.pipelines.get(composeKey(inputs, Shader::compose_list_frag)), bound, constants));
     }
 }
 

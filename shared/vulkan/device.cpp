@@ -239,6 +239,9 @@ bool Device::storesSamples() const {
     return diptych::storesSamples(state_->physical);
 }
 
+bool Device::hasFloat16() const {
+    return diptych::hasFloat16(state_->physical);
+}
 bool Device::hasInt64() const {
     return diptych::hasInt64(state_->physical);
 }

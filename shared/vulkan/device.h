@@ -60,6 +60,8 @@ public:
     bool storesSamples() const;
     // Whether shaders may have integers of 64 bits.
     bool hasInt64() const;
+    // Whether shaders may compute with floats of 16 bits.
+    bool hasFloat16() const;
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 

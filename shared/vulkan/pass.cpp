@@ -8,8 +8,8 @@ Pass& Pass::color(ImageRef image, Load load, VkClearColorValue clear, Slice slic
     return *this;
 }
 
-Pass& Pass::depth(ImageRef image, Load load, float clear, Slice slice, ImageRef resolved) {
-    depth_ = {image, load, {.depthStencil = {clear, 0}}, slice, resolved};
+Pass& Pass::depth(ImageRef image, Load load, Slice slice, ImageRef resolved) {
+    depth_ = {image, load, {}, slice, resolved};
     depth_writes_ = true;
     return *this;
 }

@@ -26,6 +26,13 @@ enum class Load { clear, keep };  // keep: an attachment's contents from an earl
 // images whose lives do not overlap share memory, and nothing may be read back once another pass has run.
 enum class Life { kept, transient };
 
+// What the viewport maps depth 0 and depth 1 of clip space to, and what a depth image holds where nothing was
+// drawn. Depth is reversed: what lies exactly on the far plane gets the least depth above what was cleared;
+// everything else is unchanged, being far larger.
+struct StoredDepths {
+    float farthest = 1e-37f, nearest = 1.0f, cleared = 0.0f;
+};
+
 struct ImageDeclaration {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -36,6 +43,7 @@ struct ImageDeclaration {
     Life life = Life::kept;
     bool array = false;         // shaders read it as an array, even of one layer
     bool with_picture = false;  // of a size of its own that grows with the list's
+    StoredDepths depths = {};   // of a depth image
 };
 
 // One level of one layer, to draw to.
@@ -51,8 +59,9 @@ public:
     // samples.
     Pass& color(ImageRef image, Load load, VkClearColorValue clear = {}, Slice slice = {},
                 ImageRef resolved = {});
-    // Read and written. `resolved`: an image of one sample that gets the first of the samples.
-    Pass& depth(ImageRef image, Load load, float clear = 0.0f, Slice slice = {}, ImageRef resolved = {});
+    // Read and written; cleared to what its StoredDepths says. `resolved`: an image of one sample that gets
+    // the first of the samples.
+    Pass& depth(ImageRef image, Load load, Slice slice = {}, ImageRef resolved = {});
     Pass& depthTest(ImageRef image, Slice slice = {});  // read by the test only
     // What a draw without attachments covers; otherwise the list's size.
     Pass& covers(VkExtent2D extent);

@@ -49,6 +49,7 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
     resource->life = declared.life;
     resource->has_size = !own;
     resource->with_picture = declared.with_picture;
+    resource->depths = declared.depths;
     resource->image.emplace(
         device_,
         GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,

@@ -88,7 +88,7 @@ public:
     // The whole list as one submit that is not waited for; nothing is timed, and nothing comes in bands.
     void enqueue(FramesInFlight& frames);
 
-    // Images as the last run left them, row 0 on top: the first `components` float32 of every texel of one
+    // Images as the last run left them, row 0 on top: the first `components` floats of every texel of one
     // level and layer, side by side. Copied in one submit, as far as staging memory of 64 MiB allows, and
     // unpacked on all cores. Of transients only those alive at the last pass that ran.
     struct ReadBack {

@@ -5,7 +5,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <stdexcept>
 
 namespace diptych {
@@ -15,6 +19,28 @@ namespace {
 std::size_t texelsOf(const GpuImageInfo& image, const Slice& slice) {
     const VkExtent2D extent = extentOf(image, slice);
     return std::size_t{extent.width} * extent.height;
+}
+
+// Formats of floats that are no float32.
+bool isSmall(VkFormat format) {
+    return format == VK_FORMAT_R16G16B16A16_SFLOAT || format == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+}
+
+std::size_t componentsOf(VkFormat format) {
+    if (format == VK_FORMAT_B10G11R11_UFLOAT_PACK32) return 3;
+    return format == VK_FORMAT_R16G16B16A16_SFLOAT ? 4 : bytesPerTexel(format) / 4;
+}
+
+// Texel i of an image of such a format. Floats of 11 and 10 bits are those of 16 without a sign and without
+// the last bits of the mantissa.
+std::array<float, 4> unpacked(VkFormat format, const std::uint16_t* words, std::size_t i) {
+    const auto half = [](std::uint32_t bits) {
+        return glm::unpackHalf1x16(static_cast<std::uint16_t>(bits));
+    };
+    if (format == VK_FORMAT_R16G16B16A16_SFLOAT)
+        return {half(words[4 * i]), half(words[4 * i + 1]), half(words[4 * i + 2]), half(words[4 * i + 3])};
+    const std::uint32_t bits = words[2 * i] | std::uint32_t{words[2 * i + 1]} << 16;  // little-endian
+    return {half((bits & 0x7FFu) << 4), half((bits >> 11 & 0x7FFu) << 4), half((bits >> 22) << 5), 0.0f};
 }
 
 }  // namespace
@@ -86,11 +112,22 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
     for (std::size_t image = 0; image < requests.size(); ++image) {
         const std::size_t texels = texelsOf(infoOf(requests[image]), requests[image].slice);
         const auto kept = static_cast<std::size_t>(requests[image].components);
-        const std::size_t stored = bytesPerTexel(infoOf(requests[image]).format) / 4;
+        const VkFormat format = infoOf(requests[image]).format;
+        const std::size_t stored = componentsOf(format);
         if (kept > stored)
             throw std::logic_error("PassList: an image has fewer components than are read back");
-        const auto* from = static_cast<const float*>(buffers[image].mapped());
         float* const to = into[image].data();
+        if (isSmall(format)) {
+            const auto* words = static_cast<const std::uint16_t*>(buffers[image].mapped());
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
+                for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                    const std::array<float, 4> texel = unpacked(format, words, i);
+                    std::copy_n(texel.begin(), kept, to + i * kept);
+                }
+            });
+            continue;
+        }
+        const auto* from = static_cast<const float*>(buffers[image].mapped());
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
             if (kept == stored)
                 std::copy_n(from + range.begin() * stored, range.size() * stored,

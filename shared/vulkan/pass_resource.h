@@ -19,6 +19,7 @@ struct PassResource {
     Life life = Life::kept;
     bool has_size = false;      // by its declaration, not the list's
     bool with_picture = false;  // that grows with the list's
+    StoredDepths depths;
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
     // Of a transient, once it has memory: its first and last pass, and whose the memory is before.
     std::size_t first = 0, last = 0;

@@ -151,10 +151,14 @@ void PassList::renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer 
     for (const auto& color : pass.colors_)
         colors.push_back(attach(color, access::colorAttachment.layout, true));
     VkRenderingAttachmentInfo depth{};
-    if (pass.depth_.image.valid())
+    StoredDepths depths;
+    if (pass.depth_.image.valid()) {
+        depths = resource(pass.depth_.image).depths;
         depth = attach(pass.depth_,
                        pass.depth_writes_ ? access::depthAttachment.layout : access::depthTest.layout,
                        pass.depth_writes_);
+        depth.clearValue.depthStencil = {depths.cleared, 0};
+    }
     const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                .pNext = nullptr,
                                .flags = 0,
@@ -166,11 +170,12 @@ void PassList::renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer 
                                .pDepthAttachment = pass.depth_.image.valid() ? &depth : nullptr,
                                .pStencilAttachment = nullptr};
     vkCmdBeginRendering(commands, &info);
-    // Depth is reversed and 0 says that nothing was drawn: what lies exactly on the far plane gets the least
-    // depth above it. Everything else is unchanged, being far larger.
-    constexpr float leastDepth = 1e-37f;
-    const VkViewport viewport{
-        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), leastDepth, 1};
+    const VkViewport viewport{0,
+                              0,
+                              static_cast<float>(extent.width),
+                              static_cast<float>(extent.height),
+                              depths.farthest,
+                              depths.nearest};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     const auto row = [&](std::uint32_t band) {
         return static_cast<std::int32_t>(std::uint64_t{extent.height} * band / piece.bands);

@@ -279,6 +279,12 @@ bool hasInt64(VkPhysicalDevice device) {
     return there.shaderInt64 == VK_TRUE;
 }
 
+bool hasFloat16(VkPhysicalDevice device) {
+    Features f;
+    vkGetPhysicalDeviceFeatures2(device, &f.v10);
+    return f.v12.shaderFloat16 == VK_TRUE;
+}
+
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
@@ -302,6 +308,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
         wanted.v10.features.geometryShader = VK_TRUE;  // gl_PrimitiveID in fragment shaders
         wanted.v12.shaderBufferInt64Atomics = VK_TRUE;
     }
+    wanted.v12.shaderFloat16 = hasFloat16(physical) ? VK_TRUE : VK_FALSE;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,

@@ -31,6 +31,8 @@ bool sortsFragments(VkPhysicalDevice device);
 bool storesSamples(VkPhysicalDevice device);
 // Whether shaders may have integers of 64 bits.
 bool hasInt64(VkPhysicalDevice device);
+// Whether shaders may compute with floats of 16 bits.
+bool hasFloat16(VkPhysicalDevice device);
 
 // With exactly the features that we use, and what the device has of those that are of help.
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);

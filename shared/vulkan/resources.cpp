@@ -12,11 +12,15 @@
 namespace diptych {
 
 VkImageAspectFlags aspectOf(VkFormat format) {
-    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    const bool depth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
+                       format == VK_FORMAT_D16_UNORM;
+    return depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 std::uint32_t bytesPerTexel(VkFormat format) {
     switch (format) {
+        case VK_FORMAT_D16_UNORM:
+            return 2;
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
         case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
@@ -27,6 +31,7 @@ std::uint32_t bytesPerTexel(VkFormat format) {
         case VK_FORMAT_R32_UINT:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_D32_SFLOAT:
+        case VK_FORMAT_X8_D24_UNORM_PACK32:
             return 4;
         case VK_FORMAT_R16G16B16A16_SFLOAT:
         case VK_FORMAT_R16G16B16A16_UNORM:

@@ -19,11 +19,12 @@ struct ShaderModule {
     bool area_lights;       // with the code of area lights, of shaders that have it
     bool samples;           // of G-buffers of several samples a pixel, of shaders that read them
     bool coverage;          // whose alpha masks choose samples, of shaders that have such masks
+    bool half;              // with floats of 16 bits, of shaders that shade
     int inputs;             // the set of inputs between its stage and the other, 3 being all
     std::span<const std::uint32_t> words;
 };
 
-// By shader, number, lights, area_lights, samples, coverage and inputs.
+// By shader, number, lights, area_lights, samples, coverage, half and inputs.
 std::span<const ShaderModule> shaderModules();
 std::span<const ShaderModule> shaderModules(Shader shader);
 

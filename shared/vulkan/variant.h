@@ -7,6 +7,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 
 namespace diptych {
@@ -15,19 +16,27 @@ namespace diptych {
 class FeatureMask {
 public:
     constexpr FeatureMask() = default;
-    constexpr bool has(gpu::uint feature) const { return (bits_ >> feature & 1) != 0; }
+    constexpr bool has(gpu::uint feature) const { return (words_[feature / 64] >> feature % 64 & 1) != 0; }
     constexpr FeatureMask with(gpu::uint feature) const {
-        return FeatureMask(bits_ | std::uint64_t{1} << feature);
+        FeatureMask mask = *this;
+        mask.words_[feature / 64] |= std::uint64_t{1} << feature % 64;
+        return mask;
     }
-    constexpr FeatureMask operator&(FeatureMask other) const { return FeatureMask(bits_ & other.bits_); }
-    constexpr FeatureMask operator|(FeatureMask other) const { return FeatureMask(bits_ | other.bits_); }
+    constexpr FeatureMask operator&(const FeatureMask& other) const {
+        FeatureMask mask;
+        for (std::size_t i = 0; i < words_.size(); ++i) mask.words_[i] = words_[i] & other.words_[i];
+        return mask;
+    }
+    constexpr FeatureMask operator|(const FeatureMask& other) const {
+        FeatureMask mask;
+        for (std::size_t i = 0; i < words_.size(); ++i) mask.words_[i] = words_[i] | other.words_[i];
+        return mask;
+    }
     constexpr bool operator==(const FeatureMask&) const = default;
 
 private:
-    constexpr explicit FeatureMask(std::uint64_t bits) : bits_(bits) {}
-    std::uint64_t bits_ = 0;
+    std::array<std::uint64_t, (gpu::FEATURE_COUNT + 63) / 64> words_{};
 };
-static_assert(gpu::FEATURE_COUNT <= 64);
 
 // Who sets a feature.
 enum class FeatureSource { item, frame, gbuffer, pass };

@@ -61,9 +61,12 @@ public:
     // Of the filter number `filter` of bench_shadow.comp, ms; and of its moments' passes, by name.
     std::map<std::string, double> of(std::uint32_t filter, Shadows shadows, gpu::uint feature, int kernel) {
         PassList passes(device_, width_, height_);
-        const ImageRef depth =
-            passes.image({.name = "map", .format = depthFormat, .extent = {size_, size_}, .array = true});
-        passes.draw("map").depth(depth, Load::clear, 0.5f).record([](VkCommandBuffer) {});
+        const ImageRef depth = passes.image({.name = "map",
+                                             .format = depthFormat,
+                                             .extent = {size_, size_},
+                                             .array = true,
+                                             .depths = {.cleared = 0.5f}});
+        passes.draw("map").depth(depth, Load::clear).record([](VkCommandBuffer) {});
         MomentMaps::Request request{
             .format = momentFormat(shadows, EvsmPrecision::fp32, momentSupport(device_)), .nearest = -1};
         request.variant.set(gpu::FEATURE_shadows, feature)

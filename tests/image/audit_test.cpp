@@ -46,6 +46,7 @@ void expectHolds(Measurer& measurer, const std::string& name, std::initializer_l
             EXPECT_LE(outcome.light, most)
                 << name << " " << magnitude << " worst at " << outcome.worst_x << "," << outcome.worst_y;
             EXPECT_LE(outcome.depth, most) << name << " " << magnitude;
+            EXPECT_LE(outcome.light_999, 1e-2) << name << " " << magnitude;
         }
 }
 
@@ -60,7 +61,63 @@ TEST(AuditImages, APictureIsTheSameWhereverItsSceneIsAndHoweverLarge) {
     expectHolds(measurer, "fov", {0.01, 170});
     expectHolds(measurer, "grazing", {0.001});
     expectHolds(measurer, "intensity", {1e-12, 1e12});
-    expectHolds(measurer, "roughness", {0, 1e-3});
+    expectHolds(measurer, "scale", {1e-4, 1e5});
+    expectHolds(measurer, "intensity", {1e-8, 1e9});
+    expectHolds(measurer, "grazing", {0.01});
+    expectHolds(measurer, "roughness", {0, 1e-3, 1});
+}
+
+// What approximates is wrong by itself, where nothing is pushed; at an extreme it is by no more than 1e-2
+// more.
+TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
+    struct Row {
+        const char* scene;
+        std::vector<std::pair<const char*, const char*>> settings;
+    };
+    for (const Row& row : {Row{"areas", {}},
+                           {"suns", {{"shadows", "pcf"}}},
+                           {"suns", {{"shadows", "evsm"}}},
+                           {"spots", {{"shadows", "pcf"}, {"shadow-lights", "2"}}},
+                           {"suns", {{"haze", "on"}, {"haze-density", "100"}}},
+                           {"spheres", {{"env", "scene"}}},
+                           {"glass", {}},
+                           {"motion", {{"time", "0.4"}}},
+                           {"spheres", {{"msaa", "4"}}},
+                           {"spots", {{"gbuffer", "compact"}}}}) {
+        Scene scene = makeBuiltin(row.scene);
+        Settings settings;
+        settings.size = {48, 27};
+        settings.shadows = Shadows::off;
+        settings.gbuffer = GBufferEncoding::full;
+        std::string what = row.scene;
+        for (const auto& [option, value] : row.settings) {
+            settings.set(option, value);
+            what += std::string(" ") + option + " " + value;
+        }
+        if (settings.env == "scene") {
+            // A sky that is brighter in one half, with a small sun.
+            Image sky(32, 16, 3, 0.3f);
+            for (std::size_t i = 0; i < sky.pixels() / 2; ++i) sky.pixel(i)[2] = 1;
+            for (int c = 0; c < 3; ++c) sky.pixel(32 * 4 + 9)[c] = 50;
+            scene.environment = Environment{.radiance = sky};
+        }
+        const Subject subject = audit::makeSubject(scene, settings);
+        Measurer measurer(device(), subject, {});
+        const std::vector<Outcome> rest = errorsAt(measurer, "scale", 1);
+        for (const auto& [name, magnitude] : {std::pair("offset", 1e7),
+                                              {"vertex", 1e7},
+                                              {"scale", 1e-4},
+                                              {"scale", 1e5},
+                                              {"near", 1e8},
+                                              {"intensity", 1e-8},
+                                              {"intensity", 1e9}}) {
+            const std::vector<Outcome> pushed = errorsAt(measurer, name, magnitude);
+            for (std::size_t path = 0; path < 2; ++path)
+                EXPECT_LE(pushed[path].light, rest[path].light + 1e-2)
+                    << what << ", " << name << " " << magnitude << ", path " << path << ": "
+                    << rest[path].light << " at rest";
+        }
+    }
 }
 
 // Until the paths' own light ends, at an optical depth of 87, and not where the reference once gave up.

@@ -34,7 +34,8 @@ public:
         const OwnedPipelineLayout layout =
             makePipelineLayout(device_, set_layouts,
                                VkPushConstantRange{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::uint32_t)});
-        const ShaderModule read{"lit_sample.frag", Shader::none, 0, true, false, false, false, 3, words_};
+        const ShaderModule read{
+            "lit_sample.frag", Shader::none, 0, true, false, false, false, false, 3, words_};
         Pipelines reading(device_, layout, [&](const PipelineKey&) {
             return PipelineParts{&plainModule(Shader::full_screen_vert), &read, {}, {}};
         });

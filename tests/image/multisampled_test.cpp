@@ -45,9 +45,10 @@ public:
           r_(probeWords("multisampled_read.frag")) {}
 
     Sampled draw(const std::vector<Drawn>& drawn) {
-        const ShaderModule vertex{"multisampled.vert", Shader::none, 0, true, false, false, false, 3, v_},
-            fragment{"multisampled.frag", Shader::none, 0, true, false, false, false, 3, f_},
-            read{"multisampled_read.frag", Shader::none, 0, true, false, false, false, 3, r_};
+        const ShaderModule vertex{
+            "multisampled.vert", Shader::none, 0, true, false, false, false, false, 3, v_},
+            fragment{"multisampled.frag", Shader::none, 0, true, false, false, false, false, 3, f_},
+            read{"multisampled_read.frag", Shader::none, 0, true, false, false, false, false, 3, r_};
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
         const OwnedDescriptorSetLayout setLayout = makeSetLayout(device(), types);
@@ -81,7 +82,7 @@ public:
             else
                 pass.color(color, colored ? Load::keep : Load::clear);
             colored |= !d.depth_only;
-            pass.depth(depth, cleared ? Load::keep : Load::clear, 0.0f);
+            pass.depth(depth, cleared ? Load::keep : Load::clear);
             cleared = true;
             pass.record(
                 [&push, pipeline = pipelines.get(key), corners = d.triangle](VkCommandBuffer commands) {

@@ -44,8 +44,8 @@ public:
     explicit Triangles(Device& on = device())
         : vertexWords_(compiledTestShader("pass_kinds.vert")),
           fragmentWords_(compiledTestShader("pass_kinds.frag")),
-          vertex_{"pass_kinds.vert", Shader::none, 0, true, false, false, false, 3, vertexWords_},
-          fragment_{"pass_kinds.frag", Shader::none, 0, true, false, false, false, 3, fragmentWords_},
+          vertex_{"pass_kinds.vert", Shader::none, 0, true, false, false, false, false, 3, vertexWords_},
+          fragment_{"pass_kinds.frag", Shader::none, 0, true, false, false, false, false, 3, fragmentWords_},
           layout_(makePipelineLayout(on, {}, VkPushConstantRange{triangleStages, 0, sizeof(DrawnTriangle)})),
           pipelines_(on, layout_, [this](const PipelineKey& key) {
               return PipelineParts{&vertex_, key.colors.empty() ? nullptr : &fragment_, {}, {}};
@@ -116,11 +116,12 @@ TEST(PassKinds, DepthIsBiasedAndClamped) {
     Triangles triangles;
     const auto drawn = [&](PipelineKey key, float depth) {
         PassList passes(device(), 2, 2);
-        const ImageRef image = passes.image("depth", depthOnly);
+        const ImageRef image =
+            passes.image({.name = "depth", .format = depthOnly, .depths = {.cleared = 0.25f}});
         key.depth = depthOnly;
         key.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         key.depth_write = true;
-        passes.draw("depth").depth(image, Load::clear, 0.25f).record(triangles.draw(key, {{}, depth}));
+        passes.draw("depth").depth(image, Load::clear).record(triangles.draw(key, {{}, depth}));
         passes.run();
         return readOne(passes, image).front();
     };
@@ -155,7 +156,7 @@ TEST(PassKinds, FourSamplesAreResolved) {
                                          {{1, 1, 1, 1}, 0.5f, 1});
     passes.draw("draw")
         .color(color, Load::clear, gray(0), {}, mean)
-        .depth(depth, Load::clear, 0.0f, {}, first)
+        .depth(depth, Load::clear, {}, first)
         .record(triangle);
     passes.run();
     const std::vector<float> means = readOne(passes, mean), depths = readOne(passes, first);
@@ -215,7 +216,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     const OwnedPipelineLayout layout = makePipelineLayout(device(), setLayouts);
     DescriptorSets sets(device(), setLayout, storage, 1);
     const std::vector<std::uint32_t> words = compiledTestShader("pass_kinds.comp");
-    const ShaderModule module{"pass_kinds.comp", Shader::none, 0, true, false, false, false, 3, words};
+    const ShaderModule module{"pass_kinds.comp", Shader::none, 0, true, false, false, false, false, 3, words};
     const VkPipeline kernel = triangles.pipelines().compute(module, {}, layout);
 
     constexpr std::uint32_t groups = 5;

@@ -26,6 +26,9 @@ Settings everythingChanged() {
     s.light_kernel = LightKernel::gather;
     s.prepass = Switch::off;
     s.gbuffer = GBufferEncoding::full;
+    s.depth_format = DepthFormat::d16;
+    s.lit_format = LitFormat::b10g11r11;
+    s.shading_precision = ShadingPrecision::fp16;
     s.size = {1920, 17};
     s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
     s.time = 1.0 / 3.0;
@@ -606,6 +609,30 @@ TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
     EXPECT_EQ(s.problem().value_or("none"), "none");
     s.evsm_exponent = 5.6f;
     EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 5.6: " + are);
+}
+
+TEST(Settings, StepsOfDepthAreReadBackAndHaveOneSample) {
+    Settings s;
+    s.depth_format = DepthFormat::d16;
+    for (const Path path : drawn_paths) {
+        s.path = path;
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+    s.path = Path::forward_plus;
+    s.prepass = Switch::off;
+    EXPECT_EQ(
+        s.problem().value_or("none"),
+        "--depth-format d16 has no meaning with --prepass off: both paths shade the depth that was stored; "
+        "use --prepass on");
+    s.depth_format = DepthFormat::d32f_standard;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    for (const char* option : {"depth-format", "lit-format", "shading-precision"}) {
+        Settings several;
+        several.msaa = 4;
+        EXPECT_EQ(several.problem().value_or("none"), "none");
+        several.set(option, option == std::string("depth-format") ? "d24" : "fp16");
+        EXPECT_NE(several.problem().value_or("none").find("--" + std::string(option)), std::string::npos);
+    }
 }
 
 TEST(Settings, EveryPathDrawsEveryTime) {

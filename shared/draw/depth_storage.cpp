@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/depth_storage.h"
+
+#include "shared/draw/frame_inputs.h"
+#include "shared/vulkan/device.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace diptych {
+
+PipelineKey DepthStorage::stored(PipelineKey key) const {
+    key.depth = format;
+    if (kind != gpu::DEPTH_STANDARD) return key;
+    switch (key.depth_compare) {
+        case VK_COMPARE_OP_GREATER_OR_EQUAL:
+            key.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+            break;
+        case VK_COMPARE_OP_GREATER:
+            key.depth_compare = VK_COMPARE_OP_LESS;
+            break;
+        case VK_COMPARE_OP_LESS_OR_EQUAL:
+            key.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+            break;
+        case VK_COMPARE_OP_ALWAYS:
+            break;
+        default:
+            throw std::logic_error("DepthStorage: a depth test that is not in the list");
+    }
+    return key;
+}
+
+DepthStorage depthStorage(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::d32f:
+            break;
+        case DepthFormat::d32f_standard:
+            // The largest float below 1, so that what lies exactly on the far plane is told from nothing.
+            return {VK_FORMAT_D32_SFLOAT, gpu::DEPTH_STANDARD, {0x1.fffffep-1f, 0.0f, 1.0f}};
+        case DepthFormat::d24:
+            return {VK_FORMAT_X8_D24_UNORM_PACK32, gpu::DEPTH_STEPS_24, {1.0f / 16777215, 1.0f, 0.0f}};
+        case DepthFormat::d16:
+            return {VK_FORMAT_D16_UNORM, gpu::DEPTH_STEPS_16, {1.0f / 65535, 1.0f, 0.0f}};
+    }
+    return {};
+}
+
+VkFormat litFormatOf(LitFormat format) {
+    switch (format) {
+        case LitFormat::fp32:
+            break;
+        case LitFormat::fp16:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case LitFormat::b10g11r11:
+            return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    }
+    return litFormat;
+}
+
+std::optional<std::string> drawingProblem(const Device& device, const Settings& settings) {
+    const auto lacks = [&](const char* option, const char* what, const char* instead) {
+        return fmt::format("--{} {}: {} {}; use --{} {}", option, settings.valueOf(option),
+                           device.info().name, what, option, instead);
+    };
+    const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
+        return (device.sampleCounts(format, usage | VK_IMAGE_USAGE_SAMPLED_BIT) & VK_SAMPLE_COUNT_1_BIT) != 0;
+    };
+    if (!draws(depthStorage(settings.depth_format).format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))
+        return lacks("depth-format", "draws to no such images", "d32f");
+    if (!draws(litFormatOf(settings.lit_format),
+               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT))
+        return lacks("lit-format", "draws to no such images", "fp32");
+    if (settings.shading_precision == ShadingPrecision::fp16 && !device.hasFloat16())
+        return lacks("shading-precision", "has no shaderFloat16", "fp32");
+    return {};
+}
+
+}  // namespace diptych

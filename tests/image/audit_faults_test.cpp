@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// What an audit finds where a path has a known fault: each breaks at the magnitude that its theory gives,
+// within a factor of 2.
+#include "compare/audit/audit.h"
+#include "compare/audit/quantities.h"
+#include "tests/image/square.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::tests {
+namespace {
+
+using audit::Case;
+using audit::Measurer;
+using audit::Quantity;
+using audit::Series;
+using audit::Step;
+using audit::Subject;
+
+constexpr int positionChannel = static_cast<int>(gpu::DEBUG_position);
+constexpr double percent = 1e-2;  // the criterion whose limit is looked for
+
+Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& change = {}) {
+    Settings settings;
+    settings.size = {48, 27};
+    settings.shadows = Shadows::off;
+    settings.gbuffer = GBufferEncoding::full;
+    if (change) change(settings);
+    return audit::makeSubject(scene, settings);
+}
+
+// The magnitude between `sound` and `broken` at which the error of forward+ reaches 1e-2, to a factor of 1.1,
+// on a scale of logarithms. Fails where the one is not sound or the other not broken.
+double limitOf(Measurer& measurer, const Quantity& quantity, double sound, double broken) {
+    const std::array<Series, 1> series{Series{Path::forward_plus, {}}};
+    const auto holds = [&](double magnitude) {
+        const Step step = measurer.measure(quantity, series, magnitude);
+        EXPECT_EQ(step.failed, "") << magnitude;
+        return step.outcomes[0].error() <= percent;
+    };
+    EXPECT_TRUE(holds(sound)) << quantity.name;
+    EXPECT_FALSE(holds(broken)) << quantity.name;
+    while (std::abs(std::log(broken / sound)) > std::log(1.1)) {
+        const double middle = std::sqrt(sound * broken);
+        (holds(middle) ? sound : broken) = middle;
+    }
+    return std::sqrt(sound * broken);
+}
+
+void expectWithinTwo(double measured, double predicted, const char* what) {
+    EXPECT_GT(measured, predicted / 2) << what;
+    EXPECT_LT(measured, predicted * 2) << what;
+}
+
+const Quantity& quantityNamed(const std::string& name) {
+    return *audit::quantitiesOf(std::array{name}).front();
+}
+
+// A vertex and the eye are each rounded to float32 where they are in the world, by up to half a step of their
+// coordinate; their distance is the difference. The scene moves along (0.8, 0, 0.6), and depth is along z: at
+// an offset X it is off by up to 2^-24 0.6 X twice, and a little more than one of them in the 99th
+// percentile.
+TEST(AuditFaults, AFloat32WorldTransformBreaksWhereTheorySays) {
+    Scene scene = fineMesh(24);
+    // Inclined, so that vertices round apart.
+    scene.nodes[0].parent_from_node =
+        glm::rotate(glm::dmat4(1), 0.5, glm::normalize(glm::dvec3(1, 0.4, 0.1)));
+    const Subject subject = subjectOf(scene);
+    Measurer measurer(device(), subject, {});
+    measurer.plant({.scene = [](Case& drawn) {
+        const auto rounded = [](glm::dvec3 p) { return glm::dvec3(glm::vec3(p)); };
+        for (Node& node : drawn.scene.nodes) {
+            if (node.mesh < 0) continue;
+            // The whole transform, as world matrices have it; a parent holds the offset.
+            glm::dmat4 world = node.parent_from_node;
+            for (int at = node.parent; at >= 0; at = drawn.scene.nodes[static_cast<std::size_t>(at)].parent)
+                world = drawn.scene.nodes[static_cast<std::size_t>(at)].parent_from_node * world;
+            const glm::dmat4 origin = glm::translate(glm::dmat4(1), glm::dvec3(world[3]));
+            for (Primitive& p : drawn.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+                for (glm::vec3& position : p.positions) {
+                    const glm::dvec3 place = rounded(glm::dvec3(world * glm::dvec4(position, 1)));
+                    position = glm::vec3(place - glm::dvec3(origin[3]));
+                }
+            node.parent = -1;
+            node.parent_from_node = origin;
+        }
+        glm::dvec4& eye = drawn.camera().world_from_camera[3];
+        eye = glm::dvec4(rounded(glm::dvec3(eye)), 1);
+    }});
+    // Off by 1.5 half steps of 2^-24 0.6 X, at the distance of the middle.
+    const double distance = glm::distance(subject.point, subject.view.eye());
+    const double predicted = percent * distance / (1.5 * 0.6 * 0x1p-24);
+    expectWithinTwo(limitOf(measurer, quantityNamed("offset"), 1, 1e7), predicted, "float32 world transform");
+}
+
+// z = (1 - n / d) (for f much further than d) has a step of 2^-24 below 1, so it is off by 2^-25 at best, and
+// d by d^2 / n of it; the rasteriser's plane of z adds up to two more roundings.
+TEST(AuditFaults, StandardDepthBreaksWhereTheorySays) {
+    const Subject subject =
+        subjectOf(makeBuiltin("spots"), [](Settings& s) { s.depth_format = DepthFormat::d32f_standard; });
+    Measurer measurer(device(), subject, {});
+    const Quantity& near = quantityNamed("near");
+    // Of the middle of the picture, which is where most pixels are; the magnitude is far / near.
+    const double distance = glm::distance(subject.point, subject.view.eye());
+    Case pushed = subject.given;
+    near.push(pushed, subject, 1e3);
+    const double far = pushed.camera().far;
+    const double predicted = percent * far / (distance * 2 * 0x1p-25);
+    expectWithinTwo(limitOf(measurer, near, 1e2, 1e9), predicted, "standard depth");
+}
+
+// A square that a sun lights from the viewer's side, all of it within a small angle of its highlight; a
+// metal, whose lit is D and what hardly changes.
+Scene highlight() {
+    Scene scene = square();
+    scene.materials[0].metallic = 1;
+    scene.cameras[0].yfov = 0.02 * std::numbers::pi / 180;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {0, 0, -1};
+    sun.intensity = 1;
+    scene.lights = {sun};
+    return scene;
+}
+
+void pushSharpness(Case& pushed, const Subject&, double roughness) {
+    for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
+}
+
+// The denominator (n.h)^2 (alpha^2 - 1) + 1 is alpha^2 + the square of the angle, made of numbers near 1 that
+// float32 rounds: by 2^-24 of n.h and half of it of the rest, some 1.5 2^-24 in all, and D by twice as much
+// of it. Where that is 1e-2, alpha^2 is 1.8e-5 and the roughness 0.065.
+TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
+    const Subject subject = subjectOf(highlight());
+    Measurer measurer(device(), subject, {});
+    measurer.plant({.picture =
+                        [](const Case& drawn, Frame& frame) {
+                            const float alpha =
+                                drawn.scene.materials[0].roughness * drawn.scene.materials[0].roughness;
+                            const float alpha2 = alpha * alpha;
+                            const Image& places = frame.channels.at(positionChannel);
+                            Image& picture = frame.channels.at(lit);
+                            for (std::size_t i = 0; i < picture.pixels(); ++i) {
+                                const float* const p = places.pixel(i);
+                                const glm::vec3 v = glm::normalize(-glm::vec3(p[0], p[1], p[2]));
+                                const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
+                                const glm::dvec3 hd = glm::normalize(glm::dvec3(0, 0, 1) + glm::dvec3(v));
+                                const double sine2 = hd.x * hd.x + hd.y * hd.y,
+                                             clamped = std::max(double{alpha}, 0.045 * 0.045);
+                                const double exact = sine2 + hd.z * hd.z * clamped * clamped;
+                                const float naive = h.z * h.z * (alpha2 - 1) + 1;
+                                const double wrong =
+                                    double{alpha2} / (clamped * clamped) * (exact / naive) * (exact / naive);
+                                for (int c = 0; c < 3; ++c)
+                                    picture.pixel(i)[c] = static_cast<float>(picture.pixel(i)[c] * wrong);
+                            }
+                        },
+                    .channels = {positionChannel}});
+    static const Quantity sharpness{.name = "roughness",
+                                    .unit = "",
+                                    .what = "the roughness of all",
+                                    .magnitudes = {0.01, 1},
+                                    .usual = [](const Subject&) { return 1.0; },
+                                    .lacks = [](const Subject&) { return std::string(); },
+                                    .push = pushSharpness};
+    const double predicted = std::pow(2 * 1.5 * 0x1p-24 / percent, 0.25);
+    expectWithinTwo(limitOf(measurer, sharpness, 0.5, 0.01), predicted, "D");
+}
+
+// The whole angle, with a soft edge from the axis on.
+void pushSoftCone(Case& pushed, const Subject&, double degrees) {
+    for (Light& light : pushed.scene.lights) {
+        light.inner_cone = 0;
+        light.outer_cone = static_cast<float>(degrees / 2 * std::numbers::pi / 180);
+    }
+}
+
+// The cone's edge is 1 - cos(outer) wide, and never less than 0.001 where it is guarded: without the guard
+// the light changes once it would be less, by 1e-2 where it is 0.995 of that.
+TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
+    Scene scene = square();
+    scene.cameras[0].yfov = 0.5 * std::numbers::pi / 180;
+    Light spot;
+    spot.kind = LightKind::spot;
+    spot.position = {0, 0, 1};
+    spot.direction = {0, 0, -1};
+    spot.intensity = 1;
+    scene.lights = {spot};
+    const Subject subject = subjectOf(scene);
+    Measurer measurer(device(), subject, {});
+    measurer.plant({.picture =
+                        [](const Case& drawn, Frame& frame) {
+                            const float outer = std::cos(drawn.scene.lights[0].outer_cone), inner = 1;
+                            const Image& places = frame.channels.at(positionChannel);
+                            Image& picture = frame.channels.at(lit);
+                            for (std::size_t i = 0; i < picture.pixels(); ++i) {
+                                const float* const p = places.pixel(i);
+                                const float cosine = -glm::normalize(glm::vec3(p[0], p[1], p[2])).z;
+                                const auto share = [&](float width) {
+                                    return std::clamp((cosine - outer) / width, 0.0f, 1.0f);
+                                };
+                                const float guarded = share(std::max(inner - outer, 0.001f)),
+                                            naive = share(inner - outer);
+                                const float wrong = guarded > 0 ? naive / guarded : 1.0f;
+                                for (int c = 0; c < 3; ++c) picture.pixel(i)[c] *= wrong * wrong;
+                            }
+                        },
+                    .channels = {positionChannel}});
+    static const Quantity cone{.name = "cone",
+                               .unit = "degrees",
+                               .what = "the whole angle of the spot",
+                               .magnitudes = {1, 90},
+                               .usual = [](const Subject&) { return 90.0; },
+                               .lacks = [](const Subject&) { return std::string(); },
+                               .push = pushSoftCone};
+    const double predicted = 2 * std::acos(1 - 0.001 * 0.995) * 180 / std::numbers::pi;
+    expectWithinTwo(limitOf(measurer, cone, 90, 1), predicted, "cone");
+}
+
+}  // namespace
+}  // namespace diptych::tests
