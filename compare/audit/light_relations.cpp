@@ -14,6 +14,9 @@ std::string lacksTwoLights(const Subject& subject) {
     if (subject.given.scene.lights.size() < 2) return "the scene has one light";
     if (subject.given.settings.shadow_lights > 0)
         return "--shadow-lights chooses among equal lights by their order";
+    if (subject.given.settings.haze &&
+        std::ranges::count(subject.given.scene.lights, LightKind::directional, &Light::kind) > 1)
+        return "--haze scatters the light of one sun";
     return lacksPerObject(subject);
 }
 
@@ -29,10 +32,14 @@ std::string lacksSplittable(const Subject& subject) {
     return lacksPerObject(subject);
 }
 
-// Every light, so that it matters wherever one looks.
+// Every light, so that it matters wherever one looks; but haze scatters the light of one sun.
 void splitLights(Related& related, const Subject&) {
     std::vector<Light> halves;
     for (Light light : related.changed.scene.lights) {
+        if (light.kind == LightKind::directional && related.changed.settings.haze) {
+            halves.push_back(std::move(light));
+            continue;
+        }
         light.intensity /= 2;
         halves.insert(halves.end(), 2, light);
     }

@@ -79,6 +79,7 @@ void scaleByTwo(Related& related, const Subject&) {
 std::string lacksTurnable(const Subject& subject) {
     if (subject.given.settings.env != Settings().env || subject.given.scene.environment)
         return "the maps of an environment have pixels of their own";
+    if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
     return lacksWithShadows(subject);
 }
 std::string lacksMirrorable(const Subject& subject) {

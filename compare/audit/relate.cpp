@@ -99,6 +99,19 @@ Settings settingsOfSeries(const Series& series, const Settings& settings) {
     return isReferenceSeries(series) ? referenceSettings(applied) : withoutReference(applied);
 }
 
+// Where so many surfaces lie in each other that the reference, too, sees others in another order, a relation
+// that reorders says nothing.
+RelationHeld withoutTies(RelationHeld held) {
+    if (!held.relation->reorders || held.series.empty()) return held;
+    const SeriesHeld& reference = held.series.back();
+    if (!isReferenceSeries(reference.series) || reference.held.aside <= reference.held.most_aside)
+        return held;
+    held.lacks = fmt::format("{} pixels show surfaces of one depth, either of which may be seen",
+                             reference.held.aside);
+    held.series.clear();
+    return held;
+}
+
 }  // namespace
 
 bool RelationHeld::holds() const {
@@ -189,7 +202,9 @@ Grant RelationMeasurer::grantOf(const Relation& relation, const Related& related
         grant.textured.push_back(hasTexture(material));
     if (settings.path == Path::reference) return grant;
     grant.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
-    grant.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits));
+    // One step across, one down, and one between two levels.
+    grant.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
+                        std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
     grant.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
     grant.filtered_share =
         std::min(mostFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
@@ -242,7 +257,7 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
         of.grant.packed_light = nullptr;
         result.series.push_back(std::move(of));
     }
-    return result;
+    return withoutTies(std::move(result));
 }
 
 }  // namespace diptych::audit

@@ -42,7 +42,8 @@ constexpr std::uint64_t pixelsForOneTie = 100;
 
 double largest(const float* pixel, int components) {
     double most = 0;
-    for (int c = 0; c < components; ++c) most = std::max(most, std::abs(double{pixel[c]}));
+    for (int c = 0; c < components; ++c)
+        if (std::isfinite(pixel[c])) most = std::max(most, std::abs(double{pixel[c]}));
     return most;
 }
 
@@ -117,6 +118,7 @@ private:
             const Image &image = frame->channels.at(mode), &ids = frame->channels.at(idMode);
             around(image, pixel, [&](std::size_t other) {
                 const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
+                if (change == unbounded) return;
                 any = std::max(any, change);
                 if (ids.data[pixel] != ids.data[other]) return;
                 found = true;
@@ -190,7 +192,7 @@ private:
     void setEdgesAside(Held& held) {
         std::uint64_t edges = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            const bool beside = isBesideEdge(given_, i) || isBesideEdge(changed_, i);
+            const bool beside = isBesideEdge(given_, i);
             edges += beside;
             if (!beside) continue;
             aside_[i] = given(idMode).data[i] != changed(idMode).data[i] || !isWithinRounding(viewDepth, i) ||
@@ -264,7 +266,7 @@ private:
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
-            const double part = allowed > 0 ? error / allowed : unbounded;
+            const double part = allowed > 0 && error < unbounded ? error / allowed : unbounded;
             used.data[i] = static_cast<float>(part);
             held.beyond += part > 1;
             if (part <= held.used && held.x >= 0) continue;
