@@ -47,6 +47,12 @@ void splitLights(Related& related, const Subject&) {
 }
 
 void multiplyLight(Related& related, const Subject& subject, double factor) {
+    // What is drawn without lighting sends its base colour, whatever is multiplied.
+    for (std::size_t i = 0; i < related.base.scene.materials.size(); ++i) {
+        if (!related.base.scene.materials[i].unlit) continue;
+        related.own_base = true;
+        related.base.scene.materials[i].unlit = related.changed.scene.materials[i].unlit = false;
+    }
     static const Quantity& intensity = *quantitiesOf(std::array{std::string("intensity")}).front();
     intensity.push(related.changed, subject, factor);
     related.map.light = factor;

@@ -58,6 +58,7 @@ void turnByAQuarter(Related& related, const Subject&) {
 
 // Without textures: which pixel of 2x2 decides on a level of a texture is not mirrored.
 void mirror(Related& related, const Subject&) {
+    related.own_base = true;
     for (Case* of : {&related.base, &related.changed})
         for (Material& material : of->scene.materials)
             for (TextureSlot* slot :
@@ -108,6 +109,7 @@ std::string lacksWithoutFar(const Subject& subject) {
 
 // The stored depth is the near plane's distance over the view depth where nothing is too far.
 void halveNear(Related& related, const Subject&) {
+    related.own_base = true;
     for (Case* of : {&related.base, &related.changed})
         of->camera().far = std::numeric_limits<double>::infinity();
     related.changed.camera().near /= 2;
@@ -141,8 +143,7 @@ std::vector<Relation> placeRelations() {
          .alike = Alike::rounding,
          .because = "signs change; where the picture's columns are mirrored they round otherwise",
          .lacks = lacksMirrorable,
-         .change = mirror,
-         .own_base = true},
+         .change = mirror},
         {.name = "scaled",
          .changes = "all lengths are doubled, and candela are four times as many",
          .because = "powers of two are exact in float32",
@@ -160,8 +161,7 @@ std::vector<Relation> placeRelations() {
          .because = "stored depth is near / depth, and half of a float32 is exact",
          .lacks = lacksWithoutFar,
          .change = halveNear,
-         .same_pipelines = true,
-         .own_base = true}};
+         .same_pipelines = true}};
 }
 
 }  // namespace diptych::audit

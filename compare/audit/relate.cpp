@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/relate.h"
 
+#include "compare/audit/relations.h"
 #include "compare/metrics/channel.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
@@ -97,19 +98,6 @@ double largestSide(const Scene& scene) {
 Settings settingsOfSeries(const Series& series, const Settings& settings) {
     const Settings applied = series.applied(settings);
     return isReferenceSeries(series) ? referenceSettings(applied) : withoutReference(applied);
-}
-
-// Where so many surfaces lie in each other that the reference, too, sees others in another order, a relation
-// that reorders says nothing.
-RelationHeld withoutTies(RelationHeld held) {
-    if (!held.relation->reorders || held.series.empty()) return held;
-    const SeriesHeld& reference = held.series.back();
-    if (!isReferenceSeries(reference.series) || reference.held.aside <= reference.held.most_aside)
-        return held;
-    held.lacks = fmt::format("{} pixels show surfaces of one depth, either of which may be seen",
-                             reference.held.aside);
-    held.series.clear();
-    return held;
 }
 
 }  // namespace
@@ -212,13 +200,32 @@ Grant RelationMeasurer::grantOf(const Relation& relation, const Related& related
     return grant;
 }
 
+std::uint64_t RelationMeasurer::tied() {
+    if (tied_) return *tied_;
+    tied_ = 0;
+    const std::array orders{std::string("draws_reversed"), std::string("materials_permuted")};
+    for (const Relation* order : relationsOf(orders)) {
+        if (!order->lacks(subject_).empty()) continue;
+        Related related{subject_.given, subject_.given};
+        order->change(related, subject_);
+        const std::array settings{settingsOfSeries({Path::forward_plus, {}}, subject_.given.settings)};
+        const Drawn given = draw(related.base, settings), changed = draw(related.changed, settings);
+        if (!given.frames[0] || !changed.frames[0]) continue;
+        Grant grant;
+        grant.reorders = true;
+        const Frame back = mappedBack(*changed.frames[0], related.map);
+        tied_ = std::max(*tied_, hold(*given.frames[0], back, grant).aside);
+    }
+    return *tied_;
+}
+
 RelationHeld RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
     RelationHeld result;
     result.relation = &relation;
     result.lacks = subject_.bounds.empty() ? "the scene has nothing to draw" : relation.lacks(subject_);
     if (!result.lacks.empty()) return result;
     if (on_step_) on_step_(std::string(relation.name));
-    Related related{subject_.given, subject_.given, {}};
+    Related related{subject_.given, subject_.given};
     relation.change(related, subject_);
     if (spoil) spoil(related.changed);
     std::vector<Settings> before, after;
@@ -227,7 +234,7 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
         after.push_back(settingsOfSeries(series, related.changed.settings));
     }
     // The given pictures are drawn once, unless a relation has others.
-    const bool own = relation.own_base;
+    const bool own = related.own_base;
     std::optional<Drawn> others;
     if (own) others = draw(related.base, before);
     if (!own && !given_) given_ = draw(related.base, before);
@@ -244,6 +251,8 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
         of.grant = grantOf(relation, related, after[i]);
         if (series_[i].path == Path::deferred && !of.grant.packed.empty())
             of.grant.packed_light = packedLight(related.base, own);
+        if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
+            of.grant.blended = &reference->blended;
         for (const std::string& failed : {given.failed[i], changed.failed[i]})
             if (of.held.failed.empty()) of.held.failed = failed;
         if (of.held.failed.empty()) {
@@ -254,10 +263,18 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
                 of.changed = std::move(back);
             }
         }
-        of.grant.packed_light = nullptr;
+        of.grant.packed_light = of.grant.blended = nullptr;
         result.series.push_back(std::move(of));
     }
-    return withoutTies(std::move(result));
+    // Surfaces that lie in one another are seen by chance.
+    if (relation.alike != Alike::rounding && !relation.reorders) return result;
+    const bool many = std::ranges::any_of(
+        result.series, [](const SeriesHeld& of) { return of.held.aside > of.held.most_aside; });
+    if (spoil || !many || tied() <= result.series.front().held.covered / 100) return result;
+    result.lacks =
+        fmt::format("{} pixels show surfaces that lie in one another, of which either may be seen", tied());
+    result.series.clear();
+    return result;
 }
 
 }  // namespace diptych::audit

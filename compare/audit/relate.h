@@ -7,6 +7,7 @@
 #include "compare/audit/relation_judge.h"
 #include "shared/frame/frame.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -65,7 +66,12 @@ private:
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
+    // Pixels of the given picture that show surfaces of one depth, either of which is seen where they are
+    // drawn in another order.
+    std::uint64_t tied();
+
     const std::vector<Series> series_;
+    std::optional<std::uint64_t> tied_;
     std::optional<Drawn> given_;  // the subject as it is
     Image packed_light_;          // of the subject as it is
 };

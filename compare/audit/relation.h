@@ -27,7 +27,8 @@ struct PictureMap {
 // What a relation makes of a case: two cases, which are the given one until it changes them.
 struct Related {
     Case base, changed;
-    PictureMap map;
+    PictureMap map{};
+    bool own_base = false;  // the base is another one than the given case
 };
 
 // How alike the pictures must be; compare/audit/README.md derives what each allows.
@@ -50,8 +51,6 @@ struct Relation {
     bool reorders = false;
     // Whether the very pipelines draw both, so that on any device they compute the same from the same bits.
     bool same_pipelines = false;
-    // Whether the base is another one than the given case.
-    bool own_base = false;
     // Whether only Settings change, so that it says nothing of a path that ignores them.
     bool of_settings = false;
 };

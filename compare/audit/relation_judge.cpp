@@ -171,7 +171,10 @@ private:
         const Image &a = given(mode), &b = changed(mode);
         const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
         const auto packed = grant_.packed.find(mode);
-        return difference <= grant_.relative + (packed != grant_.packed.end() ? 2 * packed->second : 0);
+        const double size =
+            std::max({1.0, largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components)});
+        return difference <=
+               size * (grant_.relative + (packed != grant_.packed.end() ? 2 * packed->second : 0));
     }
 
     // Whether another surface is seen beside the pixel in a picture: another material, another triangle's
@@ -189,14 +192,22 @@ private:
         return found;
     }
 
+    bool isBesideBlended(std::size_t pixel) const {
+        if (!grant_.blended) return false;
+        bool found = grant_.blended->data[pixel] > 0;
+        around(*grant_.blended, pixel,
+               [&](std::size_t other) { found = found || grant_.blended->data[other] > 0; });
+        return found;
+    }
+
     void setEdgesAside(Held& held) {
         std::uint64_t edges = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            const bool beside = isBesideEdge(given_, i);
-            edges += beside;
-            if (!beside) continue;
-            aside_[i] = given(idMode).data[i] != changed(idMode).data[i] || !isWithinRounding(viewDepth, i) ||
-                        !isWithinRounding(facet, i);
+            const bool beside = isBesideEdge(given_, i), blended = isBesideBlended(i);
+            edges += beside || blended;
+            aside_[i] = (beside && (given(idMode).data[i] != changed(idMode).data[i] ||
+                                    !isWithinRounding(viewDepth, i) || !isWithinRounding(facet, i))) ||
+                        (blended && !isWithinRounding(lightMode, i));
             held.aside += aside_[i];
         }
         held.most_aside = std::max(fewPixels, edges / edgesForOneAside);

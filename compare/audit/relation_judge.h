@@ -35,6 +35,9 @@ struct Grant {
     // filtered by another step.
     std::vector<bool> textured;
     double filtered_share = 0;
+    // rounding: W x H x 1, the share of each pixel that blended surfaces hide; nullptr: nothing blends. Their
+    // edges are in no channel.
+    const Image* blended = nullptr;
     // rounding: what a packed G-buffer may move each of the two pictures by, by channel, in units of its
     // components; and of lit at each pixel (W x H x 1, W/(sr m^2); nullptr: nothing).
     std::map<int, double> packed;

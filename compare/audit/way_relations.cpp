@@ -23,11 +23,13 @@ std::string lacksLists(const Subject& subject) {
     return lacksPerObject(subject);
 }
 void fillOtherwise(Related& related, const Subject&) {
+    related.own_base = true;
     related.base.settings.light_kernel = LightKernel::scatter;
     related.changed.settings.light_kernel = LightKernel::gather;
 }
 
 void drawPrepass(Related& related, const Subject&) {
+    related.own_base = true;
     related.base.settings.prepass = Switch::off;
     related.changed.settings.prepass = Switch::on;
 }
@@ -65,14 +67,12 @@ std::vector<Relation> wayRelations() {
              .because = "both ways fill the same lists in the same order",
              .lacks = lacksLists,
              .change = fillOtherwise,
-             .own_base = true,
              .of_settings = true},
             {.name = "prepass",
              .changes = "depth is drawn first",
              .because = "what is hidden is not shaded, and what is seen is shaded alike",
              .lacks = lacksNone,
              .change = drawPrepass,
-             .own_base = true,
              .of_settings = true},
             {.name = "still_time",
              .changes = "10 s later, of a scene in which nothing moves",
