@@ -130,7 +130,8 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         "<p class=\"soft small\">A picture is held against another one of the same renderer, and no truth is "
         "needed. Of each pixel the error is a part of what is allowed there: above 1 the relation is broken. "
         "Pixels beside an edge that show another surface are set aside, and textured ones that a filter "
-        "weights otherwise; both are bounded in number.</p>\n<h2>The relations</h2>\n<div class=\"audit\">";
+        "weights otherwise; both are bounded in number.</p>\n<h2>The relations</h2>\n<div class=\"audit "
+        "alone\">";
     for (const RelationHeld* of : ordered(audit)) out += sectionOfRelation(*of, audit.device);
     out += "</div>\n";
     if (!audit.notes.empty()) {

@@ -152,7 +152,10 @@ private:
         const Image &a = given(mode), &b = changed(mode);
         const double size =
             std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
-        double allowed = grant_.relative * size + std::numeric_limits<float>::min();
+        if (mode == idMode) return 0;
+        // A light's end cancels: what is left of it is rounded by parts of the whole.
+        double allowed = grant_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
+                         std::numeric_limits<float>::min();
         if (mode == facet) allowed += grant_.facet;
         if (grant_.step > 0) allowed += grant_.step * variation(mode, pixel);
         if (const auto packed = grant_.packed.find(mode); packed != grant_.packed.end())
@@ -231,7 +234,8 @@ private:
             if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
             ++textured;
             filtered_[i] = std::ranges::any_of(compared, [&](int mode) {
-                return mode != lightMode && mode != viewDepth && mode != facet && !isFilteredAlike(mode, i);
+                return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
+                       !isFilteredAlike(mode, i);
             });
             held.filtered += filtered_[i];
         }
@@ -293,6 +297,8 @@ private:
     const Frame &given_, &changed_;
     const Grant& grant_;
     const Coverage where_;
+    const double light_floor_ =
+        PixelError(Metric::relative, ChannelKind::color, given(lightMode), where_).floor();
     std::vector<bool> aside_, filtered_;
 };
 

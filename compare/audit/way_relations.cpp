@@ -24,8 +24,8 @@ std::string lacksLists(const Subject& subject) {
 }
 void fillOtherwise(Related& related, const Subject&) {
     related.own_base = true;
-    related.base.settings.light_kernel = LightKernel::scatter;
-    related.changed.settings.light_kernel = LightKernel::gather;
+    related.base.settings.set("light-kernel", "scatter");
+    related.changed.settings.set("light-kernel", "gather");
 }
 
 void drawPrepass(Related& related, const Subject&) {
