@@ -9,6 +9,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -57,9 +58,12 @@ public:
         gltf_["accessors"][accessor]["min"] = {least.x, least.y, least.z};
         gltf_["accessors"][accessor]["max"] = {most.x, most.y, most.z};
     }
-    void close() {
-        gltf_["buffers"] = Json::array({{{"byteLength", bytes_.size()},
-                                         {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
+    // With the buffer inside the JSON, or for the binary chunk behind it.
+    std::vector<std::uint8_t> close(bool inside) {
+        Json buffer{{"byteLength", bytes_.size()}};
+        if (inside) buffer["uri"] = "data:application/octet-stream;base64," + base64(bytes_);
+        gltf_["buffers"] = Json::array({std::move(buffer)});
+        return std::move(bytes_);
     }
 
 private:
@@ -171,7 +175,24 @@ std::size_t triangleCount(const Scene& scene) {
     return triangles;
 }
 
-std::string gltfOf(const Case& flat) {
+std::vector<int> writtenMaterials(const Scene& scene) {
+    std::vector<int> order;
+    for (const Node& node : scene.nodes) {
+        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.front();
+        if (!primitive.indices.empty() && std::ranges::count(order, primitive.material) == 0)
+            order.push_back(primitive.material);
+    }
+    return order;
+}
+
+namespace {
+
+struct Written {
+    Json gltf;
+    std::vector<std::uint8_t> bytes;  // of the buffer
+};
+
+Written writtenScene(const Case& flat, bool inside) {
     Json gltf{{"asset", {{"version", "2.0"}, {"generator", "diptych audit"}}}};
     gltf["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular",
                               "KHR_materials_emissive_strength", "KHR_materials_unlit",
@@ -179,17 +200,14 @@ std::string gltfOf(const Case& flat) {
     gltf["scene"] = 0;
     gltf["nodes"] = gltf["meshes"] = gltf["materials"] = Json::array();
     Buffers buffers(gltf);
-    std::vector<int> materials(flat.scene.materials.size(), -1);
+    const std::vector<int> materials = writtenMaterials(flat.scene);
+    for (const int material : materials)
+        gltf["materials"].push_back(jsonOf(flat.scene.materials[static_cast<std::size_t>(material)]));
     for (const Node& node : flat.scene.nodes) {
         const Primitive& primitive =
             flat.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.front();
         if (primitive.indices.empty()) continue;
-        int& material = materials[static_cast<std::size_t>(primitive.material)];
-        if (material < 0) {
-            material = static_cast<int>(gltf["materials"].size());
-            gltf["materials"].push_back(
-                jsonOf(flat.scene.materials[static_cast<std::size_t>(primitive.material)]));
-        }
+        const auto material = std::ranges::find(materials, primitive.material) - materials.begin();
         // Only the vertices that are used.
         Primitive used;
         for (const std::uint32_t i : primitive.indices) {
@@ -232,8 +250,38 @@ std::string gltfOf(const Case& flat) {
     Json roots = Json::array();
     for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) roots.push_back(i);
     gltf["scenes"] = Json::array({{{"nodes", roots}}});
-    buffers.close();
-    return gltf.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::vector<std::uint8_t> bytes = buffers.close(inside);
+    return {std::move(gltf), std::move(bytes)};
+}
+
+// Four bytes, the lowest first.
+void addWord(std::string& to, std::size_t value) {
+    for (unsigned i = 0; i < 4; ++i) to += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+// A chunk of a .glb file (glTF 2.0, 4.4.3); `fill`: what makes its length a multiple of 4.
+void addChunk(std::string& to, const char* type, std::string data, char fill) {
+    data.append((4 - data.size() % 4) % 4, fill);
+    addWord(to, data.size());
+    to.append(type, 4);
+    to += data;
+}
+
+}  // namespace
+
+std::string gltfOf(const Case& flat) {
+    return writtenScene(flat, true).gltf.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string glbOf(const Case& flat) {
+    const Written written = writtenScene(flat, false);
+    std::string chunks;
+    addChunk(chunks, "JSON", written.gltf.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');
+    addChunk(chunks, "BIN\0", {written.bytes.begin(), written.bytes.end()}, '\0');
+    std::string file = "glTF";
+    addWord(file, 2);
+    addWord(file, 12 + chunks.size());
+    return file + chunks;
 }
 
 std::string lightsFileOf(const Case& flat) {

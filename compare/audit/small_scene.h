@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace diptych::audit {
 
@@ -19,6 +20,10 @@ std::size_t triangleCount(const Scene& scene);
 // A flattened case's scene as glTF 2.0: its buffer inside, its camera 0 the case's; lights are in a file of
 // their own, as --lights reads it, because glTF knows no area lights.
 std::string gltfOf(const Case& flat);
+// The same as a .glb file, its buffer in the binary chunk.
+std::string glbOf(const Case& flat);
+// The materials of a flattened scene that such files hold, in their order there.
+std::vector<int> writtenMaterials(const Scene& scene);
 std::string lightsFileOf(const Case& flat);
 
 }  // namespace diptych::audit

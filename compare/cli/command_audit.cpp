@@ -192,6 +192,7 @@ private:
 
 int runAudit(const Options& options) {
     checkAuditOptions(options);
+    if (options.audit.relations) return runRelations(options, auditedSettings(options));
     return Auditor(options).run();
 }
 

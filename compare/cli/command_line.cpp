@@ -2,6 +2,7 @@
 #include "compare/cli/command_line.h"
 
 #include "compare/audit/quantities.h"
+#include "compare/audit/relations.h"
 #include "compare/cli/command_options.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
@@ -219,6 +220,12 @@ void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
 }
 
 void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
+    audit::relationsOf(audit.chosen_relations);
+    audit.relations = audit.relations || !audit.chosen_relations.empty();
+    if (audit.relations && !audit.quantities.empty())
+        throw std::runtime_error("--quantity: --relations pushes nothing; give one of the two");
+    if (audit.relations && !parsed.require.empty())
+        throw std::runtime_error("--require: --relations pushes nothing; give one of the two");
     audit::quantitiesOf(audit.quantities);  // throws where there is none of a name
     for (const std::string& words : parsed.require) {
         const std::size_t at = words.find('=');

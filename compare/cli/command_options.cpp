@@ -266,6 +266,19 @@ void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
         ->type_name("NAME=MAGNITUDE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
+    app.add_flag("--relations", audit.relations,
+                 "instead of pushing anything: what must not change its picture, on this device, without a "
+                 "truth; exit code 1 where a relation is broken");
+    app.add_option(
+           "--relation", audit.chosen_relations,
+           "names of such relations (all): lights_permuted, lights_split, light_doubled, light_64th, "
+           "dark_lights, far_lights, moved, turned, quarter_turn, mirrored, scaled, tiles_shifted, "
+           "near_halved, draws_reversed, meshes_split, unindexed, triangles_split, materials_permuted, "
+           "through_gltf, through_glb, repeated, assign_every, assign_tiled, light_kernel, prepass, "
+           "still_time")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
 }
 
 // What a report holds.

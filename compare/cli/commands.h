@@ -34,6 +34,7 @@ int runBench(const Options& options);
 int runExplain(const Options& options);
 int runChoose(const Options& options);
 int runAudit(const Options& options);
+int runRelations(const Options& options, const Settings& settings);  // audit --relations, with these Settings
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

@@ -33,6 +33,8 @@ struct AuditOptions {
     std::vector<std::string> quantities;  // names; empty: all
     // Magnitudes that must be reached, by quantity: --require.
     std::vector<std::pair<std::string, double>> required;
+    bool relations = false;                     // --relations: instead of pushing anything
+    std::vector<std::string> chosen_relations;  // --relation: names; empty: all
 };
 
 struct Options {

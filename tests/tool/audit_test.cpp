@@ -57,6 +57,38 @@ TEST(AuditTool, WhatIsNotReachedIsSaid) {
     EXPECT_NE(contentsOf(folder / "out/index.html").find("verdict fail"), std::string::npos);
 }
 
+TEST(AuditTool, RelationsThatHold) {
+    const Folder folder;
+    const Ran ran = runTool(
+        folder,
+        "audit builtin:points --size 32x18 --relations --relation moved,lights_split,still_time -o out");
+    ASSERT_EQ(ran.code, 0) << ran.err << ran.out;
+    EXPECT_NE(ran.out.find("pass: 3 relations hold, 0 are broken, 0 do not apply"), ran.out.npos) << ran.out;
+    for (const char* file : {"index.html", "relations.json"})
+        EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+    const Json json = readJson(folder / "out/relations.json");
+    EXPECT_EQ(json["software"], "diptych");
+    EXPECT_EQ(json["verdict"], "pass");
+    ASSERT_EQ(json["relations"].size(), 3u);
+    EXPECT_EQ(json["relations"][0]["name"], "lights_split");
+    EXPECT_EQ(json["relations"][0]["series"].size(), 4u);
+    EXPECT_EQ(json["relations"][0]["series"][3]["path"], "reference");
+    // The same command replaces its own folder; quantities are another command.
+    const Ran again = runTool(folder, "audit builtin:points --size 32x18 --relation repeated --json -o out");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(Json::parse(again.out)["relations"].size(), 1u);
+    EXPECT_EQ(runTool(folder, "audit builtin:points --relations --quantity offset").code, 2);
+    EXPECT_EQ(runTool(folder, "audit builtin:points --relations --require offset=1").code, 2);
+    const Ran unknown = runTool(folder, "audit builtin:points --relation move");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_NE(unknown.err.find("did you mean moved?"), unknown.err.npos) << unknown.err;
+    const Ran quiet =
+        runTool(folder, "audit builtin:triangle --size 32x18 --relation lights_permuted -q -o none");
+    EXPECT_EQ(quiet.code, 0) << quiet.err;
+    EXPECT_EQ(quiet.out, "");
+    EXPECT_EQ(readJson(folder / "none/relations.json")["relations"][0]["verdict"], "does not apply");
+}
+
 TEST(AuditTool, OneThatWasKilledGoesOn) {
     const Folder folder;
     const std::vector<std::string> words{"audit", "builtin:triangle", "--size",   "64x36", "-o",

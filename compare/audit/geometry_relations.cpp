@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relations.h"
+
+#include "compare/audit/small_scene.h"
+#include "shared/scene/gltf/gltf.h"
+#include "shared/scene/lights/lights_json.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace diptych::audit {
+
+namespace {
+
+// Whose vertices no joint and no morph target moves.
+bool isRigid(const Primitive& primitive) {
+    return primitive.joint_sets.empty() && primitive.targets.empty();
+}
+bool isRigid(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.primitives,
+                               [](const Primitive& primitive) { return isRigid(primitive); });
+}
+bool isBlended(const Scene& scene, const Primitive& primitive) {
+    return blends(scene.materials[static_cast<std::size_t>(primitive.material)]);
+}
+
+std::string lacksRigidMesh(const Subject& subject) {
+    const bool any = std::ranges::any_of(subject.given.scene.meshes, [](const Mesh& mesh) {
+        return !mesh.primitives.empty() && isRigid(mesh);
+    });
+    return any ? "" : "the scene has no mesh that is neither skinned nor morphed";
+}
+
+// Lets a node's mesh be drawn by a node of its own instead, after all others. `mesh`: another one.
+void carry(Scene& scene, std::size_t index, int mesh) {
+    Node carrier = scene.nodes[index];
+    carrier.parent = static_cast<int>(index);
+    carrier.parent_from_node = glm::dmat4(1);
+    carrier.transform = -1;
+    carrier.mesh = mesh;
+    scene.nodes.push_back(std::move(carrier));
+}
+
+std::string lacksOrder(const Subject& subject) {
+    if (subject.given.settings.transparency == Transparency::unsorted)
+        return "--transparency unsorted blends in the order of the file";
+    return lacksRigidMesh(subject);
+}
+
+// What blends from as far away is blended in the order of the file.
+bool isReversible(const Scene& scene, const Mesh& mesh) {
+    return isRigid(mesh) && std::ranges::none_of(mesh.primitives, [&](const Primitive& primitive) {
+               return isBlended(scene, primitive);
+           });
+}
+
+void reverseDraws(Related& related, const Subject&) {
+    Scene& scene = related.changed.scene;
+    for (std::size_t i = scene.nodes.size(); i-- > 0;) {
+        const int mesh = scene.nodes[i].mesh;
+        if (mesh < 0 || !isReversible(scene, scene.meshes[static_cast<std::size_t>(mesh)])) continue;
+        carry(scene, i, mesh);
+        scene.nodes[i].mesh = -1;
+    }
+    for (Mesh& mesh : scene.meshes)
+        if (isReversible(scene, mesh)) std::ranges::reverse(mesh.primitives);
+}
+
+// Every mesh becomes two, of the first and the last half of its triangles.
+void splitMeshes(Related& related, const Subject&) {
+    Scene& scene = related.changed.scene;
+    const std::size_t meshes = scene.meshes.size(), nodes = scene.nodes.size();
+    std::vector<int> other(meshes, -1);
+    for (std::size_t m = 0; m < meshes; ++m) {
+        if (!isRigid(scene.meshes[m])) continue;
+        Mesh rest = scene.meshes[m];
+        bool any = false;
+        for (std::size_t p = 0; p < rest.primitives.size(); ++p) {
+            std::vector<std::uint32_t>&first = scene.meshes[m].primitives[p].indices,
+            &last = rest.primitives[p].indices;
+            // What blends is sorted by what is drawn.
+            const auto count = isBlended(scene, rest.primitives[p]) ? last.size() / 3 : last.size() / 6;
+            last.erase(last.begin(), last.begin() + static_cast<std::ptrdiff_t>(3 * count));
+            first.resize(3 * count);
+            any = any || !last.empty();
+        }
+        std::erase_if(rest.primitives, [](const Primitive& primitive) { return primitive.indices.empty(); });
+        std::erase_if(scene.meshes[m].primitives,
+                      [](const Primitive& primitive) { return primitive.indices.empty(); });
+        if (!any) continue;
+        other[m] = static_cast<int>(scene.meshes.size());
+        scene.meshes.push_back(std::move(rest));
+    }
+    for (std::size_t i = 0; i < nodes; ++i)
+        if (const int mesh = scene.nodes[i].mesh; mesh >= 0 && other[static_cast<std::size_t>(mesh)] >= 0)
+            carry(scene, i, other[static_cast<std::size_t>(mesh)]);
+}
+
+// The attributes of a primitive's vertices, one after the other.
+void addVertex(Primitive& to, const Primitive& from, std::uint32_t i) {
+    to.indices.push_back(static_cast<std::uint32_t>(to.positions.size()));
+    to.positions.push_back(from.positions[i]);
+    to.normals.push_back(from.normals[i]);
+    to.tangents.push_back(from.tangents[i]);
+    for (std::size_t set = 0; set < 2; ++set)
+        if (!from.texcoords[set].empty()) to.texcoords[set].push_back(from.texcoords[set][i]);
+    if (!from.colors.empty()) to.colors.push_back(from.colors[i]);
+}
+
+Primitive emptyLike(const Primitive& primitive) {
+    Primitive empty;
+    empty.material = primitive.material;
+    empty.flat = primitive.flat;
+    return empty;
+}
+
+void unindex(Related& related, const Subject&) {
+    for (Mesh& mesh : related.changed.scene.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            if (!isRigid(primitive)) continue;
+            Primitive apart = emptyLike(primitive);
+            for (const std::uint32_t i : primitive.indices) addVertex(apart, primitive, i);
+            primitive = std::move(apart);
+        }
+}
+
+// Whether what is interpolated on it is linear, so that its parts interpolate the same: normals and tangents
+// are made unit vectors at a mesh's vertices.
+bool isFlat(const Primitive& primitive, const std::uint32_t* corners) {
+    const auto same = [&](const auto& values) {
+        return values[corners[0]] == values[corners[1]] && values[corners[0]] == values[corners[2]];
+    };
+    return same(primitive.normals) && same(primitive.tangents);
+}
+
+template <class Value>
+void addMiddle(std::vector<Value>& to, std::uint32_t a, std::uint32_t b) {
+    if (!to.empty()) to.push_back((to[a] + to[b]) * 0.5f);
+}
+
+std::uint32_t middleOf(Primitive& primitive, std::uint32_t a, std::uint32_t b) {
+    addMiddle(primitive.positions, a, b);
+    addMiddle(primitive.texcoords[0], a, b);
+    addMiddle(primitive.texcoords[1], a, b);
+    addMiddle(primitive.colors, a, b);
+    primitive.normals.push_back(primitive.normals[a]);
+    primitive.tangents.push_back(primitive.tangents[a]);
+    return static_cast<std::uint32_t>(primitive.positions.size() - 1);
+}
+
+std::string lacksFlat(const Subject& subject) {
+    if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
+    // The middle of an edge is rounded to 2^-24 of its distance from the mesh's origin.
+    if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
+        return "the scene reaches over a thousand times as far as it is near: there the middle of an edge is "
+               "seen "
+               "to be rounded";
+    for (const Mesh& mesh : subject.given.scene.meshes)
+        for (const Primitive& primitive : mesh.primitives)
+            for (std::size_t t = 0; isRigid(primitive) && t + 2 < primitive.indices.size(); t += 3)
+                if (isFlat(primitive, &primitive.indices[t])) return {};
+    return "the scene has no flat triangle that is neither skinned nor morphed";
+}
+
+// Each flat triangle becomes four.
+void splitTriangles(Related& related, const Subject&) {
+    for (Mesh& mesh : related.changed.scene.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            if (!isRigid(primitive)) continue;
+            std::vector<std::uint32_t> indices;
+            for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
+                const std::uint32_t* const corners = &primitive.indices[t];
+                const std::uint32_t a = corners[0], b = corners[1], c = corners[2];
+                if (!isFlat(primitive, corners)) {
+                    indices.insert(indices.end(), {a, b, c});
+                    continue;
+                }
+                const std::uint32_t ab = middleOf(primitive, a, b), bc = middleOf(primitive, b, c),
+                                    ca = middleOf(primitive, c, a);
+                indices.insert(indices.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
+            }
+            primitive.indices = std::move(indices);
+        }
+}
+
+std::string lacksMaterials(const Subject& subject) {
+    const Scene& scene = subject.given.scene;
+    if (scene.materials.size() < 2) return "the scene has one material";
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.part >= AnimatedPart::base_color)
+                return "an animation moves a material by its number";
+    return {};
+}
+
+void permuteMaterials(Related& related, const Subject&) {
+    Scene& scene = related.changed.scene;
+    const int last = static_cast<int>(scene.materials.size()) - 1;
+    std::ranges::reverse(scene.materials);
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives) primitive.material = last - primitive.material;
+    std::map<int, MaterialParts> parts;
+    for (auto& [index, of] : scene.material_parts) parts.emplace(last - index, std::move(of));
+    scene.material_parts = std::move(parts);
+    for (int i = 0; i <= last; ++i) related.map.ids.push_back(last - i);
+}
+
+std::string lacksFile(const Subject& subject) {
+    return flattened(subject.given) ? ""
+                                    : "joints, morph targets or a turned normal map place vertices, which is "
+                                      "not written to a file";
+}
+
+// The scene without textures, environment and motion, as it is read of a file of it.
+Case readAgain(const Case& flat, const std::string& file, const char* name) {
+    Case read = flat;
+    read.scene = parseGltf({file.begin(), file.end()}, name);
+    read.scene.lights = lightsFromJson(lightsFileOf(flat), "lights.json");
+    read.scene.background = flat.scene.background;
+    return read;
+}
+
+void throughGltf(Related& related, const Subject& subject) {
+    related.own_base = true;
+    related.base = *flattened(subject.given);
+    related.changed = readAgain(related.base, gltfOf(related.base), "relation.gltf");
+    // A material that nothing shows is not written, and they are numbered as they are met.
+    related.map.ids = writtenMaterials(related.base.scene);
+}
+void throughGlb(Related& related, const Subject& subject) {
+    related.own_base = true;
+    const Case flat = *flattened(subject.given);
+    related.base = readAgain(flat, gltfOf(flat), "relation.gltf");
+    related.changed = readAgain(flat, glbOf(flat), "relation.glb");
+}
+
+}  // namespace
+
+std::vector<Relation> geometryRelations() {
+    return {{.name = "draws_reversed",
+             .changes = "what is drawn last is drawn first",
+             .because = "the nearest surface is seen in whatever order they are drawn",
+             .lacks = lacksOrder,
+             .change = reverseDraws,
+             .reorders = true,
+             .same_pipelines = true},
+            {.name = "meshes_split",
+             .changes = "each mesh becomes two, of half the triangles",
+             .because = "a triangle is drawn alike whichever draw it is part of",
+             .lacks = lacksRigidMesh,
+             .change = splitMeshes,
+             .reorders = true,
+             .same_pipelines = true},
+            {.name = "unindexed",
+             .changes = "no triangle shares a vertex with another",
+             .because = "the same vertices are read from elsewhere",
+             .lacks = lacksRigidMesh,
+             .change = unindex,
+             .same_pipelines = true},
+            {.name = "triangles_split",
+             .changes = "each flat triangle becomes four",
+             .alike = Alike::rounding,
+             .because = "the middle of an edge is rounded to float32, and interpolation goes from there",
+             .lacks = lacksFlat,
+             .change = splitTriangles},
+            {.name = "materials_permuted",
+             .changes = "the order of the materials is reversed",
+             .because = "the same numbers are read from elsewhere",
+             .lacks = lacksMaterials,
+             .change = permuteMaterials,
+             .reorders = true,
+             .same_pipelines = true},
+            {.name = "through_gltf",
+             .changes = "the scene without textures and motion is written to a .gltf file and read again",
+             .alike = Alike::rounding,
+             .because = "float32 survives a file, but normals that are read are made unit vectors again",
+             .lacks = lacksFile,
+             .change = throughGltf},
+            {.name = "through_glb",
+             .changes = "the same .gltf file is a .glb file",
+             .because = "a data URI and a binary chunk are the same bytes",
+             .lacks = lacksFile,
+             .change = throughGlb,
+             .same_pipelines = true}};
+}
+
+}  // namespace diptych::audit

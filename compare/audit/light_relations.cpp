@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/quantities.h"
+#include "compare/audit/relations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace diptych::audit {
+
+namespace {
+
+std::string lacksTwoLights(const Subject& subject) {
+    if (subject.given.scene.lights.size() < 2) return "the scene has one light";
+    if (subject.given.settings.shadow_lights > 0)
+        return "--shadow-lights chooses among equal lights by their order";
+    if (subject.given.settings.haze &&
+        std::ranges::count(subject.given.scene.lights, LightKind::directional, &Light::kind) > 1)
+        return "--haze scatters the light of one sun";
+    return lacksPerObject(subject);
+}
+
+void permuteLights(Related& related, const Subject&) {
+    std::ranges::reverse(related.changed.scene.lights);
+}
+
+std::string lacksSplittable(const Subject& subject) {
+    const Settings& settings = subject.given.settings;
+    if (subject.given.scene.lights.empty()) return "the scene has no light";
+    if (settings.light_cutoff > 0) return "--light-cutoff ends a dimmer light sooner";
+    if (settings.shadows != Shadows::off) return "one sun or --shadow-lights cast: leave out --shadows";
+    return lacksPerObject(subject);
+}
+
+// Every light, so that it matters wherever one looks; but haze scatters the light of one sun.
+void splitLights(Related& related, const Subject&) {
+    std::vector<Light> halves;
+    for (Light light : related.changed.scene.lights) {
+        if (light.kind == LightKind::directional && related.changed.settings.haze) {
+            halves.push_back(std::move(light));
+            continue;
+        }
+        light.intensity /= 2;
+        halves.insert(halves.end(), 2, light);
+    }
+    related.changed.scene.lights = std::move(halves);
+}
+
+void multiplyLight(Related& related, const Subject& subject, double factor) {
+    // What is drawn without lighting sends its base colour, whatever is multiplied.
+    for (std::size_t i = 0; i < related.base.scene.materials.size(); ++i) {
+        if (!related.base.scene.materials[i].unlit) continue;
+        related.own_base = true;
+        related.base.scene.materials[i].unlit = related.changed.scene.materials[i].unlit = false;
+    }
+    static const Quantity& intensity = *quantitiesOf(std::array{std::string("intensity")}).front();
+    intensity.push(related.changed, subject, factor);
+    related.map.light = factor;
+}
+void doubleLight(Related& related, const Subject& subject) {
+    multiplyLight(related, subject, 2);
+}
+void multiplyLightMuch(Related& related, const Subject& subject) {
+    multiplyLight(related, subject, 0x1p-6);
+}
+
+// Where the camera looks, so that its place is in many lists; before and after the others.
+void addDarkLights(Related& related, const Subject& subject) {
+    Light dark;
+    dark.name = "dark";
+    dark.intensity = 0;
+    dark.position =
+        (subject.seen ? subject.point : subject.bounds.centre()) + subject.normal * (0.05 * subject.nearest);
+    std::vector<Light>& lights = related.changed.scene.lights;
+    lights.insert(lights.begin(), dark);
+    dark.kind = LightKind::spot;
+    dark.direction = -subject.normal;
+    lights.push_back(dark);
+}
+
+// Bright ones whose range ends before it reaches anything.
+void addFarLights(Related& related, const Subject& subject) {
+    const double away = 4 * subject.bounds.radius() + 16;
+    Light far;
+    far.name = "far";
+    far.intensity = 1e6f;
+    far.range = 1;
+    std::vector<Light>& lights = related.changed.scene.lights;
+    for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, -1}}) {
+        far.position = subject.bounds.centre() + along * away;
+        lights.insert(lights.begin(), far);
+    }
+}
+
+}  // namespace
+
+std::vector<Relation> lightRelations() {
+    return {{.name = "lights_permuted",
+             .changes = "the order of the lights is reversed",
+             .alike = Alike::sums,
+             .because = "the same terms are added in another order",
+             .lacks = lacksTwoLights,
+             .change = permuteLights},
+            {.name = "lights_split",
+             .changes = "each light becomes two of half the intensity",
+             .alike = Alike::sums,
+             .because = "half of a float32 is exact; twice as many terms are added",
+             .lacks = lacksSplittable,
+             .change = splitLights},
+            {.name = "light_doubled",
+             .changes = "all that sends light sends twice as much",
+             .because = "light is a product of what is sent, and twice a float32 is exact",
+             .lacks = lacksNone,
+             .change = doubleLight,
+             .same_pipelines = true},
+            {.name = "light_64th",
+             .changes = "all that sends light sends a 64th",
+             .because = "light is a product of what is sent, and a 64th of a float32 is exact",
+             .lacks = lacksNone,
+             .change = multiplyLightMuch,
+             .same_pipelines = true},
+            {.name = "dark_lights",
+             .changes = "two lights of intensity 0 are added in the middle of the picture",
+             .because = "0 is added",
+             .lacks = lacksPerObject,
+             .change = addDarkLights},
+            {.name = "far_lights",
+             .changes = "three bright lights are added that reach nothing",
+             .because = "light ends at its range, and 0 is added",
+             .lacks = lacksPerObject,
+             .change = addFarLights}};
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relations.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych::audit {
+
+namespace {
+
+// Level, along no axis, in radii of the scene: float32 would place it within a hundredth of its size, and
+// double has bits to spare.
+const glm::dvec3 movedBy{86421.3, 0, -50321.7};
+constexpr double turnedBy = 37;  // degrees
+// Even, so that the 2x2 pixels whose differences choose a texture's level stay together; not a multiple of
+// what tiles are.
+constexpr int border = 6;
+
+// Puts scene, lights and camera elsewhere: world' = place * world, whose 3x3 part is orthogonal. Where it
+// mirrors, so does the picture.
+void placeAll(Case& placed, const glm::dmat4& place) {
+    const glm::dmat3 turn(place);
+    const bool mirrors = glm::determinant(turn) < 0;
+    Scene& scene = placed.scene;
+    const int root = static_cast<int>(scene.nodes.size());
+    for (Node& node : scene.nodes)
+        if (node.parent < 0) node.parent = root;
+    scene.nodes.push_back({.name = "placed", .parent_from_node = place});
+    for (Light& light : scene.lights) {
+        light.position = glm::dvec3(place * glm::dvec4(light.position, 1));
+        light.direction = turn * light.direction;
+        light.axis = turn * light.axis;
+    }
+    glm::dmat4& camera = placed.camera().world_from_camera;
+    camera = place * camera;
+    if (mirrors) camera[0] = -camera[0];
+}
+
+void moveTogether(Related& related, const Subject& subject) {
+    placeAll(related.changed, glm::translate(glm::dmat4(1), subject.bounds.radius() * movedBy));
+}
+
+void turnTogether(Related& related, const Subject&) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(turnedBy), glm::dvec3(0, 1, 0));
+    placeAll(related.changed, turn);
+    related.map.turn = glm::dmat3(turn);
+}
+
+// Numbers of 0 and 1 alone.
+void turnByAQuarter(Related& related, const Subject&) {
+    const glm::dmat3 quarter({0, 0, -1}, {0, 1, 0}, {1, 0, 0});
+    placeAll(related.changed, glm::dmat4(quarter));
+    related.map.turn = quarter;
+}
+
+// Without textures: which pixel of 2x2 decides on a level of a texture is not mirrored.
+void mirror(Related& related, const Subject&) {
+    related.own_base = true;
+    for (Case* of : {&related.base, &related.changed})
+        for (Material& material : of->scene.materials)
+            for (TextureSlot* slot :
+                 {&material.base_color_texture, &material.metallic_roughness_texture,
+                  &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
+                  &material.specular_texture, &material.specular_color_texture, &material.lightmap_texture})
+                *slot = {};
+    const glm::dmat3 mirrored({-1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    placeAll(related.changed, glm::dmat4(mirrored));
+    related.map.turn = mirrored;
+    related.map.mirrored = true;
+}
+
+void scaleByTwo(Related& related, const Subject&) {
+    scaleLengths(related.changed, 2);
+    related.map.length = 2;
+}
+
+std::string lacksTurnable(const Subject& subject) {
+    if (subject.given.settings.env != Settings().env || subject.given.scene.environment)
+        return "the maps of an environment have pixels of their own";
+    if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
+    return lacksWithShadows(subject);
+}
+std::string lacksMirrorable(const Subject& subject) {
+    if (subject.view.width % 2 != 0)
+        return "the picture is an odd number of pixels wide: the 2x2 of which differences are made are "
+               "others";
+    return lacksTurnable(subject);
+}
+
+// A wider picture of the same pixels.
+void shiftTiles(Related& related, const Subject&) {
+    Size& size = related.changed.settings.size;
+    const double taller = static_cast<double>(size.height + 2 * border) / size.height;
+    size.width += 2 * border;
+    size.height += 2 * border;
+    Camera& camera = related.changed.camera();
+    camera.ymag *= taller;
+    camera.yfov = 2 * std::atan(std::tan(camera.yfov / 2) * taller);
+    related.map.border = border;
+}
+
+std::string lacksWithoutFar(const Subject& subject) {
+    if (subject.view.camera.orthographic) return "the camera is orthographic";
+    return lacksWithShadows(subject);
+}
+
+// The stored depth is the near plane's distance over the view depth where nothing is too far.
+void halveNear(Related& related, const Subject&) {
+    related.own_base = true;
+    for (Case* of : {&related.base, &related.changed})
+        of->camera().far = std::numeric_limits<double>::infinity();
+    related.changed.camera().near /= 2;
+}
+
+}  // namespace
+
+std::vector<Relation> placeRelations() {
+    return {
+        {.name = "moved",
+         .changes = "scene, lights and camera are moved by 100,000 times the scene's radius",
+         .alike = Alike::rounding,
+         .because = "places are composed from the camera in double; one that rounds to another float32 "
+                    "moves by 2^-24 of its distance",
+         .lacks = lacksWithShadows,
+         .change = moveTogether},
+        {.name = "turned",
+         .changes = "scene, lights and camera are turned by 37 degrees about +Y",
+         .alike = Alike::rounding,
+         .because = "vectors in world space have other components, which round otherwise",
+         .lacks = lacksTurnable,
+         .change = turnTogether},
+        {.name = "quarter_turn",
+         .changes = "scene, lights and camera are turned by 90 degrees about +Y",
+         .alike = Alike::rounding,
+         .because = "x and z change places, so that sums of products are in another order",
+         .lacks = lacksTurnable,
+         .change = turnByAQuarter},
+        {.name = "mirrored",
+         .changes = "scene, lights and camera are mirrored at x = 0, and so is the picture; without textures",
+         .alike = Alike::rounding,
+         .because = "signs change; where the picture's columns are mirrored they round otherwise",
+         .lacks = lacksMirrorable,
+         .change = mirror},
+        {.name = "scaled",
+         .changes = "all lengths are doubled, and candela are four times as many",
+         .because = "powers of two are exact in float32",
+         .lacks = lacksWithShadows,
+         .change = scaleByTwo,
+         .same_pipelines = true},
+        {.name = "tiles_shifted",
+         .changes = "the picture has 6 more pixels on each side, so that others begin a tile",
+         .alike = Alike::rounding,
+         .because = "a ray through a pixel is found by another division",
+         .lacks = lacksWithShadows,
+         .change = shiftTiles},
+        {.name = "near_halved",
+         .changes = "the near plane, without a far one, is half as far away",
+         .because = "stored depth is near / depth, and half of a float32 is exact",
+         .lacks = lacksWithoutFar,
+         .change = halveNear,
+         .same_pipelines = true}};
+}
+
+}  // namespace diptych::audit

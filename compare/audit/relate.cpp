@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relate.h"
+
+#include "compare/audit/relations.h"
+#include "compare/metrics/channel.h"
+#include "compare/render/reference_frame.h"
+#include "compare/verdict/encoding_bits.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
+#include "shared/vulkan/device.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr auto relatedLit = static_cast<int>(gpu::DEBUG_lit);
+
+// Roundings that a term of lit passes through on its way from a vertex, beside those of the sum: transform,
+// interpolation, normalisation, D, V, F, attenuation, each of some ten operations.
+constexpr double roundingsOfATerm = 128;
+// Other terms of lit: emission, ambient light, lightmap, the environment's two, haze, and products of a sum.
+constexpr double termsBesideLights = 8;
+// Of the differences of two places a pixel apart, across and down: each of the four is the last of some
+// seven, three products, three sums and an interpolation.
+constexpr double roundingsOfAFacet = 28;
+// That a filter's weight falls on another of 256 steps between two texels: in two directions, in up to four
+// maps of two levels each, by coordinates that four operations have rounded.
+constexpr double chancesOfATexel = 256.0 * 2 * 4 * 2 * 4;
+constexpr double mostFiltered = 0.25;  // where more are, something else is wrong
+constexpr double roundoff = 0x1p-24;   // of one float32 operation
+
+RenderOptions drawingRelated(bool packed = false) {
+    RenderOptions options;
+    options.channels.assign(relatedChannels().begin(), relatedChannels().end());
+    if (packed) options.channels = {relatedLit};
+    options.requested = options.channels;
+    options.through_gbuffer = packed;
+    options.runs = 0;
+    return options;
+}
+
+bool hasTexture(const Material& material) {
+    return std::ranges::any_of(
+        std::array{&material.base_color_texture, &material.metallic_roughness_texture,
+                   &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
+                   &material.specular_texture, &material.specular_color_texture, &material.lightmap_texture},
+        [](const TextureSlot* slot) { return slot->texture >= 0; });
+}
+
+// By how much a component of a channel may be off, decoded from a G-buffer; emission: a part of the largest.
+std::map<int, double> packedBounds(const Settings& settings) {
+    if (settings.gbuffer == GBufferEncoding::full || settings.path == Path::reference) return {};
+    const bool compact = settings.gbuffer == GBufferEncoding::compact;
+    const auto normal = [](unsigned bits) { return glm::radians(octahedralBound(bits)); };
+    // Forward+ rounds a triangle's normal as deferred does, by which shadows are offset.
+    if (settings.path == Path::forward_plus)
+        return {{gpu::DEBUG_geometric_normal,
+                 normal(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)}};
+    return {
+        {gpu::DEBUG_albedo, squareBound(gpu::ALBEDO_BITS)},
+        {gpu::DEBUG_normals, normal(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
+        {gpu::DEBUG_geometric_normal,
+         normal(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
+        {gpu::DEBUG_metallic, unormBound(compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS)},
+        {gpu::DEBUG_roughness,
+         unormBound(compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS)},
+        {gpu::DEBUG_emission, radianceBound()}};
+}
+
+bool isReferenceSeries(const Series& series) {
+    return series.path == Path::reference;
+}
+
+// Of the picture; of an orthographic one as it is seen from as far as it is drawn from.
+double pixelsPerRadian(const Subject& subject) {
+    const Camera& camera = subject.view.camera;
+    if (!camera.orthographic) return subject.view.height / (2 * std::tan(camera.yfov / 2));
+    const double away = glm::distance(subject.view.eye(), subject.bounds.centre()) + subject.bounds.radius();
+    return away * subject.view.height / (2 * camera.ymag);
+}
+
+double largestSide(const Scene& scene) {
+    int side = 0;
+    for (const TextureImage& image : scene.images) side = std::max({side, image.width, image.height});
+    return side;
+}
+
+Settings settingsOfSeries(const Series& series, const Settings& settings) {
+    const Settings applied = series.applied(settings);
+    return isReferenceSeries(series) ? referenceSettings(applied) : withoutReference(applied);
+}
+
+}  // namespace
+
+bool RelationHeld::holds() const {
+    return std::ranges::all_of(series, [](const SeriesHeld& of) {
+        return isReferenceSeries(of.series) || !of.lacks.empty() || of.held.holds();
+    });
+}
+
+Blame RelationHeld::blame(bool cpu) const {
+    if (holds()) return Blame::none;
+    for (const SeriesHeld& of : series)
+        if (isReferenceSeries(of.series) && of.lacks.empty() && !of.held.holds()) return Blame::relation;
+    return cpu ? Blame::ours_likely : Blame::driver_or_ours;
+}
+
+std::vector<Series> relatedSeries(const Subject& subject) {
+    std::vector<Series> all;
+    std::vector<Settings> known;
+    for (Series series : {Series{Path::deferred, {}}, Series{Path::forward_plus, {}},
+                          Series{Path::deferred, {{"gbuffer", "full"}}},
+                          Series{Path::reference, {{"reference-mode", "scene"}}}}) {
+        Settings settings = settingsOfSeries(series, subject.given.settings);
+        if (settings.problem()) continue;
+        settings = effectiveSettings(settings);
+        if (std::ranges::count(known, settings) > 0) continue;
+        known.push_back(settings);
+        all.push_back(std::move(series));
+    }
+    return all;
+}
+
+RelationMeasurer::RelationMeasurer(Device& device, const Subject& subject,
+                                   std::function<void(const std::string&)> onStep,
+                                   std::shared_ptr<PipelineSet> pipelines)
+    : device_(device),
+      subject_(subject),
+      on_step_(std::move(onStep)),
+      pipelines_(pipelines ? std::move(pipelines) : makePipelineSet(device)),
+      series_(relatedSeries(subject)) {}
+
+RelationMeasurer::Drawn RelationMeasurer::draw(const Case& of, std::span<const Settings> settings) {
+    Drawn drawn;
+    drawn.frames.resize(settings.size());
+    drawn.failed.resize(settings.size());
+    SceneViews views(of.scene);
+    Renderer renderer(device_, views, pipelines_);
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        try {
+            drawn.frames[i] =
+                needsDevice(settings[i])
+                    ? renderer.draw(settings[i], drawingRelated())
+                    : std::move(drawWithoutDevice(views, {settings[i]}, drawingRelated()).front());
+        } catch (const std::exception& error) {
+            drawn.failed[i] = error.what();
+        }
+    }
+    return drawn;
+}
+
+const Image* RelationMeasurer::packedLight(const Case& of, bool own) {
+    if (of.settings.gbuffer == GBufferEncoding::full) return nullptr;
+    if (!own && !packed_light_.empty()) return &packed_light_;
+    Settings settings = of.settings;
+    settings.path = Path::forward_plus;
+    SceneViews views(of.scene);
+    Renderer renderer(device_, views, pipelines_);
+    Frame frame = renderer.draw(withoutReference(settings), drawingRelated(true));
+    const auto found = frame.encoding_bound.find(relatedLit);
+    if (found == frame.encoding_bound.end()) return nullptr;
+    packed_light_ = std::move(found->second);
+    return &packed_light_;
+}
+
+Grant RelationMeasurer::grantOf(const Relation& relation, const Related& related,
+                                const Settings& settings) const {
+    Grant grant;
+    grant.alike = relation.alike;
+    grant.reorders = relation.reorders;
+    if (!relation.same_pipelines && !device_.profile().bit_exact) grant.ulps = gpuUlps;
+    const double terms =
+        static_cast<double>(std::max(related.base.scene.lights.size(), related.changed.scene.lights.size())) +
+        termsBesideLights;
+    // Of both pictures: either may round the other way.
+    if (relation.alike == Alike::sums) grant.relative = 2 * terms * roundoff;
+    if (relation.alike != Alike::rounding) return grant;
+    grant.relative = 2 * (terms + roundingsOfATerm) * roundoff;
+    for (const Material& material : related.base.scene.materials)
+        grant.textured.push_back(hasTexture(material));
+    if (settings.path == Path::reference) return grant;
+    grant.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
+    // One step across, one down, and one between two levels.
+    grant.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
+                        std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
+    grant.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
+    grant.filtered_share =
+        std::min(mostFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
+    grant.packed = packedBounds(settings);
+    return grant;
+}
+
+std::uint64_t RelationMeasurer::tied() {
+    if (tied_) return *tied_;
+    tied_ = 0;
+    const std::array orders{std::string("draws_reversed"), std::string("materials_permuted")};
+    for (const Relation* order : relationsOf(orders)) {
+        if (!order->lacks(subject_).empty()) continue;
+        Related related{subject_.given, subject_.given};
+        order->change(related, subject_);
+        const std::array settings{settingsOfSeries({Path::forward_plus, {}}, subject_.given.settings)};
+        const Drawn given = draw(related.base, settings), changed = draw(related.changed, settings);
+        if (!given.frames[0] || !changed.frames[0]) continue;
+        Grant grant;
+        grant.reorders = true;
+        const Frame back = mappedBack(*changed.frames[0], related.map);
+        tied_ = std::max(*tied_, hold(*given.frames[0], back, grant).aside);
+    }
+    return *tied_;
+}
+
+RelationHeld RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
+    RelationHeld result;
+    result.relation = &relation;
+    result.lacks = subject_.bounds.empty() ? "the scene has nothing to draw" : relation.lacks(subject_);
+    if (!result.lacks.empty()) return result;
+    if (on_step_) on_step_(std::string(relation.name));
+    Related related{subject_.given, subject_.given};
+    relation.change(related, subject_);
+    if (spoil) spoil(related.changed);
+    std::vector<Settings> before, after;
+    for (const Series& series : series_) {
+        before.push_back(settingsOfSeries(series, related.base.settings));
+        after.push_back(settingsOfSeries(series, related.changed.settings));
+    }
+    // The given pictures are drawn once, unless a relation has others.
+    const bool own = related.own_base;
+    std::optional<Drawn> others;
+    if (own) others = draw(related.base, before);
+    if (!own && !given_) given_ = draw(related.base, before);
+    const Drawn& given = own ? *others : *given_;
+    Drawn changed = draw(related.changed, after);
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+        SeriesHeld of;
+        of.series = series_[i];
+        if (relation.of_settings && effectiveSettings(before[i]) == effectiveSettings(after[i])) {
+            of.lacks = fmt::format("{} does not read what is changed", nameOf(series_[i].path));
+            result.series.push_back(std::move(of));
+            continue;
+        }
+        of.grant = grantOf(relation, related, after[i]);
+        if (series_[i].path == Path::deferred && !of.grant.packed.empty())
+            of.grant.packed_light = packedLight(related.base, own);
+        if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
+            of.grant.blended = &reference->blended;
+        for (const std::string& failed : {given.failed[i], changed.failed[i]})
+            if (of.held.failed.empty()) of.held.failed = failed;
+        if (of.held.failed.empty()) {
+            Frame back = mappedBack(*changed.frames[i], related.map);
+            of.held = hold(*given.frames[i], back, of.grant);
+            if (!of.held.holds()) {
+                of.given = given.frames[i];
+                of.changed = std::move(back);
+            }
+        }
+        of.grant.packed_light = of.grant.blended = nullptr;
+        result.series.push_back(std::move(of));
+    }
+    // Surfaces that lie in one another are seen by chance.
+    if (relation.alike != Alike::rounding && !relation.reorders) return result;
+    const bool many = std::ranges::any_of(
+        result.series, [](const SeriesHeld& of) { return of.held.aside > of.held.most_aside; });
+    if (spoil || !many || tied() <= result.series.front().held.covered / 100) return result;
+    result.lacks =
+        fmt::format("{} pixels show surfaces that lie in one another, of which either may be seen", tied());
+    result.series.clear();
+    return result;
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relation_words.h"
+
+#include "compare/page/text.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::audit {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json finiteOrWord(double value) {
+    return std::isfinite(value) ? Json(value) : Json("infinite");
+}
+
+Json jsonOfChannel(const ChannelHeld& of) {
+    return {{"name", debugMode(of.mode).name},     {"error", finiteOrWord(of.error)},
+            {"allowed", finiteOrWord(of.allowed)}, {"used", finiteOrWord(of.used)},
+            {"worst_pixel", {of.x, of.y}},         {"pixels_beyond", of.beyond}};
+}
+
+Json jsonOfSeries(const SeriesHeld& of, const Relation& relation) {
+    Json changes = Json::object();
+    for (const Change& change : of.series.changes) changes[std::string(change.option)] = change.value;
+    Json json{{"path", nameOf(of.series.path)}, {"settings", changes}, {"verdict", verdictOf(of)}};
+    if (!of.lacks.empty()) {
+        json["because"] = of.lacks;
+        return json;
+    }
+    if (!of.held.failed.empty()) json["failed"] = of.held.failed;
+    json["tolerance"] = of.grant.inWords();
+    json["pixels"] = {{"covered", of.held.covered},
+                      {"set_aside", of.held.aside},
+                      {"most_set_aside", of.held.most_aside},
+                      {"filtered_otherwise", of.held.filtered},
+                      {"most_filtered_otherwise", of.held.most_filtered}};
+    json["channels"] = Json::array();
+    for (const ChannelHeld& channel : of.held.channels) json["channels"].push_back(jsonOfChannel(channel));
+    if (of.changed)
+        for (const char* shown : {"given", "changed", "used"})
+            json["pictures"].push_back(fmt::format("{}-{}.png", pictureStem(relation, of), shown));
+    return json;
+}
+
+std::string asideInWords(const SeriesHeld& of) {
+    std::string out;
+    if (of.held.aside > 0)
+        out += fmt::format("; {} pixels beside edges set aside of {} at most", of.held.aside,
+                           of.held.most_aside);
+    if (of.held.filtered > 0)
+        out += fmt::format("; {} filtered otherwise of {} at most", of.held.filtered, of.held.most_filtered);
+    return out;
+}
+
+}  // namespace
+
+bool RelationAudit::holds() const {
+    return std::ranges::all_of(relations, [](const RelationHeld& of) { return of.holds(); });
+}
+
+std::string_view verdictOf(const RelationHeld& held) {
+    const bool any = std::ranges::any_of(held.series, [](const SeriesHeld& of) { return of.lacks.empty(); });
+    if (!any) return "does not apply";
+    return held.holds() ? "holds" : "broken";
+}
+
+std::string_view verdictOf(const SeriesHeld& held) {
+    if (!held.lacks.empty()) return "does not apply";
+    return held.held.holds() ? "holds" : "broken";
+}
+
+std::string blameInWords(const RelationHeld& held, const ReportDevice& device) {
+    switch (held.blame(device.bitExact())) {
+        case Blame::none:
+            return {};
+        case Blame::relation:
+            return "the reference in double precision breaks it too: the scene is read otherwise, or the "
+                   "relation does not bind it; ours most likely";
+        case Blame::ours_likely:
+            return fmt::format("holds in double precision, and {} is a CPU: ours most likely", device.name);
+        case Blame::driver_or_ours:
+            return fmt::format("holds in double precision: a bug of the driver or ours, on {} with {}",
+                               device.name, device.driver);
+    }
+    return {};
+}
+
+std::string seriesInWords(const SeriesHeld& held) {
+    return held.series.path == Path::reference ? "reference, in double" : held.series.words();
+}
+
+std::string worstInWords(const SeriesHeld& held) {
+    if (!held.held.failed.empty()) return "not drawn: " + held.held.failed;
+    const ChannelHeld* const worst = held.held.worst();
+    if (!worst) return "the same";
+    return fmt::format("{} {}{} of {} at {},{}", debugMode(worst->mode).name, page::number(worst->error),
+                       held.grant.alike == Alike::bits ? " ULP" : "", page::number(worst->allowed), worst->x,
+                       worst->y);
+}
+
+std::string inWords(const RelationHeld& held, const ReportDevice& device) {
+    const Relation& relation = *held.relation;
+    const std::string_view verdict = verdictOf(held);
+    if (verdict == "does not apply")
+        return fmt::format("{:<19} does not apply: {}\n", relation.name,
+                           held.lacks.empty() ? "neither path reads what is changed" : held.lacks);
+    if (verdict == "holds") {
+        const SeriesHeld* worst = nullptr;
+        double used = -1;
+        for (const SeriesHeld& of : held.series) {
+            if (!of.lacks.empty() || of.series.path == Path::reference) continue;
+            const ChannelHeld* const channel = of.held.worst();
+            if (const double its = channel ? channel->used : 0; its > used) {
+                used = its;
+                worst = &of;
+            }
+        }
+        return fmt::format("{:<19} holds: {}{}\n", relation.name, worstInWords(*worst),
+                           used > 0 ? ", " + worst->series.words() + asideInWords(*worst) : "");
+    }
+    std::string out =
+        fmt::format("{:<19} BROKEN: {}; {}\n", relation.name, relation.changes, relation.because);
+    for (const SeriesHeld& of : held.series) {
+        if (!of.lacks.empty()) continue;
+        out += fmt::format("    {}: {}: {}{}\n", seriesInWords(of), verdictOf(of), worstInWords(of),
+                           asideInWords(of));
+        for (const ChannelHeld& channel : of.held.channels)
+            if (channel.beyond > 0)
+                out += fmt::format("        {}: {} pixels beyond, the worst at {},{}: {} of {}\n",
+                                   debugMode(channel.mode).name, channel.beyond, channel.x, channel.y,
+                                   page::number(channel.error), page::number(channel.allowed));
+    }
+    return out + fmt::format("    {}\n", blameInWords(held, device));
+}
+
+std::string inWords(const RelationAudit& audit) {
+    std::size_t hold = 0, broken = 0, silent = 0;
+    for (const RelationHeld& of : audit.relations) {
+        const std::string_view verdict = verdictOf(of);
+        ++(verdict == "holds" ? hold : verdict == "broken" ? broken : silent);
+    }
+    return fmt::format("{}: {} relations hold, {} are broken, {} do not apply\n",
+                       broken > 0 ? "FAIL" : "pass", hold, broken, silent);
+}
+
+Json toJson(const RelationAudit& audit) {
+    Json json{{"schema", 1},
+              {"verdict", audit.holds() ? "pass" : "fail"},
+              {"scene", audit.scene},
+              {"camera", audit.camera},
+              {"settings", Json::parse(diptych::toJson(audit.settings))},
+              {"device",
+               {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
+              {"notes", audit.notes},
+              {"relations", Json::array()}};
+    for (const RelationHeld& of : audit.relations) {
+        const Relation& relation = *of.relation;
+        Json one{{"name", relation.name},
+                 {"changes", relation.changes},
+                 {"alike", nameOf(relation.alike)},
+                 {"because", relation.because},
+                 {"verdict", verdictOf(of)}};
+        if (!of.lacks.empty()) one["lacks"] = of.lacks;
+        if (const std::string blame = blameInWords(of, audit.device); !blame.empty()) one["blame"] = blame;
+        one["series"] = Json::array();
+        for (const SeriesHeld& series : of.series) one["series"].push_back(jsonOfSeries(series, relation));
+        json["relations"].push_back(std::move(one));
+    }
+    return json;
+}
+
+std::string pictureStem(const Relation& relation, const SeriesHeld& held) {
+    std::string stem = fmt::format("{}-{}", relation.name, nameOf(held.series.path));
+    for (const Change& change : held.series.changes)
+        if (change.option == "gbuffer") stem += fmt::format("-{}", change.value);
+    return stem;
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relation_words.h"
+
+#include "compare/files/listed_folder.h"
+#include "compare/metrics/channel.h"
+#include "compare/picture/picture.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/png.h"
+
+#include <fmt/format.h>
+
+#include <span>
+
+namespace diptych::audit {
+
+namespace {
+
+// lit, exposed by the given picture.
+Image8 shownLit(const Frame& frame, const Frame& given) {
+    const DebugMode& mode = debugMode(static_cast<int>(gpu::DEBUG_lit));
+    PictureScale scale;
+    scale.exposure = exposureFor({}, &given.channels.at(mode.number), coverage(given, given));
+    return channelPicture(mode, frame, scale);
+}
+
+void putPictures(ListedFolder& folder, const std::string& stem, const SeriesHeld& of) {
+    const auto put = [&](const char* name, const Image8& picture) {
+        const std::string file = fmt::format("{}-{}.png", stem, name);
+        folder.list(file);
+        writePng(folder / file, picture);
+    };
+    put("given", shownLit(*of.given, *of.given));
+    put("changed", shownLit(*of.changed, *of.given));
+    put("used", errorPicture(of.held.used, 1));
+}
+
+}  // namespace
+
+std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& path, bool force) {
+    ListedFolder folder(path, relationsManifest, force);
+    for (const RelationHeld& of : audit.relations)
+        for (const SeriesHeld& series : of.series)
+            if (series.changed) putPictures(folder, pictureStem(*of.relation, series), series);
+    folder.put("index.html", relationsHtml(audit, folder.files()));
+    return folder.finish(toJson(audit));
+}
+
+}  // namespace diptych::audit

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relations.h"
+
+namespace diptych::audit {
+
+namespace {
+
+void drawAgain(Related&, const Subject&) {}
+
+void assignAs(Related& related, Assignment wanted, Assignment otherwise) {
+    Settings& settings = related.changed.settings;
+    settings.assign = settings.assign == wanted ? otherwise : wanted;
+}
+void assignEvery(Related& related, const Subject&) {
+    assignAs(related, Assignment::every, Assignment::clustered);
+}
+void assignTiled(Related& related, const Subject&) {
+    assignAs(related, Assignment::tiled, Assignment::every);
+}
+
+std::string lacksLists(const Subject& subject) {
+    if (subject.given.settings.assign == Assignment::every) return "--assign every has no lists";
+    return lacksPerObject(subject);
+}
+void fillOtherwise(Related& related, const Subject&) {
+    related.own_base = true;
+    related.base.settings.set("light-kernel", "scatter");
+    related.changed.settings.set("light-kernel", "gather");
+}
+
+void drawPrepass(Related& related, const Subject&) {
+    related.own_base = true;
+    related.base.settings.prepass = Switch::off;
+    related.changed.settings.prepass = Switch::on;
+}
+
+std::string lacksStillness(const Subject& subject) {
+    return subject.moves ? "something in the scene is animated" : "";
+}
+void waitAWhile(Related& related, const Subject&) {
+    related.changed.settings.time += 10;
+}
+
+}  // namespace
+
+std::vector<Relation> wayRelations() {
+    return {{.name = "repeated",
+             .changes = "the same scene is uploaded and drawn again",
+             .because = "nothing is left to chance",
+             .lacks = lacksNone,
+             .change = drawAgain,
+             .same_pipelines = true},
+            {.name = "assign_every",
+             .changes = "every light at every pixel instead of lists (or lists instead of every light)",
+             .because = "a light that is on no list adds 0, and lists keep the order of the lights",
+             .lacks = lacksPerObject,
+             .change = assignEvery,
+             .of_settings = true},
+            {.name = "assign_tiled",
+             .changes = "lists of another kind: of tiles (or every light instead of them)",
+             .because = "a light that is on no list adds 0, and lists keep the order of the lights",
+             .lacks = lacksPerObject,
+             .change = assignTiled,
+             .of_settings = true},
+            {.name = "light_kernel",
+             .changes = "lists are filled by tile instead of by light",
+             .because = "both ways fill the same lists in the same order",
+             .lacks = lacksLists,
+             .change = fillOtherwise,
+             .of_settings = true},
+            {.name = "prepass",
+             .changes = "depth is drawn first",
+             .because = "what is hidden is not shaded, and what is seen is shaded alike",
+             .lacks = lacksNone,
+             .change = drawPrepass,
+             .of_settings = true},
+            {.name = "still_time",
+             .changes = "10 s later, of a scene in which nothing moves",
+             .because = "nothing moves",
+             .lacks = lacksStillness,
+             .change = waitAWhile,
+             .same_pipelines = true}};
+}
+
+}  // namespace diptych::audit

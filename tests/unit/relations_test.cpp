@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+// Whether relations bind what they say, and whether pictures that differ are told from those that may.
+#include "compare/audit/relations.h"
+#include "compare/audit/relate.h"
+#include "compare/audit/relation_judge.h"
+#include "compare/audit/relation_words.h"
+#include "compare/audit/small_scene.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/scene/builtin/builtin.h"
+#include "shared/scene/gltf/gltf.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr auto relatedLight = static_cast<int>(gpu::DEBUG_lit),
+               relatedNormal = static_cast<int>(gpu::DEBUG_normals),
+               relatedFacet = static_cast<int>(gpu::DEBUG_geometric_normal),
+               relatedDepth = static_cast<int>(gpu::DEBUG_depth),
+               relatedId = static_cast<int>(gpu::DEBUG_material_id),
+               relatedRoughness = static_cast<int>(gpu::DEBUG_roughness),
+               relatedAlbedo = static_cast<int>(gpu::DEBUG_albedo);
+constexpr int relatedWidth = 16, relatedHeight = 8;
+
+// Two walls, of material 0 on the left at 2 m and of material 1 on the right at 3 m, lit evenly.
+Frame twoWalls() {
+    Frame frame;
+    frame.settings.size = {relatedWidth, relatedHeight};
+    for (const int mode : relatedChannels())
+        frame.channels[mode] = Image(relatedWidth, relatedHeight, debugMode(mode).width, 0.5f);
+    for (int y = 0; y < relatedHeight; ++y)
+        for (int x = 0; x < relatedWidth; ++x) {
+            const bool right = x >= relatedWidth / 2;
+            frame.channels[relatedId].at(x, y) = right ? 1.0f : 0.0f;
+            frame.channels[relatedDepth].at(x, y) = right ? 3.0f : 2.0f;
+            for (const int mode : {relatedNormal, relatedFacet})
+                for (int c = 0; c < 3; ++c) frame.channels[mode].at(x, y, c) = c == 2 ? 1.0f : 0.0f;
+        }
+    return frame;
+}
+
+Grant granted(Alike alike) {
+    Grant grant;
+    grant.alike = alike;
+    if (alike != Alike::bits) grant.relative = 1e-6;
+    if (alike == Alike::rounding) grant.step = 0x1p-7;
+    return grant;
+}
+
+float above(float value, int ulps = 1) {
+    for (int i = 0; i < ulps; ++i) value = std::nextafter(value, 10.0f);
+    return value;
+}
+
+// Made once: a gallery's textures take half a second.
+const Scene& relatedBuiltin(const std::string& name) {
+    static std::map<std::string, Scene> made;
+    const auto found = made.find(name);
+    return found != made.end() ? found->second : made.emplace(name, makeBuiltin(name)).first->second;
+}
+
+Subject related(const std::string& scene, Settings settings = {}) {
+    settings.size = {32, 18};
+    settings.shadows = Shadows::off;
+    return makeSubject(relatedBuiltin(scene), settings);
+}
+
+const Relation& relationOf(const std::string& name) {
+    return *relationsOf(std::array{name}).front();
+}
+
+Related changedBy(const std::string& name, const Subject& subject) {
+    Related both{subject.given, subject.given};
+    relationOf(name).change(both, subject);
+    return both;
+}
+
+}  // namespace
+
+TEST(Relations, BitsAreTheSameOrNot) {
+    const Frame given = twoWalls();
+    EXPECT_TRUE(hold(given, given, granted(Alike::bits)).holds());
+    EXPECT_EQ(hold(given, given, granted(Alike::bits)).worst(), nullptr);
+    for (const int mode : relatedChannels()) {
+        Frame changed = given;
+        float& value = changed.channels[mode].at(3, 2, debugMode(mode).width - 1);
+        value = above(value);
+        const Held held = hold(given, changed, granted(Alike::bits));
+        EXPECT_FALSE(held.holds()) << debugMode(mode).name;
+        ASSERT_NE(held.worst(), nullptr);
+        EXPECT_EQ(held.worst()->mode, mode);
+        EXPECT_EQ(held.worst()->x, 3);
+        EXPECT_EQ(held.worst()->y, 2);
+        EXPECT_EQ(held.worst()->beyond, 1u);
+    }
+}
+
+TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
+    const Frame given = twoWalls();
+    Grant grant = granted(Alike::bits);
+    grant.ulps = 16;
+    Frame changed = given;
+    float& value = changed.channels[relatedLight].at(3, 2, 1);
+    value = above(value, 16);
+    EXPECT_TRUE(hold(given, changed, grant).holds());
+    EXPECT_EQ(hold(given, changed, grant).worst()->error, 16);
+    value = above(value);
+    EXPECT_FALSE(hold(given, changed, grant).holds());
+}
+
+TEST(Relations, SumsAreGrantedByComponent) {
+    Frame given = twoWalls();
+    given.channels[relatedLight].at(5, 5, 2) = 1e-6f;
+    Frame changed = given;
+    changed.channels[relatedLight].at(3, 2, 0) *= 1 + 5e-7f;
+    EXPECT_TRUE(hold(given, changed, granted(Alike::sums)).holds());
+    // Little of the pixel, but much of its blue.
+    changed.channels[relatedLight].at(5, 5, 2) = 1.1e-6f;
+    const Held held = hold(given, changed, granted(Alike::sums));
+    EXPECT_FALSE(held.holds());
+    EXPECT_EQ(held.worst()->x, 5);
+    // Surfaces are no sums.
+    changed = given;
+    changed.channels[relatedAlbedo].at(3, 2, 0) = above(0.5f);
+    EXPECT_FALSE(hold(given, changed, granted(Alike::sums)).holds());
+}
+
+TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
+    Frame given = twoWalls();
+    for (int y = 0; y < relatedHeight; ++y) given.channels[relatedLight].at(4, y, 0) = 0.6f;
+    Frame changed = given;
+    changed.channels[relatedLight].at(4, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
+    EXPECT_TRUE(hold(given, changed, granted(Alike::rounding)).holds());
+    changed.channels[relatedLight].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
+    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+    // The same where nothing changes.
+    changed = given;
+    changed.channels[relatedLight].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
+    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+}
+
+TEST(Relations, LightFollowsANormalAsFastAsItsLobe) {
+    const Frame given = twoWalls();
+    Frame changed = given;
+    // Of a roughness of 0.5, alpha 0.25: by 12 times what the normal turns by.
+    Grant grant = granted(Alike::rounding);
+    grant.relative = 1e-5;
+    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
+    changed.channels[relatedLight].at(2, 3, 0) *= 1 + 11 * 0.9e-5f;
+    EXPECT_TRUE(hold(given, changed, grant).holds());
+    changed.channels[relatedLight].at(2, 3, 0) *= 1 + 5 * 0.9e-5f;
+    EXPECT_FALSE(hold(given, changed, grant).holds());
+}
+
+TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
+    const Frame given = twoWalls();
+    const auto shows = [&](int x, int y) {
+        Frame changed = given;
+        changed.channels[relatedId].at(x, y) = 1;
+        changed.channels[relatedDepth].at(x, y) = 3;
+        changed.channels[relatedLight].at(x, y, 0) = 0.9f;
+        return changed;
+    };
+    const Held beside = hold(given, shows(relatedWidth / 2 - 1, 3), granted(Alike::rounding));
+    EXPECT_TRUE(beside.holds());
+    EXPECT_EQ(beside.aside, 1u);
+    EXPECT_EQ(beside.most_aside, 8u) << "of few edges";
+    // In the middle of a wall the other surface makes an edge of its own, but the given picture has none
+    // there.
+    EXPECT_FALSE(hold(given, shows(2, 3), granted(Alike::rounding)).holds());
+    // A whole column is no accident.
+    Frame changed = given;
+    for (int y = 0; y < relatedHeight; ++y)
+        for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
+            changed.channels[relatedId].at(x, y) = 1 - given.channels.at(relatedId).at(x, y);
+    EXPECT_GT(hold(given, changed, granted(Alike::rounding)).aside, 8u);
+    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+    // Bits have no edges.
+    EXPECT_FALSE(hold(given, shows(relatedWidth / 2 - 1, 3), granted(Alike::bits)).holds());
+}
+
+TEST(Relations, OfOneDepthEitherSurfaceMayBeSeen) {
+    const Frame given = twoWalls();
+    Grant grant = granted(Alike::bits);
+    grant.reorders = true;
+    Frame changed = given;
+    changed.channels[relatedId].at(2, 3) = 1;
+    changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
+    EXPECT_TRUE(hold(given, changed, grant).holds());
+    EXPECT_EQ(hold(given, changed, grant).aside, 1u);
+    changed.channels[relatedDepth].at(2, 3) = 1.5f;
+    EXPECT_FALSE(hold(given, changed, grant).holds());
+    // The same surface is lit alike.
+    changed = given;
+    changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
+    EXPECT_FALSE(hold(given, changed, grant).holds());
+}
+
+TEST(Relations, AFilterMayWeightOtherwiseOfFewPixels) {
+    const Frame given = twoWalls();
+    Grant grant = granted(Alike::rounding);
+    grant.textured = {true, false};
+    grant.filter_step = 0x1p-7;
+    Frame changed = given;
+    changed.channels[relatedAlbedo].at(2, 3, 1) += 0x1p-8f;
+    changed.channels[relatedLight].at(2, 3, 1) += 0x1p-8f;
+    EXPECT_TRUE(hold(given, changed, grant).holds());
+    EXPECT_EQ(hold(given, changed, grant).filtered, 1u);
+    Frame more = given;
+    for (int y = 0; y < relatedHeight; ++y)
+        for (int x = 0; x < 2; ++x) more.channels[relatedAlbedo].at(x, y, 1) += 0x1p-8f;
+    EXPECT_FALSE(hold(given, more, grant).holds());
+    grant.textured = {false, false};
+    EXPECT_FALSE(hold(given, changed, grant).holds()) << "there is no texture";
+}
+
+TEST(Relations, WhatIsNoNumberIsBroken) {
+    const Frame given = twoWalls();
+    for (const Alike alike : {Alike::bits, Alike::sums, Alike::rounding}) {
+        Frame changed = given;
+        changed.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_FALSE(hold(given, changed, granted(alike)).holds()) << nameOf(alike);
+    }
+}
+
+TEST(Relations, PicturesAreMappedBack) {
+    Frame changed = twoWalls();
+    changed.channels[relatedLight].at(5, 2, 0) = 8;
+    changed.channels[relatedNormal].at(5, 2, 0) = 1;
+    changed.channels[relatedNormal].at(5, 2, 2) = 0;
+    PictureMap map;
+    map.border = 1;
+    map.mirrored = true;
+    map.light = 4;
+    map.length = 2;
+    map.turn = glm::dmat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0});  // +X becomes -Z
+    map.ids = {1, 0};
+    const Frame back = mappedBack(changed, map);
+    EXPECT_EQ(back.settings.size, (Size{relatedWidth - 2, relatedHeight - 2}));
+    const int x = relatedWidth - 2 - 1 - (5 - 1), y = 1;
+    EXPECT_EQ(back.channels.at(relatedLight).at(x, y, 0), 2);
+    EXPECT_EQ(back.channels.at(relatedDepth).at(x, y), 1);
+    EXPECT_EQ(back.channels.at(relatedId).at(x, y), 1);
+    EXPECT_EQ(back.channels.at(relatedNormal).at(x, y, 2), 1) << "+X of the changed one was +Z";
+    EXPECT_EQ(back.channels.at(relatedNormal).at(x, y, 0), 0);
+}
+
+TEST(Relations, EachChangesSomethingOrSaysWhyNot) {
+    EXPECT_GE(relations().size(), 12u);
+    std::set<std::string_view> names;
+    const Subject subject = related("gallery");
+    const auto vertices = [](const Case& of) {
+        std::size_t count = 0;
+        for (const Mesh& mesh : of.scene.meshes)
+            for (const Primitive& primitive : mesh.primitives) count += primitive.positions.size();
+        return count;
+    };
+    for (const Relation& relation : relations()) {
+        EXPECT_TRUE(names.insert(relation.name).second) << relation.name;
+        EXPECT_FALSE(relation.because.empty()) << relation.name;
+        EXPECT_EQ(relation.lacks(subject), "") << relation.name;
+        Related both{subject.given, subject.given};
+        relation.change(both, subject);
+        if (relation.name == "repeated") continue;
+        const bool same =
+            both.base.settings == both.changed.settings &&
+            gltfOf(*flattened(both.base)) == gltfOf(*flattened(both.changed)) &&
+            lightsFileOf(both.base) == lightsFileOf(both.changed) &&
+            both.base.scene.nodes.size() == both.changed.scene.nodes.size() &&
+            vertices(both.base) == vertices(both.changed) &&
+            both.base.scene.materials.front().name == both.changed.scene.materials.front().name &&
+            relation.name != "through_glb";
+        EXPECT_FALSE(same) << relation.name;
+        const bool own = both.base.settings != subject.given.settings ||
+                         gltfOf(*flattened(both.base)) != gltfOf(*flattened(subject.given)) ||
+                         both.base.scene.images.size() != subject.given.scene.images.size();
+        EXPECT_TRUE(!own || both.own_base) << relation.name;
+    }
+}
+
+TEST(Relations, WhatDoesNotApplyIsSaid) {
+    const auto lacks = [](const std::string& name, const Subject& subject) {
+        return relationOf(name).lacks(subject);
+    };
+    EXPECT_NE(lacks("still_time", related("motion")), "");
+    EXPECT_NE(lacks("through_gltf", related("motion")), "");
+    EXPECT_NE(lacks("lights_permuted", related("triangle")), "");
+    Settings settings;
+    settings.assign = Assignment::per_object;
+    EXPECT_NE(lacks("lights_split", related("gallery", settings)), "");
+    EXPECT_NE(lacks("assign_tiled", related("gallery", settings)), "");
+    settings.assign = Assignment::every;
+    EXPECT_NE(lacks("light_kernel", related("gallery", settings)), "");
+    Subject shadowed = related("gallery");
+    shadowed.given.settings.shadows = Shadows::pcf;
+    for (const char* name : {"moved", "turned", "mirrored", "scaled", "tiles_shifted", "near_halved"})
+        EXPECT_NE(lacks(name, shadowed), "") << name;
+    Subject odd = related("gallery");
+    odd.view.width = 31;
+    EXPECT_NE(lacks("mirrored", odd), "");
+}
+
+TEST(Relations, LightIsSplitPermutedAndAddedAsItSays) {
+    const Subject subject = related("gallery");
+    const auto total = [](const Case& of) {
+        double sum = 0;
+        for (const Light& light : of.scene.lights) sum += light.intensity;
+        return sum;
+    };
+    const double all = total(subject.given);
+    const Related split = changedBy("lights_split", subject);
+    EXPECT_EQ(split.changed.scene.lights.size(), 2 * subject.given.scene.lights.size());
+    EXPECT_EQ(total(split.changed), all);
+    const Related permuted = changedBy("lights_permuted", subject);
+    EXPECT_EQ(permuted.changed.scene.lights.size(), subject.given.scene.lights.size());
+    EXPECT_EQ(permuted.changed.scene.lights.front().position, subject.given.scene.lights.back().position);
+    EXPECT_EQ(total(changedBy("light_doubled", subject).changed), 2 * all);
+    EXPECT_EQ(total(changedBy("dark_lights", subject).changed), all);
+    const Related far = changedBy("far_lights", subject);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Light& light = far.changed.scene.lights[i];
+        EXPECT_GT(glm::distance(light.position, subject.bounds.centre()),
+                  subject.bounds.radius() + double{light.range});
+        EXPECT_GT(glm::distance(light.position, subject.view.eye()), double{light.range});
+    }
+}
+
+TEST(Relations, GeometryIsTheSameWrittenOtherwise) {
+    const Subject subject = related("gallery");
+    const std::size_t triangles = triangleCount(flattened(subject.given)->scene);
+    for (const char* name : {"draws_reversed", "meshes_split", "unindexed", "materials_permuted"})
+        EXPECT_EQ(triangleCount(flattened(changedBy(name, subject).changed)->scene), triangles) << name;
+    EXPECT_GT(triangleCount(flattened(changedBy("triangles_split", subject).changed)->scene), triangles);
+    const Related moved = changedBy("moved", subject);
+    EXPECT_GT(glm::length(glm::dvec3(moved.changed.camera().world_from_camera[3])),
+              1e4 * subject.bounds.radius());
+}
+
+TEST(Relations, TwoFilesOfOneSceneAreRead) {
+    const Subject subject = related("gallery");
+    const Case flat = *flattened(subject.given);
+    const std::string text = gltfOf(flat), binary = glbOf(flat);
+    EXPECT_EQ(binary.substr(0, 4), "glTF");
+    EXPECT_EQ(binary.size() % 4, 0u);
+    const Scene a = parseGltf({text.begin(), text.end()}, "a.gltf"),
+                b = parseGltf({binary.begin(), binary.end()}, "a.glb");
+    ASSERT_EQ(a.meshes.size(), b.meshes.size());
+    for (std::size_t m = 0; m < a.meshes.size(); ++m) {
+        const Primitive &p = a.meshes[m].primitives.front(), &q = b.meshes[m].primitives.front();
+        EXPECT_EQ(p.positions, q.positions);
+        EXPECT_EQ(p.normals, q.normals);
+        EXPECT_EQ(p.indices, q.indices);
+    }
+    const std::vector<int> order = writtenMaterials(flat.scene);
+    ASSERT_EQ(a.materials.size(), order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        EXPECT_EQ(a.materials[i].name, flat.scene.materials[static_cast<std::size_t>(order[i])].name);
+}
+
+TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
+    const auto series = [](Path path, bool holds) {
+        SeriesHeld of;
+        of.series.path = path;
+        ChannelHeld channel;
+        channel.beyond = holds ? 0 : 1;
+        of.held.channels.push_back(channel);
+        return of;
+    };
+    RelationHeld held;
+    held.relation = &relations().front();
+    held.series = {series(Path::deferred, true), series(Path::forward_plus, false),
+                   series(Path::reference, true)};
+    EXPECT_FALSE(held.holds());
+    EXPECT_EQ(held.blame(true), Blame::ours_likely);
+    EXPECT_EQ(held.blame(false), Blame::driver_or_ours);
+    const ReportDevice gpu{"Some GPU", "driver 1.2", "discrete"};
+    const std::string words = inWords(held, gpu);
+    EXPECT_NE(words.find("BROKEN"), words.npos) << words;
+    EXPECT_NE(words.find("a bug of the driver or ours, on Some GPU with driver 1.2"), words.npos) << words;
+    EXPECT_NE(blameInWords(held, {"llvmpipe", "Mesa", "cpu"}).find("ours most likely"), words.npos);
+    held.series[2] = series(Path::reference, false);
+    EXPECT_EQ(held.blame(false), Blame::relation);
+    held.series[1] = series(Path::forward_plus, true);
+    EXPECT_TRUE(held.holds()) << "the reference only tells whose fault it is";
+    EXPECT_EQ(held.blame(false), Blame::none);
+    held.series[1].held.failed = "no memory";
+    EXPECT_FALSE(held.holds());
+}
+
+TEST(Relations, AnUnknownNameIsRefused) {
+    try {
+        relationsOf(std::array{std::string("mirored")});
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("--relation mirored: there is no such relation; did you mean mirrored?"),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_EQ(relationsOf({}).size(), relations().size());
+}
+
+}  // namespace diptych::audit
