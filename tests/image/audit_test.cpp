@@ -99,7 +99,7 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
             Image sky(32, 16, 3, 0.3f);
             for (std::size_t i = 0; i < sky.pixels() / 2; ++i) sky.pixel(i)[2] = 1;
             for (int c = 0; c < 3; ++c) sky.pixel(32 * 4 + 9)[c] = 50;
-            scene.environment = Environment{.radiance = sky};
+            scene.environment = Environment{.name = "sky", .radiance = sky};
         }
         const Subject subject = audit::makeSubject(scene, settings);
         Measurer measurer(device(), subject, {});
