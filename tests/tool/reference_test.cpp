@@ -119,14 +119,28 @@ constexpr const char* panel =
     R"({"lights": [{"type": "rect", "position": [0, 3, 1], "direction": [0, -1, 0], "size": [2, 1],
                     "intensity": 100}]})";
 std::vector<std::string> drawing(const std::string& size) {
-    return {"render", "builtin:gallery", "--path", "reference", "--reference-mode", "scene", "--spp", "2",
-            "--size", size,              "--shadows", "pcf",    "--lights",  "panel.json",   "-o",    "r.exr"};
+    return {"render",
+            "builtin:gallery",
+            "--path",
+            "reference",
+            "--reference-mode",
+            "scene",
+            "--spp",
+            "2",
+            "--size",
+            size,
+            "--shadows",
+            "pcf",
+            "--lights",
+            "panel.json",
+            "-o",
+            "r.exr"};
 }
 const std::vector<std::string> longDrawing = drawing("64x36");
 
-// Calls `attempt` with a drawing that is to be caught at work, with more and more pixels until it was: how fast
-// the machine is, and how busy, no test knows. `attempt` begins in a fresh folder and returns false where the
-// drawing ended before.
+// Calls `attempt` with a drawing that is to be caught at work, with more and more pixels until it was: how
+// fast the machine is, and how busy, no test knows. `attempt` begins in a fresh folder and returns false
+// where the drawing ended before.
 template <typename Attempt>
 void untilCaughtAtWork(Attempt attempt) {
     for (const std::string size : {"64x36", "128x72", "256x144", "512x288", "1024x576"}) {
