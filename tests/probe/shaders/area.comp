@@ -7,8 +7,8 @@
 #include "tests/probe/shaders/probe.glsl"
 
 // kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
-// range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell: even, layer, magnitude, Fresnel
-// -> diffuse, specular radiance for a light of radiance 1
+// range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell: even, layer, magnitude,
+// Fresnel -> diffuse, specular radiance for a light of radiance 1
 const uint WIDTH = 35;
 
 void main() {
