@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // --textures exact: both paths come near to the reference in mode scene, which decodes and filters texels in
 // double, where a device's own decoding and filters keep them apart.
+#include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/scene/scene_view.h"
 #include "tests/image/square.h"
