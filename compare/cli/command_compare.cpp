@@ -98,7 +98,7 @@ std::optional<TextureSampling> texelsFor(const Options& options, const std::vect
         return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
     });
     if (!textures || !againstReference(options) || !scenes) return {};
-    return probeTextures(device);
+    return probeTextures(device, settings.front().textures);  // of all alike
 }
 
 // One scene by all paths and cameras. Adds to `drawn` when all is done.

@@ -61,7 +61,9 @@ int runDevices(const Options& options) {
         if (!device.usable()) continue;
         Device opened({std::to_string(device.index), options.validate});
         for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
-        for (DeviceFact& fact : textureFacts(probeTextures(opened))) device.facts.push_back(std::move(fact));
+        const TextureSampling texels = probeTextures(opened),
+                              exact = probeTextures(opened, TexturePrecision::exact);
+        for (DeviceFact& fact : textureFacts(opened, texels, exact)) device.facts.push_back(std::move(fact));
         if (options.probe) {
             for (DeviceFact& fact : probe::roundingFacts(opened)) device.facts.push_back(std::move(fact));
             probes[device.index] = probe::runProbes(opened, probe::allProbes(), Stage(progress, device.name));

@@ -22,7 +22,7 @@ PreparedFrames::PreparedFrames(Device& device, SharedResources& shared, SceneVie
         state_->frames.push_back(
             std::make_unique<PreparedFrame>(device, shared, views.at(viewRequest(s)), s));
         const PreparedFrame& prepared = *state_->frames.back();
-        state_->described.push_back(describedFrame(prepared, shared, views.scene(), s));
+        state_->described.push_back(describedFrame(prepared, views.scene(), s));
         state_->described.back().bytes = diptych::bytesOf(prepared, shared);
     }
 }

@@ -77,9 +77,10 @@ ListKernel kernelOf(LightKernel kernel, const Device& device) {
     return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
 }
 
-std::optional<Materials> posedMaterials(Device& device, SharedResources& shared, const Pose& pose) {
+std::optional<Materials> posedMaterials(Device& device, SharedResources& shared, const Materials& rest,
+                                        const Pose& pose) {
     if (pose.materials.empty()) return std::nullopt;
-    std::optional<Materials> posed(std::in_place, device, shared.uploader, shared.materials, pose.materials);
+    std::optional<Materials> posed(std::in_place, device, shared.uploader, rest, pose.materials);
     shared.uploader.flush();
     return posed;
 }
@@ -95,20 +96,30 @@ SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<
     : uploader(d),
       geometry(d, uploader, scene),
       posings(d, uploader, scene, geometry),
-      materials(d, uploader, scene),
       set(shared ? std::move(shared) : std::make_shared<PipelineSet>(d)),
       layouts(set->layouts),
       pipelines(set->pipelines),
       clipmaps(d, layouts.frame),
-      environments(d) {
+      environments(d),
+      device_(d) {
     uploader.flush();
+}
+
+const Materials& SharedResources::materials(TexturePrecision precision) {
+    auto found = materials_.find(precision);
+    if (found == materials_.end()) {
+        found = materials_.try_emplace(precision, device_, uploader, geometry.scene(), precision).first;
+        uploader.flush();
+    }
+    return found->second;
 }
 
 PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneView& seen,
                            const Settings& settings)
     : scene(seen),
-      posed_materials(posedMaterials(device, shared, seen.pose)),
-      materials(posed_materials ? *posed_materials : shared.materials),
+      materials_at_rest(shared.materials(settings.textures)),
+      posed_materials(posedMaterials(device, shared, materials_at_rest, seen.pose)),
+      materials(posed_materials ? *posed_materials : materials_at_rest),
       lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency)),
       posing(shared.posings.at(scene.pose, settings.skinning, shared.pipelines)),
@@ -188,11 +199,10 @@ void checkSize(const Device& device, const Size& size) {
                                              device.info().name, limit, limit));
 }
 
-Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
-                     const Settings& settings) {
+Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Settings& settings) {
     const SceneView& seen = prepared.view.scene;
     Frame frame = describedFrame(scene, seen, settings);
-    for (const std::string& note : shared.materials.notes()) frame.notes.push_back(note);
+    for (const std::string& note : prepared.view.materials.notes()) frame.notes.push_back(note);
     std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
     std::ranges::move(leftOutShadows(seen.lights, settings), std::back_inserter(frame.notes));
     for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
@@ -214,8 +224,8 @@ void readCounters(PreparedView& view, FrameCounters& counters) {
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
     const PixelBytes pixel = pixelBytes(prepared.passes, prepared.images);
     const std::uint64_t pixels = std::uint64_t{prepared.passes.width()} * prepared.passes.height();
-    return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
-                prepared.view.environment.imageBytes(),
+    return {prepared.passes.imageBytes() + prepared.view.materials.imageBytes() +
+                prepared.view.shadow.imageBytes() + prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.posings.bytes() + prepared.view.posing->bytes() +
                 prepared.view.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.shadow.bytes() + prepared.view.environment.bytes() +

@@ -14,6 +14,7 @@
 #include "shared/transparent/fragment_lists.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,12 +38,17 @@ struct SharedResources {
     Uploader uploader;
     Geometry geometry;
     Posings posings;
-    Materials materials;
+    // Uploaded when first asked for.
+    const Materials& materials(TexturePrecision precision);
     std::shared_ptr<PipelineSet> set;
     Layouts& layouts;
     Pipelines& pipelines;
     ClipmapAtlases clipmaps;
     EnvironmentStore environments;
+
+private:
+    Device& device_;
+    std::map<TexturePrecision, Materials> materials_;
 };
 
 // One view of the scene under one Settings, ready for passes. It refers to the arguments of its constructor,
@@ -55,7 +61,8 @@ public:
 
     std::vector<std::string> notes;  // decisions made for this view
     const SceneView& scene;
-    std::optional<Materials> posed_materials;  // where an animation moves any; else the shared ones
+    const Materials& materials_at_rest;
+    std::optional<Materials> posed_materials;  // where an animation moves any; else those at rest
     const Materials& materials;
     GpuLights lights;
     DrawList draws;
@@ -83,8 +90,7 @@ struct PreparedFrame {
 void checkSize(const Device& device, const Size& size);
 
 // The Frame as far as it is known before drawing: names, Settings, camera, lights, notes of the scene.
-Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
-                     const Settings& settings);
+Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Settings& settings);
 // What the view's lists have counted in the last run.
 void readCounters(PreparedView& view, FrameCounters& counters);
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared);

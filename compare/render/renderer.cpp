@@ -46,7 +46,7 @@ public:
 
     Frame make() {
         const auto start = std::chrono::steady_clock::now();
-        frame_ = describedFrame(prepared_, shared_, scene_, settings_);
+        frame_ = describedFrame(prepared_, scene_, settings_);
         drawLit();
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);

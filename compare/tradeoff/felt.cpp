@@ -3,6 +3,7 @@
 
 #include "shared/environment/harmonics.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/scene/model/material_slots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +21,20 @@ bool hasPlace(const Light& light) {
 }
 
 // What a scene's surfaces reflect by, whether it has an environment, whether its harmonics are windowed,
-// whether joints or targets move vertices, and whether a material lets light through.
+// whether joints or targets move vertices, whether a material lets light through, and whether one reads a
+// texture.
 struct Reflectors {
-    bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true;
+    bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true,
+         textured = true;
 };
+bool readsTextures(const Material& material) {
+    for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+        if (readsSlot(material, slot)) return true;
+    return false;
+}
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, scene->environment.has_value(), true, false, false};
+    Reflectors found{false, false, scene->environment.has_value(), true, false, false, false};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
@@ -35,6 +43,7 @@ Reflectors reflectorsOf(const Scene* scene) {
                                           ? Material{}
                                           : scene->materials[static_cast<std::size_t>(primitive.material)];
             found.blended = found.blended || blends(material);
+            found.textured = found.textured || readsTextures(material);
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
             found.base = found.base || material.metallic < 1 || textured;
@@ -60,6 +69,7 @@ public:
         if (lights.empty()) reset("pixel-lights", "there is no light");
         if (!any([](const Light& light) { return isArea(light.kind); }))
             reset("area-lights", "there is no area light");
+        if (!surfaces.textured) reset("textures", "no material reads a texture");
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
         if (std::ranges::all_of(lights, [](const Light& light) { return isArea(light.kind); }))

@@ -17,8 +17,14 @@ struct AreaView {
     vec3 n, v;          // unit, world axes
     mat3 surface;       // from world axes to the frame of shared/contract/ltc.h
     Ltc ltc;            // of the specular lobe
-    float magnitude;    // its directional albedo where F = 1
-    float fresnel;      // the same with Schlick's weight for F
+    float tilt;         // its cosine's
+    vec3 sky;           // what it reflects of a light all around
+};
+
+// Of the table (shared/contract/ltc.h, shared/light/ltc.h).
+struct LtcCell {
+    vec4 even, layer;  // in_plane, across, unsheared, tilt
+    float magnitude, fresnel;
 };
 
 // A light as seen from the surface point.
@@ -28,8 +34,13 @@ struct AreaIncident {
     float side;     // 1: it shines along `direction`; -1: the other way
 };
 
-// `cell`: in_plane, across, unsheared, magnitude (shared/contract/ltc.h, shared/light/ltc.h).
-AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
+// What F0 has of all that a lobe reflects.
+float evenShare(LtcCell cell, float f0, float f90) {
+    float even = f0 * cell.magnitude, all = even + max(f90 - f0, 0.0) * cell.fresnel;
+    return even / max(all, 1e-30);
+}
+
+AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
     AreaView a;
     a.brdf = brdf;
     a.n = n;
@@ -41,11 +52,15 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
     a.surface = transpose(mat3(x, crossProduct(n, x), n));
     float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
     float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
-    a.ltc.inverse_a = m2 / (cell.x * 2.0 * brdf.alpha);
-    a.ltc.inverse_c = 1.0 / (cell.y * 2.0 * brdf.alpha);
-    a.ltc.b = (1.0 - cell.z) * sqrt(sin2 / m2);
-    a.magnitude = cell.w;
-    a.fresnel = fresnel;
+    float least = evenShare(cell, LTC_LAYER_F0, 1.0);
+    float even = evenShare(cell, dot(brdf.f0, vec3(1.0 / 3.0)), dot(brdf.f90, vec3(1.0 / 3.0)));
+    float towards_even = clamp((even - least) / max(1.0 - least, 1e-6), 0.0, 1.0);
+    vec4 lobe = cell.layer + (cell.even - cell.layer) * towards_even;
+    a.ltc.inverse_a = m2 / (lobe.x * 2.0 * brdf.alpha);
+    a.ltc.inverse_c = 1.0 / (lobe.y * 2.0 * brdf.alpha);
+    a.ltc.b = (1.0 - lobe.z) * sqrt(sin2 / m2);
+    a.tilt = lobe.w;
+    a.sky = brdf.f0 * cell.magnitude + (brdf.f90 - brdf.f0) * cell.fresnel;
     return a;
 }
 
@@ -53,17 +68,20 @@ layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table
 
 // The AreaView of a surface, with its cell of the table.
 AreaView areaView(Brdf brdf, Surface s, vec3 v) {
-    vec4 cell = vec4(1.0);
-    float fresnel = 0.0;
+    LtcCell cell = LtcCell(vec4(1.0), vec4(1.0), 1.0, 0.0);
     if (!areaPoints()) {
         float roughness = sqrt(brdf.alpha);
         vec2 at = vec2((roughness - MIN_PERCEPTUAL_ROUGHNESS) / (1.0 - MIN_PERCEPTUAL_ROUGHNESS),
                        1.0 - sqrt(min(brdf.n_dot_v, 1.0)));
-        at = at * float(LTC_CELLS - 1) + 0.5;
-        cell = textureLod(ltc_table, at / vec2(LTC_CELLS, 2 * LTC_CELLS), 0.0);
-        fresnel = textureLod(ltc_table, (at + vec2(0.0, LTC_CELLS)) / vec2(LTC_CELLS, 2 * LTC_CELLS), 0.0).x;
+        vec2 texel = 1.0 / vec2(LTC_CELLS, LTC_BLOCKS * LTC_CELLS);
+        at = (at * float(LTC_CELLS - 1) + 0.5) * texel;
+        vec2 block = vec2(0.0, 1.0 / float(LTC_BLOCKS));
+        cell.even = textureLod(ltc_table, at, 0.0);
+        cell.layer = textureLod(ltc_table, at + block, 0.0);
+        vec2 albedo = textureLod(ltc_table, at + 2.0 * block, 0.0).xy;
+        cell.magnitude = albedo.x, cell.fresnel = albedo.y;
     }
-    return areaViewOf(brdf, s.normal, v, cell, fresnel);
+    return areaViewOf(brdf, s.normal, v, cell);
 }
 
 AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool flat_light) {
@@ -79,20 +97,35 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
     return i;
 }
 
+// Above what the lobe reflects of the sky, where a light's mean direction is far from the lobe's middle and
+// the fit of the tail is far from the tail, nothing is made brighter by more.
+const float LTC_MOST_GAIN = 4.0;
+
 // `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What a
-// layer reflects of a small light is that of the light's mean direction, exactly; of what fills the whole
-// lobe, the table's.
+// layer reflects of a small light is that of the light's mean direction, exactly: the fit's density there is
+// divided out, and the BRDF put in its place. Of what fills the whole lobe it is the table's. The fourth root
+// of the share lies between, by the error that is left over the lights of tests/probe/area_error_test.cpp.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * weight);
-    float share = clamp(lobe.z, 0.0, 1.0);
-    weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * fromCosine(a.ltc, lobe)) + a.v));
-    vec3 reflected = a.brdf.f0 * a.magnitude +
-                     (a.brdf.f90 - a.brdf.f0) * blend(a.magnitude * weight, a.fresnel, share);
+    float share = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
+    vec3 u = unitOrZero(lobe), l = fromCosine(a.ltc, u);
+    // Per steradian: a direction's solid angle shrinks by the cube of the length that its image has.
+    float density = (u.z + a.tilt * u.x) * INVERSE_PI * a.ltc.inverse_a * a.ltc.inverse_c;
+    float stretch = lengthOf(l);
+    density *= stretch * stretch * stretch;
+    l = unitOrZero(l);
+    float n_dot_l = max(l.z, 0.0);
+    vec3 s = world * l + a.v;
+    float s2 = dot(s, s);
+    vec3 there = (a.brdf.f0 + (a.brdf.f90 - a.brdf.f0) * schlickWeight(0.5 * sqrt(s2))) *
+                 (specularLobe(a.brdf, a.n, s, s2, n_dot_l) * n_dot_l / max(density, 1e-20));
+    there = min(there, LTC_MOST_GAIN * a.sky);
+    vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(share))) * share, a.sky);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
-    vec3 from_lobe = reflected * share * radiance;
+    vec3 from_lobe = reflected * radiance;
     if (feature_multiscatter == MULTISCATTER_FDEZ)
         from_lobe += a.brdf.between * (PI * max(plain.z, 0.0)) * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;

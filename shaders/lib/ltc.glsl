@@ -138,6 +138,8 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     // Half the angle whose tangent is uv / apart.
     float large = sqrt(0.5 + 0.5 * min(abs(apart) / max(spread, 1e-37), 1.0));
     float small = 0.5 * uv / max(spread * large, 1e-37);
+    // Any two axes are those of a round cone, where neither is told by more than rounding.
+    if (spread <= 1e-9 * (abs(uu) + abs(vv))) large = 1.0, small = 0.0, apart = 0.0;
     vec2 turn = apart >= 0.0 ? vec2(large, small) : vec2(abs(small), uv >= 0.0 ? large : -large);
     Cone cone;
     cone.x = u * turn.x + v * turn.y;

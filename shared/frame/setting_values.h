@@ -70,6 +70,12 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
+// Texels of 8 bits as the device decodes and filters them, or decoded to 16 bits and floats before upload.
+enum class TexturePrecision { device, exact };
+template <>
+inline constexpr auto enum_names<TexturePrecision> = std::to_array<EnumName<TexturePrecision>>(
+    {{TexturePrecision::device, "device"}, {TexturePrecision::exact, "exact"}});
+
 // How blended surfaces are put in order: sorted, draws from far to near; unsorted, as in the scene;
 // triangles, those of all draws from far to near. By sums that need no order: weighted, by depth; moments, by
 // what is in front. list: by fragment. off: not drawn.

@@ -44,6 +44,7 @@ struct Settings {
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
+    TexturePrecision textures = TexturePrecision::device;
     SpecularAlbedo specular_albedo = SpecularAlbedo::table;
     Multiscatter multiscatter = Multiscatter::off;
     Shadows shadows = Shadows::pcf;
@@ -439,6 +440,14 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.reference = "the reference integrates area lights"},
                 .sweep = "all"},
           &Settings::area_lights);
+    visit(Field{.option = "textures",
+                .help =
+                    "texels as the device decodes and filters them, or decoded to 16 bits and floats before "
+                    "upload",
+                .ignored = {.reference = "the reference decodes and filters in double",
+                            .unless = row::shadesCaptures},
+                .sweep = "all"},
+          &Settings::textures);
     visit(Field{.option = "specular-albedo",
                 .help = "what the specular lobe reflects of light from everywhere: a table or Karis's fit",
                 .ignored = {.reference = "the reference integrates what the specular lobe reflects"},

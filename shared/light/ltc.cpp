@@ -29,13 +29,27 @@ LtcTable readTable() {
         const auto found = std::ranges::find(file.layers, layer.name, &PictureLayer::name);
         if (found == file.layers.end() || found->image.data.size() != table.cells.size())
             throw std::runtime_error("ltc.exr: not the table that fit_ltc writes; run fit_ltc");
-        for (std::size_t i = 0; i < table.cells.size(); ++i)
-            table.cells[i].*layer.member = found->image.data[i];
+        for (std::size_t i = 0; i < table.cells.size(); ++i) layer.of(table.cells[i]) = found->image.data[i];
     }
     return table;
 }
 
 }  // namespace
+
+LtcLobe LtcCell::lobe(double f0, double f90) const {
+    const auto evenShare = [&](double from, double to) {
+        const double all = reflected(from, std::max(to, from));
+        return all > 0 ? from * double{magnitude} / all : 0;
+    };
+    const double least = evenShare(double{gpu::LTC_LAYER_F0}, 1);
+    const auto t =
+        static_cast<float>(std::clamp((evenShare(f0, f90) - least) / std::max(1 - least, 1e-6), 0.0, 1.0));
+    return {.in_plane = std::lerp(layer.in_plane, even.in_plane, t),
+            .across = std::lerp(layer.across, even.across, t),
+            .unsheared = std::lerp(layer.unsheared, even.unsheared, t),
+            .tilt = std::lerp(layer.tilt, even.tilt, t),
+            .error = std::lerp(layer.error, even.error, t)};
+}
 
 LtcCell LtcTable::at(double roughness, double n_dot_v) const {
     constexpr double least{gpu::MIN_PERCEPTUAL_ROUGHNESS};
@@ -46,10 +60,10 @@ LtcCell LtcTable::at(double roughness, double n_dot_v) const {
     LtcCell result;
     for (const LtcLayer& layer : ltcLayers) {
         const auto value = [&](double di, double dj) {
-            return cell(static_cast<std::size_t>(i + di), static_cast<std::size_t>(j + dj)).*layer.member;
+            return layer.from(cell(static_cast<std::size_t>(i + di), static_cast<std::size_t>(j + dj)));
         };
-        result.*layer.member = (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) +
-                               v * ((1 - u) * value(0, 1) + u * value(1, 1));
+        layer.of(result) = (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) +
+                           v * ((1 - u) * value(0, 1) + u * value(1, 1));
     }
     return result;
 }
@@ -61,10 +75,13 @@ const LtcTable& ltcTable() {
 
 std::vector<std::uint64_t> ltcTexels(const LtcTable& table) {
     std::vector<std::uint64_t> texels;
-    texels.reserve(2 * table.cells.size());
-    for (const LtcCell& c : table.cells)
-        texels.push_back(glm::packHalf4x16({c.in_plane, c.across, c.unsheared, c.magnitude}));
-    for (const LtcCell& c : table.cells) texels.push_back(glm::packHalf4x16({c.fresnel, 0, 0, 0}));
+    texels.reserve(gpu::LTC_BLOCKS * table.cells.size());
+    const auto push = [&](const LtcLobe& l) {
+        texels.push_back(glm::packHalf4x16({l.in_plane, l.across, l.unsheared, l.tilt}));
+    };
+    for (const LtcCell& c : table.cells) push(c.even);
+    for (const LtcCell& c : table.cells) push(c.layer);
+    for (const LtcCell& c : table.cells) texels.push_back(glm::packHalf4x16({c.magnitude, c.fresnel, 0, 0}));
     return texels;
 }
 

@@ -13,7 +13,7 @@ namespace diptych {
 LtcImage::LtcImage(Device& device, Uploader& uploader, bool needed) {
     const std::vector<std::uint64_t> texels = needed ? ltcTexels(ltcTable()) : std::vector<std::uint64_t>(1);
     image_ = GpuImage(device, {"linearly transformed cosines", VK_FORMAT_R16G16B16A16_SFLOAT,
-                               needed ? gpu::LTC_CELLS : 1, needed ? 2 * gpu::LTC_CELLS : 1, 1,
+                               needed ? gpu::LTC_CELLS : 1, needed ? gpu::LTC_BLOCKS * gpu::LTC_CELLS : 1, 1,
                                VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     uploader.level(image_, 0, std::as_bytes(std::span(texels)));
     VkSamplerCreateInfo info{};

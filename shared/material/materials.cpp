@@ -74,8 +74,8 @@ OwnedDescriptorSetLayout Materials::makeLayout(Device& device) {
     return makeSetLayout(device, setTypes);
 }
 
-Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
-    : textures_(upload(device, uploader, scene)), layout_(makeLayout(device)) {
+Materials::Materials(Device& device, Uploader& uploader, const Scene& scene, TexturePrecision precision)
+    : textures_(upload(device, uploader, scene, precision)), layout_(makeLayout(device)) {
     make(device, uploader, scene.materials);
 }
 
@@ -113,7 +113,7 @@ void Materials::make(Device& device, Uploader& uploader, const std::vector<Mater
 }
 
 std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Uploader& uploader,
-                                                             const Scene& scene) {
+                                                             const Scene& scene, TexturePrecision precision) {
     // Every image that a slot reads, as sRGB or as linear; slots without a texture use index 0.
     const auto textures = std::make_shared<Textures>();
     std::map<ImageUse, std::size_t> imageOf;
@@ -140,7 +140,7 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
     textures->images.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
         VK_FORMAT_R8G8B8A8_UNORM));
-    uploadInUse(device, uploader, scene, uses, *textures);
+    uploadInUse(device, uploader, scene, uses, precision, *textures);
     for (const Sampler& kind : kinds) textures->samplers.push_back(makeSampler(device, kind));
     return textures;
 }
@@ -148,7 +148,8 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
 // Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a
 // third of the scene's images again.
 void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                            const std::vector<ImageUse>& uses, Textures& textures) {
+                            const std::vector<ImageUse>& uses, TexturePrecision precision,
+                            Textures& textures) {
     std::size_t next = 0, reduced = 0;
     const auto choose = [&](tbb::flow_control& flow) {
         if (next == uses.size()) flow.stop();
@@ -156,7 +157,7 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
     };
     const auto make = [&](std::size_t i) {
         const TextureImage& image = scene.images[static_cast<std::size_t>(uses[i].first)];
-        const TextureFormat format = textureFormat(device, image, uses[i].second);
+        const TextureFormat format = textureFormat(device, image, uses[i].second, precision);
         return std::pair(MipChain(image, uses[i].second, format.texels), format);
     };
     const auto upload = [&](const std::pair<MipChain, TextureFormat>& made) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shared/contract/material.h"
+#include "shared/frame/setting_values.h"
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pipelines.h"
@@ -27,7 +28,8 @@ inline constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{MATERIAL_SL
 class Materials {
 public:
     // Uploads every texture that a material reads at any time, once for each way it is read (sRGB or linear).
-    Materials(Device& device, Uploader& uploader, const Scene& scene);
+    Materials(Device& device, Uploader& uploader, const Scene& scene,
+              TexturePrecision precision = TexturePrecision::device);
     // The same materials at another time, as many as the scene has, with the textures of `rest`.
     Materials(Device& device, Uploader& uploader, const Materials& rest, const std::vector<Material>& posed);
 
@@ -61,9 +63,11 @@ private:
         std::vector<std::string> notes;
     };
     using ImageUse = std::pair<int, bool>;  // into Scene::images; whether its colours are sRGB
-    static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene);
+    static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene,
+                                                  TexturePrecision precision);
     static void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                            const std::vector<ImageUse>& uses, Textures& textures);
+                            const std::vector<ImageUse>& uses, TexturePrecision precision,
+                            Textures& textures);
     void make(Device& device, Uploader& uploader, const std::vector<Material>& materials);
 
     std::shared_ptr<const Textures> textures_;

@@ -32,15 +32,15 @@ Sampler probeSampler(bool linear) {
 }
 
 // RGBA of the picture at `places`, texture coordinates in rows of `width`; the wrap mode is repeat.
-std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, bool linear,
-                           std::span<const glm::vec2> places, int width) {
+std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, TexturePrecision precision,
+                           bool linear, std::span<const glm::vec2> places, int width) {
     const int height = static_cast<int>(places.size()) / width;
     TextureImage where{"places", width, height, {}};
     for (const glm::vec2& place : places)
         where.rgba32.insert(where.rgba32.end(), {place.x, place.y, 0.0f, 0.0f});
     Uploader uploader(device);
     const auto upload = [&](const TextureImage& image, bool colors) {
-        const TextureFormat format = textureFormat(image.deep(), colors, [](VkFormat) { return true; });
+        const TextureFormat format = textureFormat(device, image, colors, precision);
         return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
     };
     const GpuImage placesImage = upload(where, true), pictureImage = upload(picture, srgb);
@@ -125,14 +125,14 @@ double TextureSampling::srgbError(std::size_t code) const {
     return std::abs(double{srgb[code]} - exactSrgb(code));
 }
 
-TexelDecode probeDecode(Device& device, bool srgb) {
+TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision) {
     TextureImage codes{"codes", 256, 1, {}};
     std::vector<glm::vec2> places;
     for (int code = 0; code < 256; ++code) {
         codes.rgba.insert(codes.rgba.end(), 4, static_cast<std::uint8_t>(code));
         places.emplace_back((static_cast<float>(code) + 0.5f) / 256, 0.5f);
     }
-    const std::vector<float> rgba = sampled(device, codes, srgb, false, places, 256);
+    const std::vector<float> rgba = sampled(device, codes, srgb, precision, false, places, 256);
     TexelDecode decode{};
     for (std::size_t code = 0; code < 256; ++code) {
         const double exact = srgb ? exactSrgb(code) : static_cast<double>(code) / 255;
@@ -144,7 +144,7 @@ TexelDecode probeDecode(Device& device, bool srgb) {
 }
 
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
-                                      std::uint32_t seed) {
+                                      std::uint32_t seed, TexturePrecision precision) {
     constexpr int side = 256;
     std::uint32_t state = seed;
     const TextureImage picture = noise(state);
@@ -157,7 +157,7 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
         const float u = random();
         places.emplace_back(u, random());
     }
-    const std::vector<float> got = sampled(device, picture, srgb, true, places, side);
+    const std::vector<float> got = sampled(device, picture, srgb, precision, true, places, side);
     const auto texel = [&](int x, int y, std::size_t c) {
         const auto wrapped = [](int i) { return static_cast<std::size_t>((i + noiseSide) % noiseSide); };
         return double{decode[picture.rgba[4 * (wrapped(y) * noiseSide + wrapped(x)) + c]]};
@@ -209,14 +209,15 @@ FilterBound boundOf(std::span<const FilterSample> samples) {
     return {most, 0};
 }
 
-TextureSampling probeTextures(Device& device) {
+TextureSampling probeTextures(Device& device, TexturePrecision precision) {
     TextureSampling result;
-    result.linear = probeDecode(device, false);
-    result.srgb = probeDecode(device, true);
+    result.linear = probeDecode(device, false, precision);
+    result.srgb = probeDecode(device, true, precision);
     const auto bound = [&](bool srgb) {
         std::vector<FilterSample> samples;
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-            const std::vector<FilterSample> more = probeFilter(device, srgb, result.decode(srgb), seed);
+            const std::vector<FilterSample> more =
+                probeFilter(device, srgb, result.decode(srgb), seed, precision);
             samples.insert(samples.end(), more.begin(), more.end());
         }
         return boundOf(samples);
@@ -226,22 +227,36 @@ TextureSampling probeTextures(Device& device) {
     return result;
 }
 
-std::vector<DeviceFact> textureFacts(const TextureSampling& sampling) {
-    double most = 0;
-    std::size_t worst = 0;
-    for (std::size_t code = 1; code < 256; ++code) {
-        const double off = sampling.srgbError(code) / exactSrgb(code);
-        if (off > most) most = off, worst = code;
-    }
-    const auto filter = [](const char* what, const FilterBound& bound) {
-        return DeviceFact{what, bound.rounding < 0.1 / 255, false,
-                          fmt::format("off by up to {:.2f} of a code and {:.2f} % of the texels' difference",
-                                      bound.rounding * 255, 100 * bound.weight)};
+std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
+                                     const TextureSampling& exact) {
+    // Vulkan: the share of a texel has at least so many bits, and sRGB keeps 8 bits, so half a code.
+    const double share = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
+    const auto decode = [](const char* what, const TextureSampling& s) {
+        double most = 0, halfCode = 0;
+        std::size_t worst = 0;
+        for (std::size_t code = 1; code < 256; ++code) {
+            const double off = s.srgbError(code) / exactSrgb(code);
+            if (off > most) {
+                most = off, worst = code;
+                halfCode = (exactSrgb(code) - exactSrgb(code - 1)) / (2 * exactSrgb(code));
+            }
+        }
+        return DeviceFact{what, most <= 1e-3, false,
+                          fmt::format("off by up to {:.2g} %, at code {}; Vulkan allows {:.2g} %", 100 * most,
+                                      worst, 100 * halfCode)};
     };
-    return {{"decodes sRGB to a thousandth", most <= 1e-3, false,
-             fmt::format("off by up to {:.2g} %, at code {}", 100 * most, worst)},
+    const auto filter = [&](const char* what, const FilterBound& bound) {
+        return DeviceFact{what, bound.rounding < 0.1 / 255, false,
+                          fmt::format("off by up to {:.2g} of a code and {:.2g} % of the texels' difference; "
+                                      "Vulkan allows {:.2g} %",
+                                      bound.rounding * 255, 100 * bound.weight, 100 * share)};
+    };
+    return {decode("decodes sRGB to a thousandth", sampling),
             filter("filters 8 bits without rounding", sampling.linear_filter),
-            filter("filters 8 bits of sRGB without rounding", sampling.srgb_filter)};
+            filter("filters 8 bits of sRGB without rounding", sampling.srgb_filter),
+            decode("decodes --textures exact to a thousandth", exact),
+            filter("filters --textures exact without rounding", exact.linear_filter),
+            filter("filters sRGB of it without rounding", exact.srgb_filter)};
 }
 
 Scene withDecodedColors(Scene scene, const TexelDecode& srgb) {

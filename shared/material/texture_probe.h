@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a device makes of texels of 8 bits, measured by drawing: how it decodes each code, and how far from
-// the exact mixture a linear filter may be. Vulkan leaves room for both, and lavapipe uses it.
+// the exact mixture a linear filter may be. Vulkan leaves room for both, and lavapipe uses it. The same of
+// texels that TexturePrecision::exact makes of these codes: what is left is the format's and the filter's.
 #pragma once
 
+#include "shared/frame/setting_values.h"
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
@@ -43,19 +45,21 @@ struct TextureSampling {
 };
 
 // All of it: some tenths of a second on a CPU device.
-TextureSampling probeTextures(Device& device);
+TextureSampling probeTextures(Device& device, TexturePrecision precision = TexturePrecision::device);
 // Of the red, green and blue components of an sRGB texel the one that is furthest off.
-TexelDecode probeDecode(Device& device, bool srgb);
+TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision = TexturePrecision::device);
 // Of a picture of noise whose contrast differs from place to place, at 65536 places.
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
-                                      std::uint32_t seed);
+                                      std::uint32_t seed,
+                                      TexturePrecision precision = TexturePrecision::device);
 
 // The line above all samples that is lowest at their mean range. Throws std::invalid_argument without
 // samples.
 FilterBound boundOf(std::span<const FilterSample> samples);
 
-// For people, as Device::probe().
-std::vector<DeviceFact> textureFacts(const TextureSampling& sampling);
+// For people, as Device::probe(): of both precisions, beside what Vulkan allows.
+std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
+                                     const TextureSampling& exact);
 
 // The scene with every texture of 8 bits that a colour slot reads replaced by what the device decodes, as
 // floats: a renderer that decodes exactly sees what the device sees.

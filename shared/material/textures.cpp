@@ -9,8 +9,11 @@
 
 namespace diptych {
 
-TextureFormat textureFormat(bool deep, bool srgb, const std::function<bool(VkFormat)>& filters) {
-    if (!deep)
+TextureFormat textureFormat(bool deep, bool srgb, TexturePrecision precision,
+                            const std::function<bool(VkFormat)>& filters) {
+    if (!deep && precision == TexturePrecision::exact && srgb)
+        return {Texels::float16, VK_FORMAT_R16G16B16A16_SFLOAT, true};
+    if (!deep && precision == TexturePrecision::device)
         return srgb ? TextureFormat{Texels::srgb8, VK_FORMAT_R8G8B8A8_SRGB, true}
                     : TextureFormat{Texels::linear8, VK_FORMAT_R8G8B8A8_UNORM, true};
     if (!srgb && filters(VK_FORMAT_R16G16B16A16_UNORM))
@@ -19,9 +22,10 @@ TextureFormat textureFormat(bool deep, bool srgb, const std::function<bool(VkFor
     return {Texels::float16, VK_FORMAT_R16G16B16A16_SFLOAT, false};
 }
 
-TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb) {
+TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb,
+                            TexturePrecision precision) {
     // Of floats as of 16 bits of sRGB, which become floats.
-    return textureFormat(image.deep(), srgb || !image.rgba32.empty(), [&](VkFormat format) {
+    return textureFormat(image.deep(), srgb || !image.rgba32.empty(), precision, [&](VkFormat format) {
         VkFormatProperties properties;
         vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
         constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |

@@ -56,9 +56,9 @@ double meanError(const Frame& referenceFrame, const Frame& frame, int channel) {
 }
 
 // Lambert's integral is exact; the remaining diffuse error is the layer's Fresnel term, evaluated for one
-// direction of each light. The specular error is the table's and, on dielectrics seen at a grazing angle
-// such as the floor, that of a single Fresnel weight for the whole lobe: 0.154, of which the scene's smooth
-// metals contribute little. One representative point is far worse in both.
+// direction of each light: 0.0016. The specular error is the table's, largest on dielectrics seen at a
+// grazing angle such as the floor: 0.023, of which 0.03 leaves room for another device's rounding. One
+// representative point is far worse in both.
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
@@ -66,10 +66,10 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Frame ltc = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame points = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
     EXPECT_LT(meanError(referenceFrame, ltc, litDiffuse), 0.01);
-    EXPECT_LT(meanError(referenceFrame, ltc, litSpecular), 0.17);
+    EXPECT_LT(meanError(referenceFrame, ltc, litSpecular), 0.03);
     EXPECT_GT(meanError(referenceFrame, points, litDiffuse), 10 * meanError(referenceFrame, ltc, litDiffuse));
     EXPECT_GT(meanError(referenceFrame, points, litSpecular),
-              2 * meanError(referenceFrame, ltc, litSpecular));
+              10 * meanError(referenceFrame, ltc, litSpecular));
     RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, litSpecular)));
     RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, litDiffuse)));
 }

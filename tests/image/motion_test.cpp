@@ -325,7 +325,8 @@ TEST(Moving, BlendedDrawsAreSortedAndCulledByTheLivePose) {
         Settings settings = movingPicture(time);
         settings.lights = "";
         const SceneView& view = views.at(viewRequest(settings));
-        const DrawList draws = makeDrawList(view.pose, shared.geometry, shared.materials, view.view);
+        const DrawList draws =
+            makeDrawList(view.pose, shared.geometry, shared.materials(TexturePrecision::device), view.view);
         std::vector<std::uint32_t> order;
         for (const DrawItem& item : draws.blended())
             if (order.empty() || order.back() != item.instance) order.push_back(item.instance);

@@ -282,7 +282,9 @@ TEST(RecordedBarriers, VulkanIsToldThemWhole) {
 TEST(RecordedBarriers, UploadsAreVisibleToWhatFollows) {
     Listening listen;
     const Scene scene = loadScene("builtin:emission");
-    const SharedResources shared(device(), scene, pipelines());
+    SharedResources shared(device(), scene, pipelines());
+    shared.materials(TexturePrecision::exact);
+    shared.materials(TexturePrecision::device);
     std::size_t written = 0, read = 0, all = 0;
     for (const Told& call : listen.told) {
         for (const VkImageMemoryBarrier2& b : call.images) {

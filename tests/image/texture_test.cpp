@@ -75,8 +75,9 @@ TEST(Textures, FormatsGiveWayInOrder) {
     const auto with = [](std::set<VkFormat> filtered) {
         return [filtered](VkFormat format) { return filtered.contains(format); };
     };
-    const auto format = [&](bool deep, bool srgb, std::set<VkFormat> filtered) {
-        const TextureFormat f = textureFormat(deep, srgb, with(std::move(filtered)));
+    const auto format = [&](bool deep, bool srgb, std::set<VkFormat> filtered,
+                            TexturePrecision precision = TexturePrecision::device) {
+        const TextureFormat f = textureFormat(deep, srgb, precision, with(std::move(filtered)));
         return std::pair(f.format, f.exact);
     };
     constexpr VkFormat unorm = VK_FORMAT_R16G16B16A16_UNORM, floats = VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -88,6 +89,12 @@ TEST(Textures, FormatsGiveWayInOrder) {
     EXPECT_EQ(format(true, true, {unorm, floats}), std::pair(floats, true));
     EXPECT_EQ(format(true, true, {unorm}), std::pair(halves, false));
     EXPECT_EQ(format(true, false, {}), std::pair(halves, false));
+    constexpr TexturePrecision exact = TexturePrecision::exact;
+    EXPECT_EQ(format(false, true, {unorm, floats}, exact), std::pair(halves, true));
+    EXPECT_EQ(format(false, false, {unorm, floats}, exact), std::pair(unorm, true));
+    EXPECT_EQ(format(false, false, {floats}, exact), std::pair(floats, true));
+    EXPECT_EQ(format(false, false, {}, exact), std::pair(halves, false));
+    EXPECT_EQ(format(true, true, {unorm, floats}, exact), std::pair(floats, true));
 }
 
 // All pairs of wrap modes: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 1 texture, nearest.

@@ -17,17 +17,17 @@ namespace diptych::tests {
 namespace {
 
 constexpr std::array roughnesses{0.1, 0.25, 0.5, 0.75, 1.0};
-constexpr std::array angles{0.0, 45.0, 75.0};
+constexpr std::array angles{0.0, 45.0, 60.0, 75.0, 85.0};
 constexpr std::array distances{0.5, 1.0, 2.0, 5.0};
 constexpr std::array sizes{0.3, 1.0};
 
-// Errors of the light's specular reflection, relative to that of a sky of the same radiance, so that a light
-// counts by its apparent size.
 struct AreaCase {
     LightKind kind;
     double roughness, angle, distance, size;
+    bool dielectric;  // or a metal with F = 1
+    // {diffuse, specular}, as shadeArea().
     std::array<double, 2> reference, ltc, points;
-    double sky;
+    double sky;  // specular, of a sky of the same radiance
 };
 
 // A light of a given size (m) at a given distance (m): at the mirror image of the viewer, beside it, and
@@ -53,31 +53,59 @@ std::vector<AreaCase> measured(Probes& probes) {
             for (const double angle : angles)
                 for (const double distance : distances)
                     for (const double size : sizes)
-                        for (const Light& light : placesOf(kind, angle, distance, size)) {
-                            const Receiver r{.roughness = roughness, .to_viewer = viewAt(angle)};
-                            pushArea(input, light, r);
-                            AreaCase c{kind, roughness, angle, distance, size, referenceArea(light, r),
-                                       {},   {},        0};
-                            c.sky = double{ltcTable().at(roughness, r.nDotV()).magnitude};
-                            cases.push_back(c);
-                        }
+                        for (const Light& light : placesOf(kind, angle, distance, size))
+                            for (const bool dielectric : {false, true}) {
+                                Receiver r{.roughness = roughness, .to_viewer = viewAt(angle)};
+                                if (dielectric) r.metallic = 0, r.albedo = 0.5;
+                                pushArea(input, light, r);
+                                const glm::dvec2 f = fresnelOf(r);
+                                const double sky = ltcTable().at(roughness, r.nDotV()).reflected(f.x, f.y);
+                                cases.push_back({kind,
+                                                 roughness,
+                                                 angle,
+                                                 distance,
+                                                 size,
+                                                 dielectric,
+                                                 referenceArea(light, r),
+                                                 {},
+                                                 {},
+                                                 sky});
+                            }
     const auto ltc = shadeArea(probes, input), points = shadeArea(probes, input, true);
     for (std::size_t i = 0; i < cases.size(); ++i) cases[i].ltc = ltc[i], cases[i].points = points[i];
     return cases;
 }
 
-// Mean and largest of |specular - reference|, in percent of the reference's mean.
+double seen(const std::array<double, 2>& shaded) {
+    return shaded[0] + shaded[1];
+}
+
+// Of |shaded - reference|: the mean, relative to the reference's mean, and the largest, relative to a sky as
+// bright.
+struct Error {
+    double sum = 0, reference = 0, most = 0;
+    void add(double shaded, double expected, double sky) {
+        const double off = std::abs(shaded - expected);
+        sum += off, reference += expected, most = std::max(most, off / sky);
+    }
+    double mean() const { return sum / reference; }
+    std::string words(const char* format) const {
+        return fmt::format(fmt::runtime(format), 100 * mean(), 100 * most);
+    }
+};
+
+// What is seen of a dielectric is its diffuse base and its layer; of a metal, its specular lobe.
 struct Figures {
-    double reference = 0, ltc = 0, ltc_most = 0, points = 0, points_most = 0;
-    int count = 0;
+    Error metal, layer, dielectric, points;
     void add(const AreaCase& c) {
-        const double a = std::abs(c.ltc[1] - c.reference[1]), b = std::abs(c.points[1] - c.reference[1]);
-        reference += c.reference[1], ltc += a, points += b, ++count;
-        ltc_most = std::max(ltc_most, a / c.sky), points_most = std::max(points_most, b / c.sky);
+        points.add(c.points[1], c.reference[1], c.sky);
+        (c.dielectric ? layer : metal).add(c.ltc[1], c.reference[1], c.sky);
+        if (c.dielectric) dielectric.add(seen(c.ltc), seen(c.reference), seen({0.5, c.sky}));
     }
     std::string row() const {
-        return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.0f}", 100 * ltc / reference, 100 * ltc_most,
-                           100 * points / reference, 100 * points_most);
+        const char* format = "{:.1f} / {:.1f}";
+        return fmt::format("{} | {} | {} | {}", metal.words(format), layer.words(format),
+                           dielectric.words(format), points.words("{:.0f} / {:.0f}"));
     }
 };
 
@@ -85,38 +113,49 @@ template <class Key>
 std::string tableOf(const std::vector<AreaCase>& cases, const char* name, const Key& key) {
     std::map<std::string, Figures> rows;
     for (const AreaCase& c : cases) rows[key(c)].add(c);
-    std::string text =
-        fmt::format("| {} | ltc: mean | most | representative: mean | most |\n|---|---|---|---|---|\n", name);
+    std::string text = fmt::format(
+        "| {} | metal | a dielectric's layer | dielectric | representative |\n|---|---|---|---|---|\n", name);
     for (const auto& [label, figures] : rows) text += fmt::format("| {} | {} |\n", label, figures.row());
     return text;
 }
 
-// The error of a light's reflection, relative to a sky of the same radiance, is at most half the cell's
-// distance between lobe and transformed cosine (total variation); the table's bilinear interpolation and
-// half floats add up to 2 %.
+std::string roughnessAndAngle(const AreaCase& c) {
+    return fmt::format("{:.2f}, {:.0f}", c.roughness, c.angle);
+}
+
+// Of what is seen the mean error stays below 5 % at every roughness and angle, on dielectrics and on metals
+// up to 75 degrees, by a tenth for the next device's rounding; at 85 degrees a metal's reaches what the fit
+// leaves there (shared/light/README.md). The
+// largest error of any light, relative to a sky of the same radiance, is bounded by half the distance between
+// lobe and transformed cosine (total variation), with 2 % for the table's interpolation and half floats.
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
     const std::vector<AreaCase> cases = measured(probes);
+    std::map<std::string, Figures> groups;
     Figures all;
     for (const AreaCase& c : cases) {
         const LtcCell cell = ltcTable().at(c.roughness, std::cos(c.angle * reference::pi / 180));
-        EXPECT_LE(std::abs(c.ltc[1] - c.reference[1]) / c.sky, 0.5 * double{cell.error} + 0.02)
+        const LtcLobe& lobe = c.dielectric ? cell.layer : cell.even;
+        EXPECT_LE(std::abs(c.ltc[1] - c.reference[1]) / c.sky, 0.5 * double{lobe.error} + 0.02)
             << static_cast<int>(c.kind) << " roughness " << c.roughness << " angle " << c.angle
-            << " distance " << c.distance << " size " << c.size;
+            << " distance " << c.distance << " size " << c.size << (c.dielectric ? " dielectric" : " metal");
+        groups[roughnessAndAngle(c)].add(c);
         all.add(c);
     }
-    EXPECT_LT(all.ltc, 0.5 * all.points)
+    for (const auto& [name, figures] : groups) {
+        EXPECT_LE(figures.dielectric.mean(), 0.055) << name;
+        EXPECT_LE(figures.layer.mean(), name.ends_with("85") ? 0.08 : 0.055) << name;
+        EXPECT_LE(figures.metal.mean(), name.ends_with("85") ? 0.16 : 0.055) << name;
+    }
+    EXPECT_LT(all.metal.mean(), 0.1 * all.points.mean())
         << "a representative point is as good: the table is not worth its while";
     std::string text;
     const auto kindOf = [](const AreaCase& c) {
         return std::string(c.kind == LightKind::rect ? "rect" : c.kind == LightKind::disc ? "disc" : "tube");
     };
-    text += tableOf(cases, "roughness", [](const AreaCase& c) { return fmt::format("{:.2f}", c.roughness); });
-    text += tableOf(cases, "angle", [](const AreaCase& c) { return fmt::format("{:.0f}", c.angle); });
+    text += tableOf(cases, "roughness, angle", roughnessAndAngle);
     text += tableOf(cases, "distance", [](const AreaCase& c) { return fmt::format("{:.1f} m", c.distance); });
     text += tableOf(cases, "shape", kindOf);
-    text += tableOf(cases, "roughness, angle",
-                    [](const AreaCase& c) { return fmt::format("{:.2f}, {:.0f}", c.roughness, c.angle); });
     if (const char* file = std::getenv("DIPTYCH_AREA_TABLE")) std::ofstream(file) << text;
 }
 

@@ -11,6 +11,7 @@
 #include "tests/unit/reference_maker.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@
 
 namespace diptych::tests {
 
-constexpr std::size_t areaWidth = 30;
+constexpr std::size_t areaWidth = 35;
 
 // A surface at the origin with the normal +Z.
 struct Receiver {
@@ -46,7 +47,9 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
     push(s.two_sided, l.inverse_range_squared);
     push3(r.to_viewer), push(r.roughness, r.metallic, r.albedo, r.f0, r.f90);
     const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
-    push(cell.in_plane, cell.across, cell.unsheared, cell.magnitude, cell.fresnel);
+    for (const LtcLobe& lobe : {cell.even, cell.layer})
+        push(lobe.in_plane, lobe.across, lobe.unsheared, lobe.tilt);
+    push(cell.magnitude, cell.fresnel);
 }
 
 // Each row's {diffuse, specular} radiance for a light of radiance 1.
@@ -107,19 +110,58 @@ inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     return outline;
 }
 
-// The share of the sky that a light has under a transformed cosine: Lambert's formula, in double, for its
-// outline transformed corner by corner.
-inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
+// The integral of p over a light's directions p under the transformed cosine, over pi, in its frame:
+// Lambert's formula, in double, for its outline transformed corner by corner and clipped at the horizon.
+inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
     const bool flat = light.kind != LightKind::tube;
-    if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return 0;
+    if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return {};
     const double sine = std::hypot(to_viewer.x, to_viewer.y);
     const double cx = sine > 1e-9 ? -to_viewer.x / sine : 1, cy = sine > 1e-9 ? -to_viewer.y / sine : 0;
-    std::vector<glm::dvec3> outline = outlineOf(light);
-    for (glm::dvec3& p : outline) {
-        const double x = cx * p.x + cy * p.y, y = cx * p.y - cy * p.x;
-        p = glm::normalize(glm::dvec3((x - t.b * p.z) / t.a, y / t.c, p.z));
+    std::vector<glm::dvec3> outline = outlineOf(light), above;
+    for (glm::dvec3& p : outline)
+        p = glm::normalize(t.toCosine({cx * p.x + cy * p.y, cx * p.y - cy * p.x, p.z}));
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec3 p = outline[i], q = outline[(i + 1) % outline.size()];
+        if (p.z >= 0) above.push_back(p);
+        if ((p.z < 0) != (q.z < 0)) above.push_back((p * q.z - q * p.z) / (q.z - p.z));
     }
-    return reference::lambertIrradiance(outline, {0, 0, 1}) / reference::pi;
+    glm::dvec3 sum{};
+    for (std::size_t i = 0; i < above.size(); ++i) {
+        const glm::dvec3 p = above[i], q = above[(i + 1) % above.size()], across = glm::cross(p, q);
+        const double size = glm::length(across);
+        if (size > 0) sum += across * (std::atan2(size, glm::dot(p, q)) / size);
+    }
+    return sum * ((sum.z < 0 ? -1 : 1) / (2 * reference::pi));
+}
+// The share of a sky that a light has under it.
+inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
+    const glm::dvec3 factor = factorOf(light, t, to_viewer);
+    return std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
+}
+
+// F0 and F90 of the mix by `metallic`.
+inline glm::dvec2 fresnelOf(const Receiver& r) {
+    return {std::lerp(r.f0, r.albedo, r.metallic), std::lerp(r.f90, 1.0, r.metallic)};
+}
+inline ltc::Transform transformOf(const LtcCell& cell, const Receiver& r) {
+    const glm::dvec2 f = fresnelOf(r);
+    return ltc::transformOf(cell.lobe(f.x, f.y), r.roughness * r.roughness, r.nDotV());
+}
+// What the shader makes of a share, whose mean direction under the transformed cosine is l (in the lobe's
+// frame): the lobe itself for a small light, what a sky sends for a large one.
+inline double specularOf(double share, const glm::dvec3& l, const LtcCell& cell, const Receiver& r) {
+    const glm::dvec2 f = fresnelOf(r);
+    const ltc::Lobe::Value value = ltc::Lobe(r.roughness * r.roughness, r.nDotV())(l);
+    const double sky = cell.reflected(f.x, f.y), density = std::max(transformOf(cell, r).density(l), 1e-20);
+    const double there = std::min(value.lobe * std::lerp(f.x, f.y, value.schlick) / density, 4 * sky);
+    return std::min(std::lerp(there, sky, std::pow(share, 0.25)) * share, sky);
+}
+inline double specularOf(const Light& light, const LtcCell& cell, const Receiver& r) {
+    const ltc::Transform t = transformOf(cell, r);
+    const glm::dvec3 factor = factorOf(light, t, r.to_viewer);
+    if (!(factor.z > 0)) return 0;
+    const double share = std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
+    return specularOf(share, glm::normalize(t.fromCosine(factor)), cell, r);
 }
 
 }  // namespace diptych::tests

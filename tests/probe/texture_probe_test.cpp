@@ -17,6 +17,11 @@ const TextureSampling& sampling() {
     return measured;
 }
 
+const TextureSampling& exactSampling() {
+    static const TextureSampling measured = probeTextures(probeDevice(), TexturePrecision::exact);
+    return measured;
+}
+
 // How many codes of 256 an sRGB decoding turns into a value that would be encoded as another code.
 std::size_t ambiguousCodes(const TexelDecode& srgb) {
     std::size_t count = 0;
@@ -50,7 +55,7 @@ TEST(TextureProbe, SrgbCodesStayApart) {
     linear = srgb;
     linear[40] = srgb[41];
     EXPECT_EQ(ambiguousCodes(linear), 1u) << "the negative control: one code off by one";
-    for (const DeviceFact& fact : textureFacts(sampling()))
+    for (const DeviceFact& fact : textureFacts(probeDevice(), sampling(), exactSampling()))
         std::cout << fact.what << ": " << (fact.there ? "yes" : "no") << ", " << fact.note << "\n";
 }
 
@@ -76,6 +81,22 @@ TEST(TextureProbe, FiltersAreBoundedAsTightlyAsTheyErr) {
         EXPECT_LT(bound.rounding, 2.0 / 255) << srgb;
         std::cout << (srgb ? "sRGB" : "linear") << ": " << bound.rounding * 255 << " of a code, and "
                   << bound.weight << " of the range; at most " << largest << "\n";
+    }
+}
+
+// Texels of --textures exact: linear codes are those of 16 bits, exactly; of sRGB half floats hold 11 bits at
+// every code, which no device may lose. A filter that rounds to whole texels of 8 bits would be off by half a
+// code; one of 16 bits by 1/257 of that, and weights are the device's as before.
+TEST(TextureProbe, ExactTexelsAreDecodedAndFilteredWithoutRounding) {
+    const TextureSampling& exact = exactSampling();
+    for (std::size_t code = 0; code < 256; ++code) {
+        const double linear = static_cast<double>(code) / 255;
+        EXPECT_NEAR(double{exact.linear[code]}, linear, linear * 0x1p-22) << code;
+        EXPECT_NEAR(double{exact.srgb[code]}, exactSrgb(code), exactSrgb(code) * 0x1p-11 * 1.001) << code;
+    }
+    for (const FilterBound& bound : {exact.linear_filter, exact.srgb_filter}) {
+        EXPECT_LT(bound.rounding * 255, 0.02);
+        EXPECT_LT(bound.weight, 1.0 / 128);
     }
 }
 

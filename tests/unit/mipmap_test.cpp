@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/mipmap.h"
 
+#include "shared/scene/image/srgb.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <glm/gtc/packing.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -194,8 +197,35 @@ TEST(Mipmap, EverySixteenBitCodeStays) {
     EXPECT_EQ(levels<std::uint16_t>(source, false, Texels::linear16)[1], codes);
 }
 
+// A code c of 8 bits is 257 c of 16: c / 255 without rounding.
+TEST(Mipmap, EightBitsBecomeSixteenExactly) {
+    const TextureImage source = image(16, 16, [](int x, int y, int) { return 16 * y + x; });
+    const auto codes = levels<std::uint16_t>(source, false, Texels::linear16);
+    for (std::size_t code = 0; code < 256; ++code) EXPECT_EQ(codes[0][4 * code], 257 * code);
+    // Of the first four: 0, 1, 16 and 17, whose mean 8.5 is no code of 8 bits.
+    EXPECT_EQ(codes[1][0], (257 * 34 + 2) / 4);
+}
+
+// sRGB in half floats: decoded to the nearest of them, alpha linear; levels are means of what is unrounded.
+TEST(Mipmap, EightBitsOfSrgbBecomeTheNearestHalf) {
+    const TextureImage source = image(16, 16, [](int x, int y, int) { return 16 * y + x; });
+    const auto halves = levels<std::uint16_t>(source, true, Texels::float16);
+    const auto floats = levels<float>(source, true, Texels::float32);
+    for (std::size_t code = 0; code < 256; ++code) {
+        const double exact = linearFromSrgb(static_cast<double>(code) / 255);
+        EXPECT_NEAR(double{floats[0][4 * code]}, exact, exact * 0x1p-24) << code;
+        EXPECT_EQ(halves[0][4 * code], glm::packHalf1x16(static_cast<float>(exact))) << code;
+        EXPECT_EQ(halves[0][4 * code + 3], glm::packHalf1x16(static_cast<float>(code) / 255)) << code;
+        EXPECT_NEAR(double{glm::unpackHalf1x16(halves[0][4 * code])}, exact, exact * 0x1p-11) << code;
+    }
+    double mean = 0;
+    for (const int code : {0, 1, 16, 17}) mean += linearFromSrgb(code / 255.0) / 4;
+    EXPECT_NEAR(double{floats[1][0]}, mean, mean * 0x1p-22);
+    EXPECT_EQ(halves[1][0], glm::packHalf1x16(static_cast<float>(mean)));
+}
+
 TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
-    EXPECT_THROW(MipChain(noiseTexture(2, 2), false, Texels::linear16), std::logic_error);
+    EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), false, Texels::linear8), std::logic_error);
     EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), true, Texels::srgb8), std::logic_error);
     EXPECT_THROW(MipChain(TextureImage{"none", 1, 1, {}}, true, Texels::srgb8), std::logic_error);
 }

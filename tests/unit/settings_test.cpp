@@ -48,6 +48,7 @@ Settings everythingChanged() {
     s.light_cutoff = 1e-3f;
     s.pixel_lights = 0;
     s.area_lights = AreaLights::representative;
+    s.textures = TexturePrecision::exact;
     s.specular_albedo = SpecularAlbedo::fit;
     s.multiscatter = Multiscatter::fdez;
     s.shadows = Shadows::clipmap;
@@ -262,6 +263,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.lights = asked.lights;
     expected.shadows = Shadows::off;
     expected.seed = asked.seed;
+    expected.textures = asked.textures;
     expected.spec_aa = true;
     expected.spec_aa_variance = asked.spec_aa_variance;
     expected.spec_aa_limit = asked.spec_aa_limit;
@@ -362,6 +364,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"light-kernel", "gather"},
         {"light-cutoff", "0.01"},
         {"area-lights", "representative"},
+        {"textures", "exact"},
         {"specular-albedo", "fit"},
         {"multiscatter", "energy"},
         {"multiscatter", "fdez"},

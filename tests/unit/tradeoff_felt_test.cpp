@@ -116,6 +116,7 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
                                                 }) ||
                             (ibl == Ibl::sampled && bias != 0))
                     << nameOf(ibl) << " " << samples << " " << bias;
+    EXPECT_EQ(reasonOf(all, "textures"), "no material reads a texture");
     EXPECT_EQ(reasonOf(feltUnder(mixed, true), "ibl-diffuse"),
               "no harmonic irradiance is negative: there is no window");
     const SweepRows of_matte = feltUnder(matte, false);

@@ -25,7 +25,7 @@ void writeTable(const std::string& file, const LtcTable& table) {
     for (const LtcLayer& layer : ltcLayers) {
         Image& image = images.emplace_back(side, side, 1);
         std::ranges::transform(table.cells, image.data.begin(),
-                               [&](const LtcCell& c) { return c.*layer.member; });
+                               [&](const LtcCell& c) { return layer.from(c); });
     }
     std::vector<ExrLayerView> layers;
     for (std::size_t i = 0; i < images.size(); ++i)
@@ -50,13 +50,16 @@ int main(int argc, char** argv) {
                 fmt::print(stderr, "fit_ltc: {} %\n", said = percent);
         });
         writeTable(argv[1], table);
-        double sum = 0, largest = 0;
-        for (const diptych::LtcCell& cell : table.cells) {
-            sum += double{cell.error};
-            largest = std::max(largest, double{cell.error});
+        for (const bool layer : {false, true}) {
+            double sum = 0, largest = 0;
+            for (const diptych::LtcCell& cell : table.cells) {
+                const double error{(layer ? cell.layer : cell.even).error};
+                sum += error;
+                largest = std::max(largest, error);
+            }
+            fmt::print("{}: error of the {} lobe {:.4f} in the mean, {:.4f} at most\n", argv[1],
+                       layer ? "layer's" : "even", sum / static_cast<double>(table.cells.size()), largest);
         }
-        fmt::print("{}: error {:.4f} in the mean, {:.4f} at most\n", argv[1],
-                   sum / static_cast<double>(table.cells.size()), largest);
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "fit_ltc: {}\n", error.what());

@@ -26,8 +26,9 @@ void overSquare(int n, const F& f) {
 
 }  // namespace
 
-Lobe::Lobe(double alpha, double n_dot_v)
+Lobe::Lobe(double alpha, double n_dot_v, double f0)
     : alpha_(alpha),
+      f0_(f0),
       lambda_v_(std::sqrt(n_dot_v * n_dot_v * (1 - alpha * alpha) + alpha * alpha)),
       view_(-std::sqrt(std::max(0.0, 1 - n_dot_v * n_dot_v)), 0, n_dot_v) {}
 
@@ -40,9 +41,10 @@ Lobe::Value Lobe::operator()(const glm::dvec3& l) const {
     const double lambda_l = std::sqrt(l.z * l.z * (1 - a2) + a2);
     const double visibility = 0.5 / (l.z * lambda_v_ + view_.z * lambda_l);
     // D G1 (v.h) / (n.v), and dh = dl / (4 v.h); G1 = 2 n.v / (n.v + lambda_v).
-    return {.lobe = d * visibility * l.z,
+    const double schlick = std::pow(std::clamp(1 - glm::dot(view_, h), 0.0, 1.0), 5);
+    return {.lobe = d * visibility * l.z * (f0_ + (1 - f0_) * schlick),
             .density = d / (2 * (view_.z + lambda_v_)),
-            .schlick = std::pow(std::clamp(1 - glm::dot(view_, h), 0.0, 1.0), 5)};
+            .schlick = schlick};
 }
 
 glm::dvec3 Lobe::sample(const glm::dvec2& u) const {
@@ -57,24 +59,32 @@ glm::dvec3 Lobe::sample(const glm::dvec2& u) const {
     return 2 * glm::dot(view_, h) * h - view_;
 }
 
+double Transform::upright(const glm::dvec3& l) const {
+    if (!(l.z > 0)) return 0;
+    const glm::dvec3 p = toCosine(l);
+    const double square = glm::dot(p, p);
+    return p.z / (pi * a * c * square * square);
+}
+
 double Transform::density(const glm::dvec3& l) const {
     if (!(l.z > 0)) return 0;
-    const glm::dvec3 cosine((l.x - b * l.z) / a, l.y / c, l.z);
-    const double square = glm::dot(cosine, cosine);
-    return l.z / (pi * a * c * square * square);
+    const glm::dvec3 p = toCosine(l);
+    const double square = glm::dot(p, p);
+    return (p.z + tilt * p.x) / (pi * a * c * square * square);
 }
 
 glm::dvec3 Transform::sample(const glm::dvec2& u) const {
     const glm::dvec2 p = onDisc(u);
     const double z = std::sqrt(std::max(0.0, 1 - u.x));
-    return glm::normalize(glm::dvec3(a * p.x + b * z, c * p.y, z));
+    return glm::normalize(fromCosine({p.x, p.y, z}));
 }
 
-Transform transformOf(const LtcCell& cell, double alpha, double n_dot_v) {
+Transform transformOf(const LtcLobe& lobe, double alpha, double n_dot_v) {
     const double sin2 = std::max(0.0, 1 - n_dot_v * n_dot_v), m2 = n_dot_v * n_dot_v + alpha * alpha * sin2;
-    return {.a = double{cell.in_plane} * 2 * alpha / m2,
-            .b = (1 - double{cell.unsheared}) * std::sqrt(sin2 / m2),
-            .c = double{cell.across} * 2 * alpha};
+    return {.a = double{lobe.in_plane} * 2 * alpha / m2,
+            .b = (1 - double{lobe.unsheared}) * std::sqrt(sin2 / m2),
+            .c = double{lobe.across} * 2 * alpha,
+            .tilt = double{lobe.tilt}};
 }
 
 Albedo albedoOf(const Lobe& lobe, int n) {
@@ -89,12 +99,12 @@ Albedo albedoOf(const Lobe& lobe, int n) {
     return sum;
 }
 
-double distance(const Lobe& lobe, double magnitude, const Transform& transform, int n) {
+double distance(const Lobe& lobe, double all, const Transform& transform, int n) {
     double sum = 0;
     const auto add = [&](const glm::dvec3& l) {
         const Lobe::Value value = lobe(l);
-        const double cosine = transform.density(l), density = value.density + cosine;
-        if (density > 0) sum += std::abs(value.lobe / magnitude - cosine) / density;
+        const double density = value.density + transform.upright(l);
+        if (density > 0) sum += std::abs(value.lobe / all - transform.density(l)) / density;
     };
     overSquare(n, [&](const glm::dvec2& u) {
         add(lobe.sample(u));

@@ -10,11 +10,11 @@
 
 namespace diptych::ltc {
 
-// The specular lobe of shaders/lib/brdf.glsl without F: D V (n.l), 1/sr.
+// The specular lobe of shaders/lib/brdf.glsl: D V F (n.l), 1/sr, with Schlick's F from f0 to 1.
 class Lobe {
 public:
     // alpha: GGX width, roughness^2; n_dot_v in (0, 1].
-    Lobe(double alpha, double n_dot_v);
+    Lobe(double alpha, double n_dot_v, double f0 = 1);
 
     struct Value {
         double lobe = 0;     // 1/sr; 0 from below the horizon
@@ -30,28 +30,32 @@ public:
     double nDotV() const { return view_.z; }
 
 private:
-    double alpha_, lambda_v_;
+    double alpha_, f0_, lambda_v_;
     glm::dvec3 view_;
 };
 
-// The matrix M, and the clamped cosine that it transforms.
+// The matrix M, and the clamped cosine that it transforms, with its tilt.
 struct Transform {
-    double a = 1, b = 0, c = 1;
+    double a = 1, b = 0, c = 1, tilt = 0;
 
-    double density(const glm::dvec3& l) const;  // 1/sr; over the hemisphere it sums to 1
-    glm::dvec3 sample(const glm::dvec2& u) const;
+    glm::dvec3 toCosine(const glm::dvec3& l) const { return {(l.x - b * l.z) / a, l.y / c, l.z}; }
+    glm::dvec3 fromCosine(const glm::dvec3& p) const { return {a * p.x + b * p.z, c * p.y, p.z}; }
+    // 1/sr; over the hemisphere both sum to 1. `upright`: without the tilt, so never below 0.
+    double density(const glm::dvec3& l) const;
+    double upright(const glm::dvec3& l) const;
+    glm::dvec3 sample(const glm::dvec2& u) const;  // by upright()
 };
-// What a cell stands for.
-Transform transformOf(const LtcCell& cell, double alpha, double n_dot_v);
+// What a lobe of a cell stands for.
+Transform transformOf(const LtcLobe& lobe, double alpha, double n_dot_v);
 
-// Magnitude and Fresnel of a lobe, by n x n directions.
+// Magnitude and Fresnel of a lobe with F = 1, by n x n directions.
 struct Albedo {
     double magnitude = 0, fresnel = 0;
 };
 Albedo albedoOf(const Lobe& lobe, int n);
 
-// LtcCell::error, by 2 n x n directions: half of them drawn from the lobe, half from the transformed cosine,
-// weighted by the balance heuristic (Veach and Guibas 1995).
-double distance(const Lobe& lobe, double magnitude, const Transform& transform, int n);
+// LtcLobe::error, by 2 n x n directions: half of them drawn from the lobe, half from the transformed cosine,
+// weighted by the balance heuristic (Veach and Guibas 1995). `all`: the lobe's integral.
+double distance(const Lobe& lobe, double all, const Transform& transform, int n);
 
 }  // namespace diptych::ltc

@@ -203,9 +203,9 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     : name_(image.name), texels_(texels), width_(image.width), height_(image.height), levels_(1) {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     const bool deep = image.deep(), floats = !image.rgba32.empty();
-    if (deep == (texels == Texels::srgb8 || texels == Texels::linear8) ||
-        (floats && texels == Texels::linear16) || image.components() != 4 * width * height ||
-        width * height == 0)
+    const bool eight = texels == Texels::srgb8 || texels == Texels::linear8;
+    if ((deep && eight) || (floats && texels == Texels::linear16) ||
+        image.components() != 4 * width * height || width * height == 0)
         throw std::logic_error("MipChain: " + name_ + " has not the texels that are asked for");
 
     const auto rowsOfTop = [&](const auto& use) {
@@ -217,7 +217,8 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     image_ = floats ? std::as_bytes(std::span(image.rgba32))
              : deep ? std::as_bytes(std::span(image.rgba16))
                     : std::as_bytes(std::span(image.rgba));
-    if (texels == Texels::float16 || (texels == Texels::float32 && !floats)) {
+    const bool as_it_is = floats ? texels == Texels::float32 : deep ? texels == Texels::linear16 : eight;
+    if (!as_it_is) {
         levels_[0].resize(width * height * bytesPerTexel(texels));
         rowsOfTop([&](const auto& row) {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height, 16), [&](const auto& range) {

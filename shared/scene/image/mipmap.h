@@ -20,12 +20,12 @@ std::size_t bytesPerTexel(Texels texels);
 // down (Vulkan's sizes). Averages are made in linear light; with `srgb` the image's colour components are
 // decoded from sRGB first, alpha is always linear. Odd sizes are weighted by area, so that every texel
 // counts. Each level is averaged from the unrounded level before it: rounding happens only on output. Level
-// 0 of srgb8, linear8, linear16 and float32 (from an image of floats) is the image's own memory, which must
+// 0 in the image's own texels (8, 16 bits or floats as they are) is the image's own memory, which must
 // outlive the chain.
 class MipChain {
 public:
-    // An image of 8 bits becomes srgb8 or linear8; one of 16 bits linear16, float16 or float32; one of
-    // floats float32, or float16 with values limited to 65504.
+    // An image of 8 bits becomes any; one of 16 bits linear16, float16 or float32; one of floats float32, or
+    // float16 with values limited to 65504. srgb8 is of sRGB, linear8 and linear16 are of linear codes.
     MipChain(const TextureImage& image, bool srgb, Texels texels);
 
     const std::string& name() const { return name_; }

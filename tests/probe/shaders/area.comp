@@ -7,9 +7,9 @@
 #include "tests/probe/shaders/probe.glsl"
 
 // kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
-// range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell and Fresnel -> diffuse,
-// specular radiance for a light of radiance 1
-const uint WIDTH = 30;
+// range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell: even, layer, magnitude,
+// Fresnel -> diffuse, specular radiance for a light of radiance 1
+const uint WIDTH = 35;
 
 void main() {
     if (PROBE_ROW >= probe_rows) return;
@@ -34,9 +34,12 @@ void main() {
     s.dielectric_f0 = vec3(IN(WIDTH, 23));
     s.dielectric_f90 = IN(WIDTH, 24);
     Brdf b = makeBrdf(s, v);
-    float magnitude = IN(WIDTH, 28), fresnel = IN(WIDTH, 29);
-    if (on(feature_multiscatter)) b = compensated(b, s, vec2(magnitude - fresnel, fresnel));
-    AreaView a = areaViewOf(b, s.normal, v, vec4(IN3(WIDTH, 25), magnitude), fresnel);
+    LtcCell cell;
+    cell.even = vec4(IN3(WIDTH, 25), IN(WIDTH, 28));
+    cell.layer = vec4(IN3(WIDTH, 29), IN(WIDTH, 32));
+    cell.magnitude = IN(WIDTH, 33), cell.fresnel = IN(WIDTH, 34);
+    if (on(feature_multiscatter)) b = compensated(b, s, vec2(cell.magnitude - cell.fresnel, cell.fresnel));
+    AreaView a = areaViewOf(b, s.normal, v, cell);
 
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     uint kind = uint(IN(WIDTH, 0));
