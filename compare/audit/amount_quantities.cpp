@@ -130,6 +130,18 @@ std::string lacksMotion(const Subject& subject) {
     return subject.moves ? "" : "nothing in the scene is animated";
 }
 
+Predicted predictTriangles(const Subject&, const Settings&, double) {
+    return {.because = "a corner is float32 wherever a triangle is cut, and indices have 32 bits"};
+}
+
+Predicted predictSize(const Subject&, const Settings&, double) {
+    return {.because = "places of pixels are float32, which holds them to 2^24; a picture has 2^14 at most"};
+}
+
+Predicted predictTime(const Subject&, const Settings&, double) {
+    return {.because = "time is double, which knows 1e6 s to 1e-10 s, and after the last key nothing moves"};
+}
+
 }  // namespace
 
 std::vector<Quantity> amountQuantities() {
@@ -154,7 +166,8 @@ std::vector<Quantity> amountQuantities() {
              .usual = usualTriangles,
              .lacks = lacksRigid,
              .push = pushTriangles,
-             .whole = true},
+             .whole = true,
+             .predict = predictTriangles},
             {.name = "size",
              .unit = "pixels",
              .what = "the height of the picture, whose shape stays",
@@ -162,14 +175,16 @@ std::vector<Quantity> amountQuantities() {
              .usual = usualSize,
              .lacks = lacksNothing,
              .push = pushSize,
-             .whole = true},
+             .whole = true,
+             .predict = predictSize},
             {.name = "time",
              .unit = "s",
              .what = "the animation time",
              .magnitudes = times,
              .usual = usualTime,
              .lacks = lacksMotion,
-             .push = pushTime}};
+             .push = pushTime,
+             .predict = predictTime}};
 }
 
 }  // namespace diptych::audit

@@ -51,7 +51,9 @@ double rounded(double magnitude, const Quantity& quantity) {
 
 Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings,
                       double error) {
-    return quantity.predict && isPrecise(settings) ? quantity.predict(subject, settings, error) : Predicted{};
+    Settings usual = settings;
+    if (quantity.predicts_formats) usual.depth_format = DepthFormat::d32f;
+    return quantity.predict && isPrecise(usual) ? quantity.predict(subject, settings, error) : Predicted{};
 }
 
 // Between two magnitudes: by ratios, as they are tried.

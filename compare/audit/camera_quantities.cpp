@@ -69,7 +69,17 @@ Predicted predictExposure(const Subject&, const Settings&, double) {
                 "the tone curve"};
 }
 
-Predicted predictNear(const Subject&, const Settings&, double) {
+// A step dz of depth is one of d (f - n) / (n f) dz of the distance d, relative to it.
+Predicted predictNear(const Subject& subject, const Settings& settings, double error) {
+    if (settings.depth_format != DepthFormat::d32f) {
+        const double distance = subject.seen ? glm::distance(subject.point, subject.view.eye())
+                                             : std::max(subject.bounds.radius(), 1e-6);
+        const bool coarse = settings.depth_format == DepthFormat::d16;
+        return {.up = error * farOf(subject) / (distance * (coarse ? 0.5 / 65535 : 0x1p-24)),
+                .because = coarse
+                               ? "depth is off by half a step of 16 bits"
+                               : "depth is off by two roundings of 24 bits, as large at the far end as near"};
+    }
     return {.because =
                 "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
                 "of it in one division"};
@@ -98,38 +108,41 @@ std::vector<Quantity> cameraQuantities() {
     for (const double wide : {30.0, 60.0, 90.0, 120.0, 150.0, 170.0, 179.0}) fovs.push_back(wide);
     std::vector<double> grazes = ladder(0.001, 10);
     for (const double steep : {30.0, 60.0, 90.0}) grazes.push_back(steep);
-    return {{.name = "exposure",
-             .unit = "",
-             .what = "pictures of 8 bits, exposed by a factor beyond the automatic exposure",
-             .magnitudes = ladder(1e-30, 1e30, 1e3),
-             .usual = usualOne,
-             .lacks = lacksNothing,
-             .push = pushExposure,
-             .predict = predictExposure},
-            {.name = "near",
-             .unit = "",
-             .what = "the far plane's distance over the near plane's, which is drawn nearer",
-             .magnitudes = ladder(1e2, 1e9),
-             .usual = usualNear,
-             .lacks = lacksNothing,
-             .push = pushNear,
-             .predict = predictNear},
-            {.name = "fov",
-             .unit = "degrees",
-             .what = "the vertical field of view, from the same eye",
-             .magnitudes = fovs,
-             .usual = usualFov,
-             .lacks = lacksPerspective,
-             .push = pushFov,
-             .predict = predictFov},
-            {.name = "grazing",
-             .unit = "degrees",
-             .what = "the angle between the view and the surface in the middle of the picture",
-             .magnitudes = grazes,
-             .usual = usualGrazing,
-             .lacks = lacksSurface,
-             .push = pushGrazing,
-             .predict = predictGrazing}};
+    return {
+        {.name = "exposure",
+         .unit = "",
+         .what = "pictures of 8 bits, exposed by a factor beyond the automatic exposure",
+         .magnitudes = ladder(1e-30, 1e30, 1e3),
+         .usual = usualOne,
+         .lacks = lacksNothing,
+         .push = pushExposure,
+         .predict = predictExposure},
+        {.name = "near",
+         .unit = "",
+         .what = "the far plane's distance over the near plane's, which is drawn nearer",
+         .magnitudes = ladder(1e2, 1e9),
+         .usual = usualNear,
+         .lacks = lacksNothing,
+         .push = pushNear,
+         .variants = {{"depth-format", "d32f-standard"}, {"depth-format", "d24"}, {"depth-format", "d16"}},
+         .predict = predictNear,
+         .predicts_formats = true},
+        {.name = "fov",
+         .unit = "degrees",
+         .what = "the vertical field of view, from the same eye",
+         .magnitudes = fovs,
+         .usual = usualFov,
+         .lacks = lacksPerspective,
+         .push = pushFov,
+         .predict = predictFov},
+        {.name = "grazing",
+         .unit = "degrees",
+         .what = "the angle between the view and the surface in the middle of the picture",
+         .magnitudes = grazes,
+         .usual = usualGrazing,
+         .lacks = lacksSurface,
+         .push = pushGrazing,
+         .predict = predictGrazing}};
 }
 
 }  // namespace diptych::audit

@@ -191,6 +191,7 @@ std::vector<Quantity> lightQuantities() {
          .usual = usualOne,
          .lacks = lacksNothing,
          .push = pushIntensity,
+         .variants = {{"lit-format", "fp16"}, {"lit-format", "b10g11r11"}},
          .same_picture = true,
          .light = true,
          .predict = predictIntensity},

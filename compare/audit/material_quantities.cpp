@@ -78,6 +78,7 @@ std::vector<Quantity> materialQuantities() {
              .usual = usualRoughness,
              .lacks = lacksNothing,
              .push = pushRoughness,
+             .variants = {{"shading-precision", "fp16"}},
              .predict = predictRoughness},
             {.name = "normal_map",
              .unit = "",

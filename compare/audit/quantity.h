@@ -41,6 +41,7 @@ struct Quantity {
     bool whole = false;  // magnitudes are whole numbers
     // At which magnitude the relative error of a path with these Settings reaches `error`.
     Predicted (*predict)(const Subject&, const Settings&, double error) = nullptr;
+    bool predicts_formats = false;  // also with other formats of depth than reversed floats
 };
 
 // Whether a path with these Settings has no other error than arithmetic's: predictions are of such.

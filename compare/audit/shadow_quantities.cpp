@@ -61,6 +61,10 @@ double usualExponent(const Subject&) {
     return 10;
 }
 
+Predicted predictExponent(const Subject&, const Settings&, double) {
+    return {.up = 44.36, .because = "the second moment is exp(2 x 44.36) at most, where float32 ends"};
+}
+
 void pushHaze(Case& pushed, const Subject&, double density) {
     pushed.settings.haze = true;
     pushed.settings.haze_density = static_cast<float>(density);
@@ -96,7 +100,8 @@ std::vector<Quantity> shadowQuantities() {
              .magnitudes = {1, 2, 5, 10, 20, 30, 40, 44, 44.36},
              .usual = usualExponent,
              .lacks = lacksSun,
-             .push = pushExponent},
+             .push = pushExponent,
+             .predict = predictExponent},
             {.name = "haze",
              .unit = "",
              .what = "the density of haze",

@@ -7,15 +7,19 @@
 
 #include "shaders/lib/contract.glsl"
 
-// In steps the viewport maps the far end to the first one, so that 0 is left to what nothing was drawn to. A
-// surface within half a step of the far end is taken to be at a quarter of one: with no far plane its distance
-// would be infinite.
+// The viewport maps the far end to the first step above what is cleared, which is left to what nothing was
+// drawn to; of standard depth to 2^-22, because a rasteriser's own roundings near 1 must not reach 1. A
+// surface that is nearer to the far end than half a step is taken to be at a quarter of one: with no far
+// plane its distance would be infinite.
 float reversedDepth(float stored) {
-    if (feature_depth_format == DEPTH_STANDARD) return 1.0 - stored;
     if (feature_depth_format == DEPTH_REVERSED) return stored;
+    bool standard = feature_depth_format == DEPTH_STANDARD;
     float first = feature_depth_format == DEPTH_STEPS_16 ? 1.0 / 65535.0 : 1.0 / 16777215.0;
-    float z = max((stored - first) / (1.0 - first), 0.25 * first);
-    return stored > 0.0 ? z : 0.0;
+    float quarter = 0.25 * first;
+    first = standard ? STANDARD_DEPTH_FIRST : first;
+    float above = standard ? 1.0 - stored : stored;
+    float z = max((above - first) / (1.0 - first), quarter);
+    return above > 0.0 ? z : 0.0;
 }
 
 #endif

