@@ -47,6 +47,23 @@ TEST(FrameFacts, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
     EXPECT_EQ(nonfinitePixels(image), 3u);
 }
 
+// What a format of few bits cuts is said, whether it becomes the largest number or infinity.
+TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
+    Image image(3, 1, 3, 1.0f);
+    EXPECT_FALSE(overflowInWords(image, LitFormat::fp16));
+    image.pixel(1)[2] = 65504;
+    image.pixel(2)[0] = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(overflowInWords(image, LitFormat::fp32));
+    EXPECT_EQ(overflowInWords(image, LitFormat::fp16).value_or(""),
+              "lit: 2 pixel(s) are as large as fp16 holds, or larger, and cut; use --lit-format fp32");
+    image.pixel(1)[2] = 64512;  // of 10 bits the largest
+    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("2 pixel(s)"),
+              std::string::npos);
+    image.pixel(1)[2] = 64000;
+    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("1 pixel(s)"),
+              std::string::npos);
+}
+
 TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     most = std::numeric_limits<float>::max();

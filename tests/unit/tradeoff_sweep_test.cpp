@@ -165,6 +165,24 @@ TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
     EXPECT_EQ(sweep.skips.size(), 2u);
 }
 
+TEST(TradeoffSweep, WhatADeviceLacksIsLeftOutAndSaid) {
+    Settings given;
+    const auto noSteps = [](const Settings& row) -> std::optional<std::string> {
+        if (row.depth_format != DepthFormat::d24) return {};
+        return "there are no steps";
+    };
+    const auto asked = [&](const std::vector<std::string>& formats) {
+        return withoutRefused(makeSweepRows(given, {{{"depth-format", formats}}}), given, noSteps);
+    };
+    const SweepRows sweep = asked({"d32f", "d24", "d16"});
+    ASSERT_EQ(sweep.rows.size(), 2u);
+    EXPECT_EQ(sweep.rows[1].depth_format, DepthFormat::d16);
+    ASSERT_EQ(sweep.skips.size(), 1u);
+    EXPECT_EQ(sweep.skips[0].reason, "there are no steps");
+    EXPECT_EQ(sweep.skips[0].tried.back(), (Choice{"depth-format", "d24"}));
+    EXPECT_THROW(asked({"d24"}), std::runtime_error);
+}
+
 TEST(TradeoffSweep, NothingToDrawIsAnError) {
     try {
         makeSweepRows({}, {{{"msaa-shading", {"sample"}}}});
