@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace diptych::audit {
 
@@ -47,6 +49,30 @@ void pushColor(Case& pushed, const Subject&, double factor) {
                                     glm::vec4(glm::vec3(static_cast<float>(factor)), 1));
 }
 
+std::string lacksTexture(const Subject& subject) {
+    return subject.given.scene.images.empty() ? "no material has a texture" : "";
+}
+
+// Colours, normals and all else; alpha stays, which decides where a surface is.
+template <class Value>
+void setTexels(std::vector<Value>& texels, Value value) {
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        if (i % 4 != 3) texels[i] = value;
+}
+
+void pushTexel(Case& pushed, const Subject&, double share) {
+    for (TextureImage& image : pushed.scene.images) {
+        setTexels(image.rgba, static_cast<std::uint8_t>(std::lround(share * 0xFF)));
+        setTexels(image.rgba16, static_cast<std::uint16_t>(std::lround(share * 0xFFFF)));
+        setTexels(image.rgba32, static_cast<float>(share) * image.largest);
+    }
+}
+
+Predicted predictTexel(const Subject&, const Settings&, double) {
+    return {.because =
+                "a texel of integers is 0 to 1 to 16 bits, and a normal map of one value is a direction"};
+}
+
 Predicted predictRoughness(const Subject&, const Settings&, double) {
     return {.because = "below 0.045 a roughness is shaded as 0.045, where D is 8e4 at most"};
 }
@@ -71,39 +97,49 @@ std::vector<Quantity> materialQuantities() {
     std::vector<double> roughnesses = ladder(1e-6, 1e-2);
     roughnesses.insert(roughnesses.begin(), 0);
     for (const double rough : {0.02, 0.03, 0.045, 0.06, 0.1, 0.2, 0.5, 1.0}) roughnesses.push_back(rough);
-    return {{.name = "roughness",
-             .unit = "",
-             .what = "the roughness factor of every material",
-             .magnitudes = roughnesses,
-             .usual = usualRoughness,
-             .lacks = lacksNothing,
-             .push = pushRoughness,
-             .variants = {{"shading-precision", "fp16"}},
-             .predict = predictRoughness},
-            {.name = "normal_map",
-             .unit = "",
-             .what = "the strength of every normal map",
-             .magnitudes = ladder(1e-3, 1e9),
-             .usual = usualOne,
-             .lacks = lacksNormalMap,
-             .push = pushNormalMap,
-             .predict = predictNormalMap},
-            {.name = "emission",
-             .unit = "W/(sr m^2)",
-             .what = "what every surface sends by itself",
-             .magnitudes = ladder(1e-12, 1e38, 100),
-             .usual = usualOne,
-             .lacks = lacksNothing,
-             .push = pushEmission,
-             .predict = predictEmission},
-            {.name = "color",
-             .unit = "",
-             .what = "the colour of every vertex, in place of its own",
-             .magnitudes = ladder(1e-38, 1, 100),
-             .usual = usualOne,
-             .lacks = lacksNothing,
-             .push = pushColor,
-             .predict = predictColor}};
+    return {
+        {.name = "roughness",
+         .unit = "",
+         .what = "the roughness factor of every material",
+         .magnitudes = roughnesses,
+         .usual = usualRoughness,
+         .lacks = lacksNothing,
+         .push = pushRoughness,
+         .variants = {{"shading-precision", "fp16"}},
+         .predict = predictRoughness},
+        {.name = "normal_map",
+         .unit = "",
+         .what = "the strength of every normal map",
+         .magnitudes = ladder(1e-3, 1e9),
+         .usual = usualOne,
+         .lacks = lacksNormalMap,
+         .push = pushNormalMap,
+         .predict = predictNormalMap},
+        {.name = "texel",
+         .unit = "",
+         .what = "every texel of every texture but its alpha, as a share of the largest that its type holds",
+         .magnitudes = {0, 1e-5, 1 / 255.0, 2 / 255.0, 0.05, 0.2, 0.5, 254 / 255.0, 1},
+         .usual = usualOne,
+         .lacks = lacksTexture,
+         .push = pushTexel,
+         .variants = {{"textures", "exact"}},
+         .predict = predictTexel},
+        {.name = "emission",
+         .unit = "W/(sr m^2)",
+         .what = "what every surface sends by itself",
+         .magnitudes = ladder(1e-12, 1e38, 100),
+         .usual = usualOne,
+         .lacks = lacksNothing,
+         .push = pushEmission,
+         .predict = predictEmission},
+        {.name = "color",
+         .unit = "",
+         .what = "the colour of every vertex, in place of its own",
+         .magnitudes = ladder(1e-38, 1, 100),
+         .usual = usualOne,
+         .lacks = lacksNothing,
+         .push = pushColor,
+         .predict = predictColor}};
 }
 
 }  // namespace diptych::audit

@@ -203,7 +203,8 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
             gltfOf(*flattened(pushed)) == gltfOf(*flattened(subject.given)) &&
             lightsFileOf(pushed) == lightsFileOf(subject.given) &&
             pushed.scene.materials.front().roughness == subject.given.scene.materials.front().roughness &&
-            quantity.name != "roughness" && quantity.name != "normal_map";
+            quantity.name != "roughness" && quantity.name != "normal_map" &&
+            quantity.name != "texel";  // which that file does not hold
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
         EXPECT_FALSE(seriesOf(quantity, subject).empty()) << quantity.name;
     }
