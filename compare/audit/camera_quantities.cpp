@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace diptych::audit {
 
@@ -69,16 +70,36 @@ Predicted predictExposure(const Subject&, const Settings&, double) {
                 "the tone curve"};
 }
 
-// A step dz of depth is one of d (f - n) / (n f) dz of the distance d, relative to it.
+// How far z is off, and why.
+Predicted roundingOf(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::d32f:
+            break;
+        case DepthFormat::d32f_standard:
+            return {.up = 0x1p-24,
+                    .because = "depth near 1 is off by two roundings of 24 bits, wherever the surface is"};
+        case DepthFormat::d24:
+            return {.up = 0x1p-25, .because = "depth is off by half a step of 24 bits"};
+        case DepthFormat::d16:
+            return {.up = 0.5 / 65535, .because = "depth is off by half a step of 16 bits"};
+    }
+    return {};
+}
+
+// A step dz of depth is one of d (f - n) / (n f) dz of the distance d, relative to it, most where the scene
+// is farthest away; and what a lamp at a distance r from the middle sends there changes by 2 d / r as much.
 Predicted predictNear(const Subject& subject, const Settings& settings, double error) {
     if (settings.depth_format != DepthFormat::d32f) {
-        const double distance = subject.seen ? glm::distance(subject.point, subject.view.eye())
-                                             : std::max(subject.bounds.radius(), 1e-6);
-        const bool coarse = settings.depth_format == DepthFormat::d16;
-        return {.up = error * farOf(subject) / (distance * (coarse ? 0.5 / 65535 : 0x1p-24)),
-                .because = coarse
-                               ? "depth is off by half a step of 16 bits"
-                               : "depth is off by two roundings of 24 bits, as large at the far end as near"};
+        double lamp = std::numeric_limits<double>::infinity();
+        for (const Light& light : subject.given.scene.lights)
+            if (light.kind != LightKind::directional)
+                lamp = std::min(lamp, glm::distance(light.position, subject.point));
+        const double farthest =
+                         glm::distance(subject.bounds.centre(), subject.view.eye()) + subject.bounds.radius(),
+                     middle = glm::distance(subject.point, subject.view.eye());
+        Predicted predicted = roundingOf(settings.depth_format);
+        predicted.up = error * farOf(subject) / (farthest * std::max(1.0, 2 * middle / lamp) * predicted.up);
+        return predicted;
     }
     return {.because =
                 "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "

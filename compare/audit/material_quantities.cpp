@@ -122,7 +122,6 @@ std::vector<Quantity> materialQuantities() {
          .usual = usualOne,
          .lacks = lacksTexture,
          .push = pushTexel,
-         .variants = {{"textures", "exact"}},
          .predict = predictTexel},
         {.name = "emission",
          .unit = "W/(sr m^2)",
