@@ -230,6 +230,18 @@ arithmetic() {
     return $code
 }
 
+# Pictures that must be alike: what a driver gets wrong without any truth beside it.
+relations() {
+    local code=0
+    limited 900 "$program" audit "$relations_scene" --relations --force -o "$out/relations" \
+        >"$out/relations.txt" 2>&1 || code=$?
+    cat "$out/relations.txt"
+    what=$(grep -E 'relations hold' "$out/relations.txt" | tail -n 1)
+    measured+="Pictures that must be alike: [relations.txt](relations.txt), ${what:-none}"$'\n\n'
+    [ $code -eq 0 ] || what="${what:-exit code $code}"
+    return $code
+}
+
 # The channels of a report.json that failed.
 failed_channels() {
     awk '/"number":/ { channel = 1 }
@@ -370,6 +382,9 @@ esac
 
 step devices 240 devices
 step arithmetic 300 arithmetic
+relations_scene=builtin:gallery
+[ "$amount" != quick ] || relations_scene=builtin:triangle
+step relations 900 relations
 
 mapfile -t scenes < <("$program" render --list-scenes --json 2>/dev/null |
     sed -n 's/^ *"name": "\(builtin:[^"?]*\).*/\1/p')

@@ -23,6 +23,8 @@ case "$BROKEN $*" in
     inexact\ *--probe) echo '     FAIL: 1 of 75 probes: a / b'; exit 1 ;;
     *--probe) echo '     pass: all 75 probes' ;;
     *devices) printf '0  Fake GPU 1 (discrete)\n     yes  one thing\n     no   another thing\n' ;;
+    related\ audit*) echo 'FAIL: 25 relations hold, 1 is broken, 0 do not apply'; exit 1 ;;
+    *audit*) echo 'pass: 26 relations hold, 0 are broken, 0 do not apply' ;;
     bench\ bench*) echo "diptych: the device was lost" >&2; exit 2 ;;
     message\ compare*) echo "diptych: --validate: 3 messages, the first: a | b" >&2; exit 2 ;;
     differs\ compare*)
@@ -79,7 +81,8 @@ TEST_F(GpuFirstRun, QuicklyWithTheRealPrograms) {
         if (!fs::exists(build / "tests" / name)) GTEST_SKIP() << name << " is not built";
     const Ran ran = run("--quick out", "nothing", build.string());
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err << summary();
-    for (const char* step : {"devices", "arithmetic", "validation", "parity", "probes", "bench-spheres"})
+    for (const char* step :
+         {"devices", "arithmetic", "relations", "validation", "parity", "probes", "bench-spheres"})
         EXPECT_TRUE(row(step).starts_with("passed | ")) << step << "\n" << summary();
     for (const char* file : {"devices.json", "devices.txt", "validation/triangle.json", "validation.md",
                              "parity.xml", "probes.xml", "bench-spheres/bench.json", "bench-spheres.log"})
@@ -113,6 +116,7 @@ TEST_F(GpuFirstRun, AStepThatFailsIsNamedAndStopsNoOther) {
         const char *broken, *step, *says;
     } controls[] = {
         {"inexact", "arithmetic", "FAIL: 1 of 75 probes: a / b"},
+        {"related", "relations", "FAIL: 25 relations hold, 1 is broken"},
         {"bench", "bench-spheres", "the device was lost"},
         {"differs", "validation", "`builtin:points`: exit code 1: differs: lit\n"},
         {"message", "validation", "`builtin:triangle`: exit code 2: diptych: --validate: 3 messages"},
@@ -127,7 +131,8 @@ TEST_F(GpuFirstRun, AStepThatFailsIsNamedAndStopsNoOther) {
         EXPECT_NE(summary().find(std::string("\n- **") + control.step + "**"), std::string::npos);
         EXPECT_NE(summary().find(control.says), std::string::npos) << control.broken << "\n" << summary();
         EXPECT_NE(summary().find("| verdict | steps that failed: 1 |"), std::string::npos);
-        for (const char* step : {"devices", "arithmetic", "validation", "parity", "probes", "bench-spheres"})
+        for (const char* step :
+             {"devices", "arithmetic", "relations", "validation", "parity", "probes", "bench-spheres"})
             if (std::string(step) != control.step) {
                 EXPECT_TRUE(row(step).starts_with("passed | ")) << step << "\n" << summary();
             }
