@@ -2,6 +2,7 @@
 #include "compare/verdict/encoding_use.h"
 
 #include "compare/metrics/pixel.h"
+#include "shared/contract/encoded_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,19 @@ const Image* boundOf(const Frame& forward, const DebugMode& mode) {
     return found == forward.encoding_bound.end() ? nullptr : &found->second;
 }
 
+// The largest step of a format of lit, relative to what it holds.
+double stepOf(LitFormat format) {
+    switch (format) {
+        case LitFormat::fp32:
+            break;
+        case LitFormat::fp16:
+            return 0x1p-10;
+        case LitFormat::b10g11r11:
+            return 0x1p-5;  // of blue
+    }
+    return 0;
+}
+
 // What every pixel of two paths may differ by; nothing of other pairs and channels, and without bounds.
 class Allowance {
 public:
@@ -37,8 +51,8 @@ public:
     EncodingAllowed operator()(std::size_t i) const {
         const double size = std::max(metrics::largestFinite(own_->pixel(i), own_->components),
                                      metrics::largestFinite(read_->pixel(i), read_->components));
-        const double allowed =
-            (bound_ ? double{*bound_->pixel(i)} : 0) + shadingRounding * std::max(size, dark_ * floor_);
+        const double allowed = (bound_ ? double{*bound_->pixel(i)} : 0) +
+                               shadingRounding * std::max(size, dark_ * floor_) + steps(i) * size;
         return {
             allowed,
             allowed / std::max(metrics::largestFinite(baseline_->pixel(i), baseline_->components), floor_)};
@@ -48,16 +62,28 @@ public:
     const Image& own() const { return *own_; }
 
 private:
+    // Each picture is rounded to its format by up to one step, and again with each layer that is blended over
+    // it: of up to 8 layers, as many as --transparency-layers has. So are those of moved surfaces, whose
+    // differences make the bound, and which hide what is less than a step.
+    double steps(std::size_t i) const {
+        const bool blended = unblended_->pixels() > 0 &&
+                             metrics::distance(own_->pixel(i), unblended_->pixel(i), own_->components) != 0;
+        constexpr auto moved = double{gpu::SURFACE_END - gpu::SURFACE_RAISED};
+        return (2 + moved) * step_ * (blended ? 9 : 1);
+    }
+
     Allowance(const DebugMode& mode, const FramePair& pair, const Frame& deferred, const Frame& forward)
         : read_(&deferred.channels.at(mode.number)),
           own_(&forward.channels.at(mode.number)),
           baseline_(&pair.baseline.channels.at(mode.number)),
           bound_(boundOf(forward, mode)),
+          unblended_(&forward.unblended),
+          step_(mode.number == static_cast<int>(gpu::DEBUG_lit) ? stepOf(forward.settings.lit_format) : 0),
           dark_(cancelling(pair.needs)),
           floor_(PixelError(mode.metric, mode.kind, *baseline_, pair.coverage).floor()) {}
 
-    const Image *read_, *own_, *baseline_, *bound_;
-    double dark_, floor_;
+    const Image *read_, *own_, *baseline_, *bound_, *unblended_;
+    double step_, dark_, floor_;
 };
 
 }  // namespace
