@@ -24,6 +24,9 @@ const Image* boundOf(const Frame& forward, const DebugMode& mode) {
     return found == forward.encoding_bound.end() ? nullptr : &found->second;
 }
 
+// The least number that formats of 16, 11 and 10 bits hold with all their bits.
+constexpr double leastNormal = 0x1p-14;
+
 // The largest step of a format of lit, relative to what it holds.
 double stepOf(LitFormat format) {
     switch (format) {
@@ -52,7 +55,8 @@ public:
         const double size = std::max(metrics::largestFinite(own_->pixel(i), own_->components),
                                      metrics::largestFinite(read_->pixel(i), read_->components));
         const double allowed = (bound_ ? double{*bound_->pixel(i)} : 0) +
-                               shadingRounding * std::max(size, dark_ * floor_) + steps(i) * size;
+                               shadingRounding * std::max(size, dark_ * floor_) +
+                               steps(i) * std::max(size, leastNormal);
         return {
             allowed,
             allowed / std::max(metrics::largestFinite(baseline_->pixel(i), baseline_->components), floor_)};
