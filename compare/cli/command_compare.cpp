@@ -53,25 +53,6 @@ std::vector<std::string> materialNames(const Scene& scene) {
     return names;
 }
 
-// `traced`: some comparison is with a reference in mode scene.
-RenderOptions bothOptions(const Options& options, bool traced) {
-    RenderOptions render = renderOptions(options);
-    render.through_gbuffer = true;
-    render.twice = true;
-    render.environment_errors = true;
-    // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
-    // which light is judged.
-    std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
-    if (traced) helpers = footprintChannels();
-    // How far the shadow filter reaches at a pixel follows from these.
-    if (options.settings.shadows != Shadows::off)
-        for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
-            helpers.push_back(static_cast<int>(mode));
-    for (const int mode : helpers)
-        if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
-    return render;
-}
-
 // Whether a comparison is with a reference in mode scene, drawn now or read from a file.
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
     const auto traced = [](const Settings& s) {
@@ -256,7 +237,8 @@ int runCompare(const Options& options) {
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
     KeptReferences kept(folder, true);
-    const RenderOptions render = bothOptions(options, isTraced(settings, baseline));
+    const RenderOptions render =
+        judgedOptions(renderOptions(options), options.settings, isTraced(settings, baseline));
     Drawn drawn = draw(options, settings, render, device, kept, progress);
     const ReportDevice here = reportDevice(device);
     std::string updated;

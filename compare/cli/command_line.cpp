@@ -283,6 +283,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (options.debug_given) options.shown = channelNumber(parsed.debug, "--debug");
     if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
     if (parsed.channels != "all") options.channels = channelNumbers(parsed.channels);
+    options.scene_given = !options.scenes.empty();
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
     if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: 0 or more", options.runs));

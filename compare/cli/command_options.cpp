@@ -29,7 +29,8 @@ const Command commands[] = {
      "diptych audit helmet.glb --quantity near,fov", true},
     {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
      "diptych plan helmet.glb --gbuffer compact", true},
-    {"view", "A window with both paths live", "diptych view helmet.glb", false},
+    {"view", "A window with both paths live: wipe, differences, channels, the verdict, a pixel's story",
+     "diptych view helmet.glb", true},
     {"bench", "Frame and pass times of several Settings side by side",
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9", true},
     {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices", true},
@@ -203,6 +204,9 @@ void hideGroup(CLI::App& app, const std::string& group) {
 
 void hideUnread(CLI::App& app, const std::string& command) {
     if (command != "render") hide(app, {"--frames", "--fps"});
+    if (command == "view")
+        hide(app, {"--runs", "--channels", "--times", "--single-file", "--keep", "--update-baseline",
+                   "--explain", "--force", "--json", "--strict", "--allow-empty"});
     if (command == "compare") {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
@@ -290,6 +294,17 @@ void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
                  "a page that holds its pictures, at half size; beside it only what CI reads");
 }
 
+void addView(CLI::App& app, ViewOptions& view) {
+    app.option_defaults()->group("What is shown");
+    app.add_option(
+           "--report", view.report,
+           "the view of a report of compare: its first failing channel at the worst pixel, or --debug's; of "
+           "several scenes that of SCENE")
+        ->type_name("DIR");
+    app.add_flag("--watch", view.watch, "read the scene again when its files change on disk");
+    app.get_option("--pixel")->description("the pixel that is looked into first");
+}
+
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
@@ -368,12 +383,15 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     addDevice(app, options);
     app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
 
-    if (command == "compare") {
+    // view understands the options of every compare, so that one line can be given to either.
+    if (command == "compare" || command == "view") {
         app.add_option("--times", parsed.times, "several animation times in one report, seconds (--time)")
             ->type_name("S,S,...")
             ->group(pixel_group)
             ->excludes(app.get_option("--time"));
-        addFiles(app, options, "folder of the report (diptych-report)");
+        addFiles(app, options,
+                 command == "view" ? "folder of what P writes (the current one)"
+                                   : "folder of the report (diptych-report)");
         app.add_option("--baseline", parsed.baseline,
                        "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
                        "compared (deferred)")
@@ -393,6 +411,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "instead of a report one pixel's whole story on stdout: both surfaces, each light's "
                        "term, which step differs first; exit code 0 where it could be told")
             ->type_name("X,Y");
+        if (command == "view") addView(app, options.view);
     } else if (command == "render") {
         addFiles(app, options,
                  "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");

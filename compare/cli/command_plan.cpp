@@ -20,20 +20,6 @@ struct ScenePlan {
     std::vector<PathPlan> paths;
 };
 
-// What the scene needs, in words; the sun that the tool adds to an unlit scene is not the scene's, and what
-// poses vertices is chosen.
-std::vector<Requirements::Line> linesOf(const SceneView& view, Skinning skinning) {
-    std::vector<Requirements::Line> lines = view.needs.lines();
-    for (Requirements::Line& line : lines) {
-        if (view.default_sun && line.what == "directional lights")
-            line.why = "the default sun, added because the scene has no light";
-        if (line.modelled && line.what == "skins and morph targets")
-            line.why += skinning == Skinning::compute ? ", posed once a frame by kernels"
-                                                      : ", posed by the vertex shader of every draw";
-    }
-    return lines;
-}
-
 Json jsonOf(const ScenePlan& plan) {
     Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
     for (const auto& line : plan.lines)
@@ -110,7 +96,7 @@ int runPlan(const Options& options) {
         const Scene scene = loadShown(name, options.settings, Stage(progress, name));
         SceneViews views(scene);
         const SceneView& view = views.at(viewRequest(settings.front()));
-        const ScenePlan result{scene.name, view.needs, linesOf(view, settings.front().skinning),
+        const ScenePlan result{scene.name, view.needs, planLines(view, settings.front().skinning),
                                describedFrame(scene, view, settings.front()).notes,
                                planPaths(device, views, settings)};
         progress.wipe();

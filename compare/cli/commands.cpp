@@ -5,16 +5,12 @@
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
 #include "compare/run/color.h"
-#include "shared/scene/image/environment.h"
-#include "shared/scene/load.h"
-#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -43,9 +39,9 @@ int listChannels(const Options& options) {
 int runCommand(const Options& options) {
     if (options.list_channels) return listChannels(options);
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
-        {"compare", runCompare}, {"render", runRender},  {"diff", runDiff},   {"tradeoff", runTradeoff},
-        {"explain", runExplain}, {"choose", runChoose},  {"audit", runAudit}, {"bench", runBench},
-        {"plan", runPlan},       {"devices", runDevices}};
+        {"compare", runCompare}, {"render", runRender},   {"diff", runDiff},   {"tradeoff", runTradeoff},
+        {"explain", runExplain}, {"choose", runChoose},   {"audit", runAudit}, {"bench", runBench},
+        {"plan", runPlan},       {"devices", runDevices}, {"view", runView}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::runtime_error(options.command + " is not built yet");
@@ -104,10 +100,6 @@ DeviceOptions deviceOptions(const Options& options) {
     return {options.device, options.validate};
 }
 
-ReportDevice reportDevice(const Device& device) {
-    return {device.info().name, device.info().driver, device.info().type};
-}
-
 void refuseOut(const Options& options) {
     if (!options.out.empty())
         throw std::runtime_error(fmt::format("-o {}: {} writes no file; {} --json > FILE keeps what it says",
@@ -124,25 +116,6 @@ double loadingShare(const std::string& scene, const RenderOptions& render, std::
     // In multiples of drawing one frame, roughly: files differ widely, built-in scenes are made at once.
     const double load = scene.starts_with("builtin:") ? 0.1 : 4;
     return load / (load + framesIn(render) * static_cast<double>(frames));
-}
-
-Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
-    progress.at(0, "read");
-    std::optional<Environment> environment;
-    std::vector<std::string> notes;
-    const bool own = settings.env == "scene";
-    if (!own && settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
-    Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
-    if (own && !scene.environment)
-        throw std::runtime_error(
-            fmt::format("--env scene: {} has no EXT_lights_image_based that is read", oneLine(where)));
-    if (environment) {
-        if (scene.environment)
-            notes.push_back(oneLine(scene.environment->name) + ": left out, --env is given");
-        scene.environment = std::move(environment);
-    }
-    std::ranges::move(notes, std::back_inserter(scene.notes));
-    return scene;
 }
 
 void note(const Options& options, const std::string& line) {

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "compare/cli/options.h"
+#include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
+#include "compare/render/shown_scene.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"
 #include "shared/scene/model/scene.h"
@@ -37,6 +39,7 @@ int runAudit(const Options& options);
 int runRelations(const Options& options, const Settings& settings);  // audit --relations, with these Settings
 int runPlan(const Options& options);
 int runDevices(const Options& options);
+int runView(const Options& options);
 
 // What the commands share.
 
@@ -52,7 +55,6 @@ PictureChoice pictureChoice(const Options& options);
 
 RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);
-ReportDevice reportDevice(const Device& device);
 
 // Throws where -o was given to a command that writes no file.
 void refuseOut(const Options& options);
@@ -67,9 +69,6 @@ void checkValidation(const Device& device);
 
 // The share of loading in the time until `frames` Frames of a scene are drawn, 0 to 1.
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
-
-// Loads the scene with the environment of the settings; reports to `progress`.
-Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
 
 // Print a line on stderr: note() unless --quiet was given, say() only with --verbose.
 void note(const Options& options, const std::string& line);

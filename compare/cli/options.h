@@ -37,6 +37,12 @@ struct AuditOptions {
     std::vector<std::string> chosen_relations;  // --relation: names; empty: all
 };
 
+// view
+struct ViewOptions {
+    std::filesystem::path report;  // --report: a folder that compare wrote; empty: none
+    bool watch = false;            // --watch
+};
+
 struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
     std::string command;  // "compare"
@@ -48,6 +54,7 @@ struct Options {
     double fps = 30;                       // and so many a second
     bool camera_given = false;             // --camera stood on the command line or in --settings
     bool path_given = false;               // --path stood on the command line
+    bool scene_given = false;              // a scene stood there
     bool size_given = false, shadows_given = false;  // likewise, or in --settings
     Path baseline = Path::deferred;                  // compare: the left panel
     int shown = 0;                                   // debug mode of the picture
@@ -83,6 +90,7 @@ struct Options {
     bench::BenchOptions bench;
     ChooseOptions choose;
     AuditOptions audit;
+    ViewOptions view;
     bool probe = false;  // devices: runs the probes of compare/probe
     std::string grid;    // tradeoff, choose: a file or JSON; empty: usualGrids()
 };

@@ -612,6 +612,7 @@ public:
                 const std::vector<float> values = renderTile(renderer, order[i]);
                 put(order[i], values);
                 if (checkpoint) checkpoint->keep(order[i], values);
+                if (request_.tile) tell(order[i]);
                 if (request_.progress)
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });
@@ -628,6 +629,13 @@ private:
         const int y0 = static_cast<int>(tile / static_cast<std::uint64_t>(across_)) * tileSide;
         for (int y = y0; y < std::min(y0 + tileSide, request_.view.height); ++y)
             for (int x = x0; x < std::min(x0 + tileSide, request_.view.width); ++x) visit(x, y);
+    }
+
+    void tell(std::uint64_t tile) const {
+        const int x = static_cast<int>(tile % static_cast<std::uint64_t>(across_)) * tileSide;
+        const int y = static_cast<int>(tile / static_cast<std::uint64_t>(across_)) * tileSide;
+        request_.tile(picture_, x, y, std::min(tileSide, request_.view.width - x),
+                      std::min(tileSide, request_.view.height - y));
     }
 
     // The seconds that the tile took, and its pixels' values.

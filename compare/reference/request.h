@@ -21,6 +21,7 @@
 namespace diptych::reference {
 
 class Checkpoint;
+struct Picture;
 
 struct Request {
     const Scene& scene;
@@ -57,6 +58,9 @@ struct Request {
     std::string_view program = {};
     // Called from any thread with the fraction that is done.
     std::function<void(double fraction)> progress = {};
+    // Called from any thread with each tile once it is in the picture: its left and top pixel, width and
+    // height. Only there may the picture be read; other tiles may be written meanwhile.
+    std::function<void(const Picture& picture, int x, int y, int width, int height)> tile = {};
     // Called once, soon, with the seconds that all of the picture is expected to take; not for a short one.
     std::function<void(double seconds)> expected = {};
 };

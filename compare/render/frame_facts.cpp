@@ -2,6 +2,7 @@
 #include "compare/render/frame_facts.h"
 
 #include "shared/frame/debug_modes.h"
+#include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,10 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
                                    : "--env-sun on: " + view.sun->why));
     frame.counters.lights = view.lights.size();
     return frame;
+}
+
+ReportDevice reportDevice(const Device& device) {
+    return {device.info().name, device.info().driver, device.info().type};
 }
 
 FrameCamera cameraOf(const View& view) {

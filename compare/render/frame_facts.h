@@ -13,6 +13,8 @@
 
 namespace diptych {
 
+class Device;
+
 // The view that these Settings ask for.
 ViewRequest viewRequest(const Settings& settings);
 
@@ -21,6 +23,9 @@ ViewRequest viewRequest(const Settings& settings);
 Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings);
 
 FrameCamera cameraOf(const View& view);
+
+// What reports say of a device.
+ReportDevice reportDevice(const Device& device);
 
 // Pixels with a component that is NaN or infinite.
 std::uint64_t nonfinitePixels(const Image& image);

@@ -20,6 +20,18 @@ SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views,
 
 }  // namespace
 
+std::vector<Requirements::Line> planLines(const SceneView& view, Skinning skinning) {
+    std::vector<Requirements::Line> lines = view.needs.lines();
+    for (Requirements::Line& line : lines) {
+        if (view.default_sun && line.what == "directional lights")
+            line.why = "the default sun, added because the scene has no light";
+        if (line.modelled && line.what == "skins and morph targets")
+            line.why += skinning == Skinning::compute ? ", posed once a frame by kernels"
+                                                      : ", posed by the vertex shader of every draw";
+    }
+    return lines;
+}
+
 std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings) {
     SharedResources shared(device, views.scene());
     std::vector<PathPlan> plans;

@@ -139,6 +139,10 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     request.keep = options.keep;
     request.program = commitName();
     request.progress = [&](double fraction) { options.progress.at(fraction, step); };
+    if (options.tile)
+        request.tile = [&](const reference::Picture& picture, int x, int y, int width, int height) {
+            options.tile(picture.channels, x, y, width, height);
+        };
     // Before any tile is drawn.
     request.expected = [&](double seconds) {
         step += fmt::format(", about {} in all", clockText(seconds));

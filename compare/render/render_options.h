@@ -3,10 +3,12 @@
 #pragma once
 
 #include "compare/run/progress.h"
+#include "shared/image/image.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,9 @@ struct RenderOptions {
     bool twice = false;                               // draw every channel twice, for Frame::noise
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
+    // Of a reference: called from any thread with each tile once it is drawn: all channels, of which only the
+    // tile may be read, its left and top pixel, width and height.
+    std::function<void(const std::map<int, Image>& channels, int x, int y, int width, int height)> tile{};
     // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:
     // nowhere.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};

@@ -56,6 +56,8 @@ Progress::Progress(std::optional<ProgressOutput> output) : output_(std::move(out
     drawing = this;
 }
 
+Progress::Progress(Listener listener) : listener_(std::move(listener)) {}
+
 Progress::~Progress() {
     wipe();
     const std::lock_guard lock(drawingMutex);
@@ -63,6 +65,7 @@ Progress::~Progress() {
 }
 
 void Progress::at(const std::string& what, double fraction, const std::string& step) {
+    if (listener_) return listener_(what, std::clamp(fraction, 0.0, 1.0), step);
     if (!output_) return;
     const std::lock_guard lock(mutex_);
     furthest_ = std::max(furthest_, std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0));

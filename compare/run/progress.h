@@ -26,6 +26,10 @@ class Progress {
 public:
     // Without an output nothing is ever written.
     explicit Progress(std::optional<ProgressOutput> output);
+    // Tells `listener` every step, from the thread that takes it, and writes nothing. What the listener
+    // throws ends the work that reports.
+    using Listener = std::function<void(const std::string& what, double fraction, const std::string& step)>;
+    explicit Progress(Listener listener);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -38,6 +42,7 @@ public:
 
 private:
     std::optional<ProgressOutput> output_;
+    Listener listener_;
     std::timed_mutex mutex_;
     ProgressOutput::Time start_{}, next_{};  // not drawn before `next_`
     double furthest_ = 0;

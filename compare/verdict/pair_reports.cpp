@@ -3,7 +3,9 @@
 
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
+#include "compare/verdict/footprint.h"
 #include "compare/verdict/tolerance.h"
+#include "shared/contract/debug_mode.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +13,23 @@
 #include <utility>
 
 namespace diptych {
+
+RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced) {
+    render.through_gbuffer = true;
+    render.twice = true;
+    render.environment_errors = true;
+    // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
+    // which light is judged.
+    std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
+    if (traced) helpers = footprintChannels();
+    // How far the shadow filter reaches at a pixel follows from these.
+    if (settings.shadows != Shadows::off)
+        for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
+            helpers.push_back(static_cast<int>(mode));
+    for (const int mode : helpers)
+        if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
+    return render;
+}
 
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
                   const CompareOptions& options, std::vector<std::vector<FeatureChecks>> checks) {

@@ -2,12 +2,18 @@
 // Reports made from Frames that come in pairs, beside a reference, or beside an earlier Frame.
 #pragma once
 
+#include "compare/render/render_options.h"
 #include "compare/verdict/comparison.h"
 
 #include <string>
 #include <vector>
 
 namespace diptych {
+
+// What must be drawn of a path for a verdict on the channels of `render`: with what its G-buffer's encoding
+// makes of them, drawn twice, and with channels that nobody asked for but that tell which pixels count.
+// `traced`: some comparison is with a reference in mode scene.
+RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced);
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
 // drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `checks`: one per pair,

@@ -3,7 +3,7 @@
 
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/commands.h"
-#include "shared/vulkan/driver_files.h"
+#include "shared/vulkan/instance.h"
 #include "shared/vulkan/physical_device.h"
 #include "shared/vulkan/pipeline_cache.h"
 
@@ -20,123 +20,6 @@ namespace diptych {
 
 namespace {
 
-constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
-
-// What the validation layers said. Their callback may come from any thread.
-struct ValidationLog {
-    std::atomic<std::uint64_t> messages{0};
-    std::mutex mutex;
-    std::string first;
-};
-
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                         VkDebugUtilsMessageTypeFlagsEXT types,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    // General messages are the loader's own remarks on layers and drivers it found.
-    if ((types & ~VkDebugUtilsMessageTypeFlagsEXT{VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT}) == 0)
-        return VK_FALSE;
-    auto& log = *static_cast<ValidationLog*>(user);
-    const std::scoped_lock lock(log.mutex);
-    if (log.messages++ == 0) log.first = data->pMessage;
-    return VK_FALSE;
-}
-
-bool layerThere(const char* name) {
-    std::uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const auto& l) { return std::string_view(l.layerName) == name; });
-}
-
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
-    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-            .pNext = nullptr,
-            .flags = 0,
-            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
-            .pfnUserCallback = onMessage,
-            .pUserData = &log};
-}
-
-class Instance {
-public:
-    explicit Instance(ValidationLog* log) {
-        if (log != nullptr && !layerThere(validationLayer))
-            throw std::runtime_error(
-                "--validate: the Khronos validation layer is missing; install vulkan-validationlayers");
-        const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                            .pNext = nullptr,
-                                            .pApplicationName = "diptych",
-                                            .applicationVersion = 1,
-                                            .pEngineName = "diptych",
-                                            .engineVersion = 1,
-                                            .apiVersion = VK_API_VERSION_1_3};
-        VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                  .pNext = nullptr,
-                                  .flags = 0,
-                                  .pApplicationInfo = &application,
-                                  .enabledLayerCount = 0,
-                                  .ppEnabledLayerNames = nullptr,
-                                  .enabledExtensionCount = 0,
-                                  .ppEnabledExtensionNames = nullptr};
-        const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-        const VkValidationFeatureEnableEXT enable =
-            VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-        VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-                                         .pNext = nullptr,
-                                         .enabledValidationFeatureCount = 1,
-                                         .pEnabledValidationFeatures = &enable,
-                                         .disabledValidationFeatureCount = 0,
-                                         .pDisabledValidationFeatures = nullptr};
-        VkDebugUtilsMessengerCreateInfoEXT messages{};
-        if (log != nullptr) {
-            messages = messengerInfo(*log);
-            features.pNext = &messages;
-            info.pNext = &features;
-            info.enabledLayerCount = 1;
-            info.ppEnabledLayerNames = &validationLayer;
-            info.enabledExtensionCount = 1;
-            info.ppEnabledExtensionNames = &extension;
-        }
-        const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
-        if (result != VK_SUCCESS)
-            throw std::runtime_error(fmt::format("Vulkan: no instance: {}; {}", nameOf(result),
-                                                 driverFilesFault().value_or("install mesa-vulkan-drivers")));
-        if (log == nullptr) return;
-        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-            vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
-        messages.pNext = nullptr;
-        checkResult(create(handle_, &messages, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
-    }
-    ~Instance() {
-        if (messenger_ != VK_NULL_HANDLE)
-            reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
-                handle_, "vkDestroyDebugUtilsMessengerEXT"))(handle_, messenger_, nullptr);
-        vkDestroyInstance(handle_, nullptr);
-    }
-    Instance(const Instance&) = delete;
-    Instance& operator=(const Instance&) = delete;
-
-    operator VkInstance() const { return handle_; }
-
-    std::vector<VkPhysicalDevice> devices() const {
-        std::uint32_t count = 0;
-        checkResult(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
-        std::vector<VkPhysicalDevice> found(count);
-        checkResult(vkEnumeratePhysicalDevices(handle_, &count, found.data()), "vkEnumeratePhysicalDevices");
-        return found;
-    }
-
-private:
-    VkInstance handle_ = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-};
-
 struct DeviceDeleter {
     using pointer = VkDevice;
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
@@ -145,7 +28,7 @@ struct DeviceDeleter {
 }  // namespace
 
 std::vector<DeviceInfo> listDevices() {
-    const Instance instance(nullptr);
+    const VulkanInstance instance;
     std::vector<DeviceInfo> infos;
     for (const VkPhysicalDevice device : instance.devices())
         infos.push_back(describe(device, static_cast<int>(infos.size())));
@@ -159,7 +42,7 @@ std::uint64_t elapsedTicks(std::uint64_t from, std::uint64_t to, std::uint32_t v
 
 struct Device::State {
     ValidationLog log;
-    std::optional<Instance> instance;
+    std::optional<VulkanInstance> instance;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
     DeviceProfile profile;

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/cli/verdict_words.h"
+#include "compare/files/our_files.h"
+#include "compare/viewer/viewer.h"
+#include "shared/image/limits.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace diptych::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What a report says of one comparison and one of its channels.
+struct ReportedView {
+    std::string scene, baseline, channel;
+    Settings settings;
+    std::optional<viewer::PixelPlace> pixel;
+};
+
+[[noreturn]] void failReport(const std::filesystem::path& file, const std::string& what) {
+    throw std::runtime_error(fmt::format("--report {}: {}", file.parent_path().string(), what));
+}
+
+// The first that fails, or else the first; of the scene, if one was given.
+const Json& chosenComparison(const Json& comparisons, const Options& options,
+                             const std::filesystem::path& file) {
+    const Json* first = nullptr;
+    for (const Json& comparison : comparisons) {
+        if (options.scene_given && comparison.at("scene") != options.scenes.front()) continue;
+        if (!first) first = &comparison;
+        if (comparison.at("verdict") == "fail") return comparison;
+    }
+    if (!first)
+        failReport(file, options.scene_given ? "has no comparison of " + options.scenes.front()
+                                             : "has no comparison");
+    return *first;
+}
+
+// The channel asked for; else the first that fails, or lit.
+const Json& chosenChannel(const Json& channels, const Options& options, const std::filesystem::path& file) {
+    const Json* best = nullptr;
+    for (const Json& channel : channels) {
+        if (options.debug_given && channel.at("number") == options.shown) return channel;
+        if (channel.at("verdict") == "fail" && (!best || best->at("verdict") != "fail")) best = &channel;
+        if (!best && channel.at("number") == 0) best = &channel;
+    }
+    if (options.debug_given)
+        failReport(file, fmt::format("has no channel {}", debugMode(options.shown).name));
+    if (!best) {
+        if (channels.empty()) failReport(file, "has no channels");
+        best = &channels.front();
+    }
+    return *best;
+}
+
+ReportedView readReport(const Options& options) {
+    const std::filesystem::path file = options.view.report / "report.json";
+    if (!isOurManifest(file))
+        failReport(file, "is no folder that compare has written: no report.json of ours is there");
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    try {
+        const Json report = Json::parse(text);
+        const Json& comparison = chosenComparison(report.at("comparisons"), options, file);
+        const Json& channel = chosenChannel(comparison.at("channels"), options, file);
+        ReportedView view{.scene = comparison.at("scene").get<std::string>(),
+                          .baseline = comparison.at("baseline").get<std::string>(),
+                          .channel = channel.at("name").get<std::string>(),
+                          .settings = {},
+                          .pixel = {}};
+        for (const Json& frame : report.at("frames"))
+            if (frame.at("scene") == view.scene && frame.at("name") == comparison.at("test") &&
+                frame.at("camera") == comparison.at("camera"))
+                view.settings = settingsFromJson(frame.at("settings").dump());
+        if (const Json& worst = channel.at("worst_pixel"); worst.is_array() && worst.at(0).get<int>() >= 0)
+            view.pixel = viewer::PixelPlace{worst.at(0).get<int>(), worst.at(1).get<int>()};
+        return view;
+    } catch (const Json::exception& error) {
+        failReport(file, oneLine(error.what()));
+    }
+}
+
+void takeReport(const Options& options, viewer::ViewerOptions& view) {
+    const ReportedView reported = readReport(options);
+    view.subject.scene = reported.scene;
+    view.subject.settings = reported.settings;
+    view.size_given = true;
+    view.look.mode = findDebugMode(reported.channel)->number;
+    view.look.difference = viewer::Difference::absolute;
+    view.pixel = reported.pixel;
+    if (reported.baseline == nameOf(Path::reference)) view.look.against = viewer::Against::reference;
+}
+
+void checkOneWindow(const Options& options) {
+    if (options.scenes.size() > 1)
+        throw std::runtime_error(
+            fmt::format("view shows one scene, and {} are given", options.scenes.size()));
+    if (options.cameras.size() > 1)
+        throw std::runtime_error(fmt::format("--camera {}: view begins at one camera, and N goes to the next",
+                                             options.cameras[1]));
+}
+
+}  // namespace
+
+int runView(const Options& options) {
+    checkOneWindow(options);
+    viewer::ViewerOptions view;
+    view.subject.scene = options.scenes.front();
+    view.subject.settings = options.settings;
+    view.size_given = options.size_given;
+    view.look.mode = options.shown;
+    if (options.baseline == Path::reference) view.look.against = viewer::Against::reference;
+    if (!options.baseline_file.empty()) {
+        view.look.against = viewer::Against::file;
+        view.look.file = options.baseline_file;
+    }
+    if (!options.view.report.empty()) takeReport(options, view);
+    const PictureChoice picture = pictureChoice(options);
+    view.look.exposure = picture.exposure;
+    view.look.ev100 = picture.ev100;
+    view.look.tonemap = picture.tonemap;
+    if (options.pixel) view.pixel = viewer::PixelPlace{options.pixel->x, options.pixel->y};
+    if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
+                       view.pixel->y >= view.subject.settings.size.height))
+        throw std::runtime_error(fmt::format(
+            "--pixel {},{}: outside the picture; --size sets how large it is", view.pixel->x, view.pixel->y));
+    for (const Path path : drawn_paths) {
+        Settings settings = withoutReference(view.subject.settings);
+        settings.path = path;
+        if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+    }
+    view.watch = options.view.watch;
+    view.out = options.out;
+    view.device = deviceOptions(options);
+    view.compare = compareOptions(options);
+    view.say = [&](const std::string& line) { say(options, "view: " + line); };
+    const viewer::ViewerResult result = viewer::runViewer(view);
+    if (result.validation_messages > 0)
+        throw std::runtime_error(fmt::format("--validate: {} messages, the first: {}",
+                                             result.validation_messages, result.first_validation_message));
+    return 0;
+}
+
+}  // namespace diptych::cli

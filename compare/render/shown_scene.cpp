@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/shown_scene.h"
+
+#include "shared/scene/image/environment.h"
+#include "shared/scene/load.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
+    progress.at(0, "read");
+    std::optional<Environment> environment;
+    std::vector<std::string> notes;
+    const bool own = settings.env == "scene";
+    if (!own && settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
+    Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
+    if (own && !scene.environment)
+        throw std::runtime_error(
+            fmt::format("--env scene: {} has no EXT_lights_image_based that is read", oneLine(where)));
+    if (environment) {
+        if (scene.environment)
+            notes.push_back(oneLine(scene.environment->name) + ": left out, --env is given");
+        scene.environment = std::move(environment);
+    }
+    std::ranges::move(notes, std::back_inserter(scene.notes));
+    return scene;
+}
+
+}  // namespace diptych

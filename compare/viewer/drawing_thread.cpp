@@ -1,0 +1,767 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/drawing_thread.h"
+
+#include "compare/explain/pixel_words.h"
+#include "compare/files/frame_exr.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/path_plan.h"
+#include "compare/render/renderer.h"
+#include "compare/render/shown_scene.h"
+#include "compare/report/frame_files.h"
+#include "compare/verdict/pair_reports.h"
+#include "compare/viewer/pictures.h"
+#include "compare/viewer/reference_thread.h"
+#include "shared/frame/made_channels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace diptych::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), depthMode = static_cast<int>(gpu::DEBUG_depth),
+               ids = static_cast<int>(gpu::DEBUG_material_id),
+               counts = static_cast<int>(gpu::DEBUG_light_count);
+
+// Both paths of a picture that moves: 16 pictures a second, and a key is seen within two of them.
+constexpr double movingMs = 60;
+// A still picture that takes longer is preceded by a smaller one.
+constexpr double patienceMs = 250;
+// How often what is done of the reference is shown.
+constexpr std::chrono::milliseconds referencePause{200};
+// So many times a lost device is made anew, one after the other, before that is given up until something else
+// is asked for.
+constexpr int mostRecoveries = 3;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Thrown out of work that nobody wants any more.
+struct Superseded {};
+
+double durationOf(const Animation& animation) {
+    double end = 0;
+    for (const Keyframes& keyframes : animation.keyframes)
+        if (!keyframes.times.empty()) end = std::max(end, double{keyframes.times.back()});
+    return end;
+}
+
+std::vector<int> everyChannel() {
+    std::vector<int> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+    return modes;
+}
+
+// While it moves, pixels that no light reaches count as background, which only a capture tells apart: the
+// pipelines that are timed write light alone. The depth is 1 or 0, for coverage().
+void guessBackground(Frame& frame) {
+    const Image& light = frame.channels.at(lit);
+    Image near(light.width, light.height, 1);
+    for (std::size_t i = 0; i < light.pixels(); ++i)
+        near.pixel(i)[0] =
+            std::any_of(light.pixel(i), light.pixel(i) + light.components, [](float v) { return v != 0; })
+                ? 1.0f
+                : 0.0f;
+    frame.channels[depthMode] = std::move(near);
+}
+
+}  // namespace
+
+Size movingSize(const Size& full, double milliseconds, double pixels, double took) {
+    const double all = double(full.width) * full.height,
+                 expected = pixels > 0 ? took * all / pixels : milliseconds;
+    // Beyond 8 a picture says nothing any more.
+    const int divisor =
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(expected / milliseconds) - 0.05)), 1, 8);
+    Size size = full;
+    size.width = std::max(1, full.width / divisor);
+    size.height = std::max(1, full.height / divisor);
+    return size;
+}
+
+struct DrawingThread::State {
+    explicit State(DrawingOptions o)
+        : options(std::move(o)),
+          reference([this] {
+              {
+                  const std::lock_guard lock(mutex);
+                  more_of_reference = true;
+              }
+              signal.notify_all();
+          }),
+          progress(
+              [this](const std::string&, double fraction, const std::string& step) { at(fraction, step); }),
+          thread([this] { run(); }) {}
+    ~State() {
+        {
+            const std::lock_guard lock(mutex);
+            stopping = true;
+        }
+        signal.notify_all();
+        thread.join();
+    }
+
+    // ---- shared with the interface, under `mutex` ----------------------------------------------------
+
+    const DrawingOptions options;
+    mutable std::mutex mutex;
+    std::condition_variable signal;
+    bool stopping = false;
+    std::optional<Order> wanted;
+    std::optional<std::filesystem::path> save_to;
+    std::string saved;
+    std::shared_ptr<const Shown> shown;
+    std::shared_ptr<const Judged> judged;
+    std::shared_ptr<const Story> story;
+    std::shared_ptr<const SceneFacts> facts;
+    Status status;
+    bool waiting = false;
+    std::string device_name;
+    std::uint64_t validation_messages = 0;
+    std::string first_validation_message;
+
+    // ---- of the drawing thread alone -------------------------------------------------------------------
+
+    Order order;  // that is being worked on
+    std::atomic<bool> more_of_reference{false};
+    std::optional<Device> device;
+    std::shared_ptr<PipelineSet> pipelines;
+    std::shared_ptr<const Scene> scene;
+    std::optional<Subject> loaded;  // scene, reading and environment of what is loaded, or could not be
+    std::unique_ptr<SceneViews> views;
+    std::unique_ptr<Renderer> renderer;
+    std::array<Frame, 2> frames;   // deferred, forward+, of `drawn`
+    std::optional<Subject> drawn;  // still and whole
+    std::vector<int> drawn_channels;
+    std::optional<std::uint64_t> shown_order, failed_order;
+    std::optional<Subject> timed, judged_of;
+    Against judged_against = Against::paths;
+    bool judged_reference = false;
+    std::optional<std::pair<Subject, PixelPlace>> told;
+    std::optional<std::pair<std::filesystem::path, std::shared_ptr<const Frame>>> stored;
+    std::array<PathFacts, 2> paths;
+    double last_pixels = 0, last_ms = 0;  // of a whole picture of both paths
+    std::optional<Exposure> exposure;     // of the last still picture
+    Look exposure_of;
+    Clock::time_point reference_shown{};
+    int recoveries = 0;
+    bool loading = false;
+    ReferenceThread reference;
+    Progress progress;
+    std::thread thread;
+
+    // ---- the loop --------------------------------------------------------------------------------------
+
+    void run() {
+        yieldToInterface();
+        while (next()) {
+            try {
+                work();
+                recoveries = 0;
+            } catch (const Superseded&) {
+            } catch (const std::bad_alloc&) {
+                fail("out of memory; try a smaller size");
+            } catch (const std::exception& error) {
+                if (!recovered(error.what())) fail(error.what());
+            }
+        }
+        reference.stop();
+        dropRenderer();
+        device.reset();
+    }
+
+    // Waits until there is something to do; false: the end.
+    bool next() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            if (stopping) return false;
+            if (wanted && wanted->number != order.number) order = *wanted;
+            if (save_to || (order.number != 0 && hasWork())) {
+                waiting = false;
+                return true;
+            }
+            waiting = true;
+            status.doing.clear();
+            if (more_of_reference && order.look.against == Against::reference && !order.moving) {
+                // What is done of a reference is shown now and then.
+                signal.wait_until(lock, reference_shown + referencePause);
+            } else {
+                options.wake();
+                signal.wait(lock);
+            }
+        }
+    }
+
+    bool hasWork() const {
+        if (failed_order == order.number) return false;
+        if (shown_order != order.number) return true;
+        if (order.moving) return false;
+        return wantsReferenceShown() || wantsTimes() || wantsVerdict() || wantsStory();
+    }
+    bool wantsReferenceShown() const {
+        return order.look.against == Against::reference && more_of_reference &&
+               (reference.done() >= 1 || Clock::now() >= reference_shown + referencePause);
+    }
+    bool wantsTimes() const { return timed != order.subject; }
+    bool wantsVerdict() const {
+        return judged_of != order.subject || judged_against != order.look.against ||
+               (order.look.against == Against::reference && !judged_reference && reference.done() >= 1);
+    }
+    bool wantsStory() const { return order.pixel && told != std::pair(order.subject, *order.pixel); }
+
+    // One piece; the most urgent first.
+    void work() {
+        if (const auto folder = takeSave()) return write(*folder);
+        readScene();
+        needRenderer();
+        if (shown_order != order.number) {
+            if (!order.moving) drawSmallerFirst();
+            return draw(order.subject.settings.size);
+        }
+        if (wantsReferenceShown()) return draw(order.subject.settings.size);
+        if (wantsStory()) return tell();
+        if (wantsTimes()) return time();
+        if (wantsVerdict()) return judge();
+    }
+
+    bool isSuperseded() const {
+        const std::lock_guard lock(mutex);
+        return stopping || (wanted && wanted->number != order.number);
+    }
+    void heed() const {
+        if (isSuperseded()) throw Superseded();
+    }
+    void at(double fraction, const std::string& step) {
+        heed();
+        {
+            const std::lock_guard lock(mutex);
+            status.fraction = fraction;
+            status.doing = step;
+        }
+        options.wake();
+    }
+    Stage stage(const char* what) { return {progress, what}; }
+
+    void fail(const std::string& why) {
+        failed_order = order.number;
+        {
+            const std::lock_guard lock(mutex);
+            status.error = why;
+            status.doing.clear();
+            status.loading = false;
+        }
+        options.wake();
+    }
+
+    // ---- device and scene --------------------------------------------------------------------------------
+
+    void dropRenderer() {
+        renderer.reset();
+        views.reset();
+        pipelines.reset();
+    }
+
+    void countMessages() {
+        if (!device) return;
+        const std::lock_guard lock(mutex);
+        if (validation_messages == 0) first_validation_message = device->firstValidationMessage();
+        validation_messages += device->validationMessages();
+    }
+
+    void needDevice() {
+        if (device) return;
+        at(0, "start the device");
+        device.emplace(options.device);
+        const std::lock_guard lock(mutex);
+        device_name = device->info().name;
+    }
+
+    void needRenderer() {
+        needDevice();
+        if (renderer) return;
+        at(0, "upload");
+        pipelines = makePipelineSet(*device);
+        views = std::make_unique<SceneViews>(*scene);
+        renderer = std::make_unique<Renderer>(*device, *views, pipelines);
+        drawn.reset();
+        timed.reset();
+    }
+
+    // Whether the device was lost, and there is a new one to try with.
+    bool recovered(const std::string& why) {
+        const bool lost = why.find("lost") != std::string::npos;
+        if (!lost || ++recoveries > mostRecoveries) return false;
+        countMessages();
+        dropRenderer();
+        device.reset();
+        const std::lock_guard lock(mutex);
+        status.error = why + "; the device is started again";
+        return true;
+    }
+
+    bool isLoaded(const Subject& subject) const {
+        return loaded && loaded->scene == subject.scene && loaded->reading == subject.reading &&
+               loaded->settings.env == subject.settings.env;
+    }
+
+    // A scene that cannot be read leaves the one before it where it is.
+    void readScene() {
+        if (isLoaded(order.subject)) {
+            if (!scene) throw std::runtime_error(status.error);
+            return;
+        }
+        {
+            const std::lock_guard lock(mutex);
+            status.loading = true;
+        }
+        const Subject asked = order.subject;
+        std::shared_ptr<const Scene> read;
+        try {
+            read = std::make_shared<const Scene>(loadShown(asked.scene, asked.settings, stage("load")));
+        } catch (const std::runtime_error&) {
+            loaded = asked;
+            throw;
+        }
+        reference.stop();
+        const bool first = !scene;
+        dropRenderer();
+        scene = std::move(read);
+        loaded = asked;
+        auto known = std::make_shared<SceneFacts>();
+        known->name = scene->name;
+        for (const Camera& camera : poseAt(*scene, 0, "").cameras) known->cameras.push_back(camera.name);
+        for (const Animation& animation : scene->animations) {
+            known->animations.push_back(animation.name);
+            known->duration = std::max(known->duration, durationOf(animation));
+        }
+        known->notes = scene->notes;
+        {
+            const std::lock_guard lock(mutex);
+            facts = std::move(known);
+            status.loading = false;
+            if (!first) status.error.clear();
+        }
+        drawn.reset();
+        judged_of.reset();
+    }
+
+    // ---- pictures ----------------------------------------------------------------------------------------
+
+    Settings settingsOf(Path path, const Size& size) const {
+        Settings settings = withoutReference(order.subject.settings);
+        settings.path = path;
+        settings.size = size;
+        if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+        return settings;
+    }
+
+    // Views of the cameras that were passed on the way are of no more use.
+    void forgetViews() { views->clear(); }
+
+    // lit alone, by the pipelines that are timed: nothing needs to be compiled for it, and little is read
+    // back.
+    std::array<Frame, 2> drawLit(const Size& size) {
+        const std::array settings{settingsOf(Path::deferred, size), settingsOf(Path::forward_plus, size)};
+        PreparedFrames prepared = renderer->prepare(settings);
+        std::array<Frame, 2> result;
+        for (std::size_t i = 0; i < 2; ++i) {
+            heed();
+            Frame& frame = result.at(i);
+            frame = prepared.described(i);
+            frame.passes = prepared.profile(i);
+            frame.time.median =
+                std::accumulate(frame.passes.begin(), frame.passes.end(), 0.0,
+                                [](double sum, const PassTime& pass) { return sum + pass.ms; });
+            frame.channels[lit] = prepared.lit(i);
+            if (auto repaired = repairNonfinite(frame.channels[lit]); !repaired.empty()) {
+                frame.counters.nonfinite_pixels = repaired.size();
+                frame.repaired[lit] = std::move(repaired);
+            }
+            prepared.readCounters(i, frame.counters);
+            guessBackground(frame);
+        }
+        return result;
+    }
+
+    RenderOptions channelOptions(std::vector<int> channels) {
+        RenderOptions render;
+        render.channels = std::move(channels);
+        for (const int helper : {lit, ids})
+            if (std::ranges::count(render.channels, helper) == 0) render.channels.push_back(helper);
+        render.runs = 0;
+        return render;
+    }
+
+    std::array<Frame, 2> drawChannels(const Size& size, const std::vector<int>& channels) {
+        RenderOptions render = channelOptions(channels);
+        std::array<Frame, 2> result;
+        for (std::size_t i = 0; i < 2; ++i) {
+            render.progress =
+                stage("draw").part(0.5 * static_cast<double>(i), 0.5 * static_cast<double>(i + 1));
+            result.at(i) =
+                renderer->draw(settingsOf(i == 0 ? Path::deferred : Path::forward_plus, size), render);
+        }
+        return result;
+    }
+
+    void takeFacts(const std::array<Frame, 2>& of, bool timed_too) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            PathFacts& facts_of = paths.at(i);
+            const Frame& frame = of.at(i);
+            facts_of.name = frame.name;
+            if (timed_too) {
+                facts_of.ms = frame.time.median;
+                facts_of.passes = frame.passes;
+            }
+            facts_of.bytes = frame.bytes;
+            facts_of.counters = frame.counters;
+            facts_of.notes = frame.notes;
+            if (const auto found = frame.channels.find(counts); found != frame.channels.end()) {
+                const Coverage covered = coverage(frame, frame);
+                double sum = 0, most = 0;
+                for (std::size_t p = 0; p < found->second.pixels(); ++p)
+                    if (covered.covered[p]) {
+                        sum += double{found->second.pixel(p)[0]};
+                        most = std::max(most, double{found->second.pixel(p)[0]});
+                    }
+                facts_of.mean_lights = covered.count > 0 ? sum / static_cast<double>(covered.count) : 0;
+                facts_of.most_lights = most;
+            }
+        }
+    }
+
+    // A still picture that takes long is shown smaller first.
+    void drawSmallerFirst() {
+        const Size full = order.subject.settings.size;
+        if (drawn == order.subject || order.look.mode != lit) return;
+        const double expected =
+            last_pixels > 0 ? last_ms * full.width * full.height / last_pixels : 2 * patienceMs;
+        if (expected < patienceMs) return;
+        const Size small = last_pixels > 0 ? movingSize(full, movingMs, last_pixels, last_ms)
+                                           : Size{std::max(1, full.width / 3), std::max(1, full.height / 3)};
+        drawAt(small, true);
+    }
+
+    void draw(const Size& full) {
+        if (order.moving) return drawAt(movingSize(full, movingMs, last_pixels, last_ms), true);
+        drawAt(full, false);
+    }
+
+    bool has(const std::vector<int>& channels) const {
+        return std::ranges::all_of(channels,
+                                   [&](int mode) { return std::ranges::count(drawn_channels, mode) > 0; });
+    }
+
+    void drawAt(const Size& size, bool passing) {
+        const auto start = Clock::now();
+        if (options.before_picture) options.before_picture();
+        forgetViews();
+        const int mode = order.look.mode;
+        std::array<Frame, 2> passed;
+        const bool known = !passing && drawn == order.subject && has({mode});
+        if (passing)
+            passed = mode == lit ? drawLit(size) : drawChannels(size, {mode});
+        else if (!known) {
+            frames = drawChannels(size, {mode});
+            drawn = order.subject;
+            drawn_channels = {mode, lit, ids};
+        }
+        const std::array<Frame, 2>& now = passing ? passed : frames;
+        if (!known) {
+            last_pixels = double(size.width) * size.height;
+            last_ms = msSince(start);
+            takeFacts(now, passing && mode == lit);
+        }
+        show(now, size, passing, start);
+    }
+
+    // The Frame that stands left; nothing where it is another path's.
+    std::shared_ptr<const Frame> leftFrame(bool passing, Shown& into) {
+        if (order.look.against == Against::file) return storedFrame();
+        if (order.look.against != Against::reference || passing) return nullptr;
+        Settings wanted_settings = referenceSettings(order.subject.settings);
+        if (const auto problem = wanted_settings.problem()) throw std::runtime_error(*problem);
+        if (reference.settings() != wanted_settings) {
+            std::optional<Frame> surfaces;
+            if (wanted_settings.reference_mode == ReferenceMode::surface) {
+                RenderOptions capture;
+                capture.channels = reference::surfaceChannels();
+                capture.runs = 0;
+                capture.progress = stage("the reference's surfaces");
+                surfaces = renderer->draw(surfaceSettings(wanted_settings), capture);
+            }
+            reference.begin(scene, wanted_settings, std::move(surfaces));
+        }
+        more_of_reference = false;
+        reference_shown = Clock::now();
+        if (const std::string error = reference.error(); !error.empty()) throw std::runtime_error(error);
+        into.reference_done = reference.done();
+        return reference.frame();
+    }
+
+    std::shared_ptr<const Frame> storedFrame() {
+        if (!stored || stored->first != order.look.file)
+            stored.emplace(order.look.file, std::make_shared<const Frame>(frameFromExr(order.look.file)));
+        return stored->second;
+    }
+
+    void show(const std::array<Frame, 2>& now, const Size& size, bool passing, Clock::time_point start) {
+        auto next = std::make_shared<Shown>();
+        next->order = order;
+        next->size = size;
+        const std::size_t right = order.subject.settings.path == Path::deferred ? 0 : 1;
+        const std::shared_ptr<const Frame> left = leftFrame(passing, *next);
+        const Frame& baseline = left ? *left : now.at(1 - right);
+        // An exposure that is found anew for every smaller picture would flicker.
+        if (!passing || !exposure || exposure_of.picture().exposure != order.look.exposure ||
+            exposure_of.ev100 != order.look.ev100 || exposure_of.tonemap != order.look.tonemap) {
+            exposure = exposureOf(now.at(1 - right), now.at(right), order.look);
+            exposure_of = order.look;
+        }
+        makePictures(baseline, now.at(right), order.look, *exposure, *next);
+        if (left && next->reference_done < 1 && order.look.against == Against::reference)
+            next->panels[0].name = fmt::format("reference, {:.0f} % drawn", 100 * next->reference_done);
+        const SceneView& view = views->at(viewRequest(now.at(right).settings));
+        next->camera = cameraOf(view.view);
+        next->view = view.view;
+        next->lights = view.lights;
+        next->paths = paths;
+        next->made_in_ms = msSince(start);
+        {
+            const std::lock_guard lock(mutex);
+            shown = std::move(next);
+            status.error.clear();
+        }
+        if (!passing || order.moving) shown_order = order.number;
+        options.wake();
+    }
+
+    // ---- what a still picture has besides
+    // ------------------------------------------------------------------
+
+    void time() {
+        const std::array settings{settingsOf(Path::deferred, order.subject.settings.size),
+                                  settingsOf(Path::forward_plus, order.subject.settings.size)};
+        RenderOptions render;
+        render.runs = 3;
+        render.progress = stage("time");
+        const std::vector<TimedFrame> times = renderer->time(settings, render);
+        for (std::size_t i = 0; i < 2; ++i) {
+            paths.at(i).ms = times.at(i).time.median;
+            paths.at(i).passes = times.at(i).passes;
+        }
+        timed = order.subject;
+        auto next = std::make_shared<Shown>(*shown);
+        next->paths = paths;
+        const std::lock_guard lock(mutex);
+        shown = std::move(next);
+    }
+
+    void judge() {
+        const Settings& settings = order.subject.settings;
+        RenderOptions render = channelOptions(everyChannel());
+        render.requested = everyChannel();
+        render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene);
+        render.twice = false;
+        std::vector<Frame> both;
+        for (std::size_t i = 0; i < 2; ++i) {
+            render.progress =
+                stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
+            both.push_back(renderer->draw(
+                settingsOf(i == 0 ? Path::deferred : Path::forward_plus, settings.size), render));
+        }
+        // Every channel is there from now on.
+        frames = {both[0], both[1]};
+        drawn = order.subject;
+        drawn_channels = everyChannel();
+        takeFacts(frames, false);
+        auto next = std::make_shared<Judged>();
+        next->subject = order.subject;
+        const SceneView& view = views->at(viewRequest(both[0].settings));
+        next->plan = planLines(view, settings.skinning);
+        CompareOptions compare = options.compare;
+        compare.progress = stage("verdict").part(0.8, 1);
+        judged_reference = order.look.against == Against::reference && reference.done() >= 1;
+        if (judged_reference) {
+            std::vector<Frame> three{*reference.frame()};
+            std::ranges::move(both, std::back_inserter(three));
+            next->report = makeReferenceReport(std::move(three), {view.needs, view.needs, view.needs},
+                                               reportDevice(*device), compare, {}, {});
+        } else if (order.look.against == Against::file) {
+            Frame baseline = *storedFrame();
+            baseline.requested = both[0].requested;
+            next->report = makeBaselineReport(std::move(baseline), std::move(both), view.needs,
+                                              reportDevice(*device), compare, {});
+        } else {
+            next->report =
+                makeReport(std::move(both), {view.needs, view.needs}, reportDevice(*device), compare, {});
+        }
+        judged_of = order.subject;
+        judged_against = order.look.against;
+        auto again = std::make_shared<Shown>(*shown);
+        again->paths = paths;
+        {
+            const std::lock_guard lock(mutex);
+            judged = std::move(next);
+            shown = std::move(again);
+        }
+        countMessagesSoFar();
+        options.wake();
+    }
+
+    void tell() {
+        const Settings& settings = order.subject.settings;
+        PixelQuestion question{.x = order.pixel->x,
+                               .y = order.pixel->y,
+                               .baseline = settingsOf(Path::deferred, settings.size),
+                               .test = settingsOf(Path::forward_plus, settings.size),
+                               .reference = referenceSettings(settings),
+                               .device = reportDevice(*device),
+                               .rules = options.compare.rules,
+                               .progress = stage("this pixel")};
+        auto next = std::make_shared<Story>(
+            Story{order.subject, *order.pixel, pixelStory(*renderer, *views, question), {}});
+        next->words = inWords(next->story);
+        told = std::pair(order.subject, *order.pixel);
+        const std::lock_guard lock(mutex);
+        story = std::move(next);
+    }
+
+    void countMessagesSoFar() {
+        if (!device || device->validationMessages() == 0) return;
+        const std::lock_guard lock(mutex);
+        if (validation_messages == 0) {
+            validation_messages = device->validationMessages();
+            first_validation_message = device->firstValidationMessage();
+        }
+    }
+
+    // ---- files
+    // -----------------------------------------------------------------------------------------------
+
+    std::optional<std::filesystem::path> takeSave() {
+        const std::lock_guard lock(mutex);
+        return std::exchange(save_to, std::nullopt);
+    }
+
+    void write(const std::filesystem::path& folder) {
+        std::string line;
+        try {
+            readScene();
+            needRenderer();
+            forgetViews();
+            RenderOptions render = channelOptions(everyChannel());
+            render.requested = everyChannel();
+            std::filesystem::create_directories(folder);
+            std::filesystem::path stem;
+            for (int number = 1; stem.empty() || std::filesystem::exists(stem.string() + ".deferred.exr");
+                 ++number)
+                stem = folder / fmt::format("diptych-view-{:04}", number);
+            const ReportDevice made = reportDevice(*device);
+            const DebugMode& mode = debugMode(order.look.mode);
+            for (const Path path : {Path::deferred, Path::forward_plus}) {
+                const Frame frame = renderer->draw(settingsOf(path, order.subject.settings.size), render);
+                const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));
+                writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.picture());
+                if (frame.channels.contains(mode.number))
+                    writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.picture());
+            }
+            line = fmt::format("written: {}.deferred and .forward_plus, .exr and .png", stem.string());
+        } catch (const Superseded&) {
+            // A newer order comes first.
+            const std::lock_guard lock(mutex);
+            if (!save_to) save_to = folder;
+            throw;
+        } catch (const std::exception& error) {
+            line = fmt::format("not written: {}", error.what());
+        }
+        {
+            const std::lock_guard lock(mutex);
+            saved = line;
+        }
+        options.wake();
+    }
+};
+
+DrawingThread::DrawingThread(DrawingOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+DrawingThread::~DrawingThread() = default;
+
+std::uint64_t DrawingThread::ask(Order order) {
+    std::uint64_t number = 0;
+    {
+        const std::lock_guard lock(state_->mutex);
+        number = order.number = state_->wanted ? state_->wanted->number + 1 : 1;
+        state_->wanted = std::move(order);
+        state_->waiting = false;
+    }
+    state_->signal.notify_all();
+    return number;
+}
+
+void DrawingThread::save(const std::filesystem::path& folder) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->save_to = folder;
+        state_->waiting = false;
+    }
+    state_->signal.notify_all();
+}
+
+std::string DrawingThread::saved() {
+    const std::lock_guard lock(state_->mutex);
+    return std::exchange(state_->saved, {});
+}
+
+std::shared_ptr<const Shown> DrawingThread::shown() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->shown;
+}
+std::shared_ptr<const Judged> DrawingThread::judged() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->judged;
+}
+std::shared_ptr<const Story> DrawingThread::story() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->story;
+}
+std::shared_ptr<const SceneFacts> DrawingThread::facts() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->facts;
+}
+Status DrawingThread::status() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->status;
+}
+bool DrawingThread::idle() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->waiting;
+}
+std::string DrawingThread::device() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->device_name;
+}
+std::uint64_t DrawingThread::validationMessages() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->validation_messages;
+}
+std::string DrawingThread::firstValidationMessage() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->first_validation_message;
+}
+
+}  // namespace diptych::viewer

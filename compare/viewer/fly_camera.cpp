@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/fly_camera.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::viewer {
+namespace {
+
+// As far as the camera looks up and down: short of straight, where right and left have no meaning.
+constexpr double steepest = 89.5 * std::numbers::pi / 180;
+
+double pitchOf(const glm::dvec3& unit) {
+    return std::asin(std::clamp(unit.y, -1.0, 1.0));
+}
+double headingOf(const glm::dvec3& unit) {
+    return std::atan2(-unit.x, -unit.z);
+}
+glm::dvec3 directionOf(double heading, double pitch) {
+    return {-std::sin(heading) * std::cos(pitch), std::sin(pitch), -std::cos(heading) * std::cos(pitch)};
+}
+
+}  // namespace
+
+void FlyCamera::take(const FrameCamera& camera) {
+    eye_ = {camera.eye[0], camera.eye[1], camera.eye[2]};
+    const glm::dvec3 target(camera.target[0], camera.target[1], camera.target[2]);
+    const glm::dvec3 to = target - eye_;
+    reach_ = glm::length(to);
+    if (!(reach_ > 0) || !std::isfinite(reach_)) return;
+    known_ = true;
+    heading_ = headingOf(to / reach_);
+    pitch_ = std::clamp(pitchOf(to / reach_), -steepest, steepest);
+    fov_ = camera.fov_degrees;
+    near_ = camera.near;
+    far_ = camera.far;
+}
+
+glm::dvec3 FlyCamera::forward() const {
+    return directionOf(heading_, pitch_);
+}
+
+glm::dvec3 FlyCamera::right() const {
+    return {std::cos(heading_), 0, -std::sin(heading_)};
+}
+
+void FlyCamera::look(double right, double up) {
+    heading_ = std::remainder(heading_ - right, 2 * std::numbers::pi);
+    pitch_ = std::clamp(pitch_ + up, -steepest, steepest);
+}
+
+void FlyCamera::move(const glm::dvec3& by) {
+    eye_ += right() * by.x + glm::dvec3(0, by.y, 0) + forward() * by.z;
+}
+
+// The eye in the camera's own axes, seen from the pivot, stays the same.
+void FlyCamera::orbit(const glm::dvec3& pivot, double right, double up) {
+    const auto upOf = [this] { return glm::cross(this->right(), forward()); };
+    const glm::dvec3 from = eye_ - pivot;
+    const glm::dvec3 own(glm::dot(from, this->right()), glm::dot(from, upOf()), glm::dot(from, forward()));
+    look(right, up);
+    eye_ = pivot + this->right() * own.x + upOf() * own.y + forward() * own.z;
+}
+
+std::string FlyCamera::words() const {
+    const glm::dvec3 target = eye_ + forward() * reach_;
+    return fmt::format(
+        "eye={:.9g},{:.9g},{:.9g} target={:.9g},{:.9g},{:.9g} fov={:.9g} near={:.9g} far={:.9g}", eye_.x,
+        eye_.y, eye_.z, target.x, target.y, target.z, fov_, near_, far_);
+}
+
+}  // namespace diptych::viewer

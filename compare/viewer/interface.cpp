@@ -1,0 +1,579 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/interface.h"
+
+#include "compare/picture/heat.h"
+#include "compare/run/command_text.h"
+#include "compare/viewer/keys.h"
+#include "compare/viewer/panels.h"
+#include "compare/viewer/pictures.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::viewer {
+namespace {
+
+constexpr double barHeight = 30, footHeight = 24, sideWidth = 470;  // at scale 1
+
+constexpr ImU32 white = IM_COL32(255, 255, 255, 255), black = IM_COL32(0, 0, 0, 255),
+                grey = IM_COL32(190, 190, 190, 255);
+
+void push(std::deque<float>& values, double value) {
+    values.push_back(static_cast<float>(value));
+    if (values.size() > History::longest) values.pop_front();
+}
+
+// ---- the bar ---------------------------------------------------------------------------------------------
+
+template <class Value, class Name>
+void combo(const char* label, float width, Value& value, std::initializer_list<Value> values,
+           const Name& name) {
+    ImGui::SetNextItemWidth(width);
+    if (!ImGui::BeginCombo(label, std::string(name(value)).c_str())) return;
+    for (const Value each : values)
+        if (ImGui::Selectable(std::string(name(each)).c_str(), each == value)) value = each;
+    ImGui::EndCombo();
+}
+
+std::string_view nameOf(Layout layout) {
+    switch (layout) {
+        case Layout::wipe:
+            return "wipe";
+        case Layout::side_by_side:
+            return "side by side";
+        case Layout::single:
+            return "one panel";
+    }
+    return {};
+}
+
+void channelCombo(InterfaceState& state, float width) {
+    const DebugMode& now = debugMode(state.look.mode);
+    ImGui::SetNextItemWidth(width);
+    if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", now.number, now.name).c_str(),
+                           ImGuiComboFlags_HeightLarge))
+        return;
+    for (const DebugMode& mode : debugModes()) {
+        if (ImGui::Selectable(fmt::format("{} {}", mode.number, mode.name).c_str(),
+                              mode.number == state.look.mode))
+            state.look.mode = mode.number;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(mode.shows).c_str());
+    }
+    ImGui::EndCombo();
+}
+
+void exposureInput(InterfaceState& state, const Contents& contents, float width) {
+    bool automatic = !state.look.exposure && !state.look.ev100;
+    if (ImGui::Checkbox("auto", &automatic)) {
+        state.look.exposure.reset();
+        state.look.ev100.reset();
+        if (!automatic) state.look.exposure = 1;
+    }
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("exposure: %s", contents.shown ? contents.shown->scale.c_str() : "automatic");
+    if (!state.look.exposure) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    auto factor = static_cast<float>(*state.look.exposure);
+    if (ImGui::DragFloat("##exposure", &factor, 0.01f * factor, 1e-12f, 1e12f, "x %.4g",
+                         ImGuiSliderFlags_Logarithmic) &&
+        factor > 0)
+        state.look.exposure = double{factor};
+}
+
+void bar(InterfaceState& state, const Contents& contents, int width, float scale) {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({static_cast<float>(width), static_cast<float>(barHeight) * scale});
+    ImGui::Begin("bar", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    const auto space = [&] { ImGui::SameLine(0, 14 * scale); };
+    ImGui::TextUnformatted("channel");
+    ImGui::SameLine();
+    channelCombo(state, 150 * scale);
+    space();
+    ImGui::TextUnformatted("panels");
+    ImGui::SameLine();
+    combo("##layout", 105 * scale, state.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single},
+          [](Layout l) { return nameOf(l); });
+    space();
+    ImGui::TextUnformatted("against");
+    ImGui::SameLine();
+    Against against = state.look.against;
+    combo("##against", 125 * scale, against,
+          state.stored.empty()
+              ? std::initializer_list<Against>{Against::paths, Against::reference}
+              : std::initializer_list<Against>{Against::paths, Against::reference, Against::file},
+          [](Against a) { return viewer::nameOf(a); });
+    if (against != state.look.against) {
+        state.look.against = against;
+        state.look.file = against == Against::file ? state.stored : std::filesystem::path();
+    }
+    space();
+    ImGui::TextUnformatted("difference");
+    ImGui::SameLine();
+    combo("##difference", 90 * scale, state.look.difference,
+          {Difference::none, Difference::signed_difference, Difference::absolute, Difference::relative,
+           Difference::flip},
+          [](Difference d) { return viewer::nameOf(d); });
+    space();
+    exposureInput(state, contents, 90 * scale);
+    space();
+    if (ImGui::SmallButton("keys: H")) state.help = !state.help;
+    ImGui::End();
+}
+
+// ---- the foot --------------------------------------------------------------------------------------------
+
+std::string underWords(const Contents& contents) {
+    if (!contents.under || !contents.shown) return "no pixel under the cursor";
+    const Shown& shown = *contents.shown;
+    const Size& full = shown.order.subject.settings.size;
+    const auto [x, y] = contents.under->pixel;
+    std::string words = fmt::format("{},{}", x, y);
+    for (const Panel& panel : shown.panels)
+        if (!panel.values.empty())
+            words += fmt::format("  {}: {}", panel.name,
+                                 valueWords(panel.values, x * panel.values.width / full.width,
+                                            y * panel.values.height / full.height));
+    if (shown.difference && !shown.difference->values.empty()) {
+        const Image& values = shown.difference->values;
+        words += fmt::format("  difference: {}", valueWords(values, x * values.width / full.width,
+                                                            y * values.height / full.height));
+    }
+    return words;
+}
+
+void foot(InterfaceState& state, const Contents& contents, int width, int height, float scale) {
+    const float tall = static_cast<float>(footHeight) * scale;
+    ImGui::SetNextWindowPos({0, static_cast<float>(height) - tall});
+    ImGui::SetNextWindowSize({static_cast<float>(width), tall});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale, 4 * scale});
+    ImGui::Begin("foot", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    if (!contents.status.error.empty()) {
+        ImGui::TextColored({1, 0.45f, 0.4f, 1}, "%s", contents.status.error.c_str());
+    } else if (ImGui::GetTime() < state.message_until) {
+        ImGui::TextColored({0.6f, 0.9f, 0.6f, 1}, "%s", state.message.c_str());
+    } else {
+        ImGui::TextUnformatted(underWords(contents).c_str());
+    }
+    const std::string doing =
+        contents.status.doing.empty()
+            ? (contents.idle ? "still" : "drawing")
+            : fmt::format("{} {:.0f} %", contents.status.doing, 100 * contents.status.fraction);
+    const float room = ImGui::CalcTextSize(doing.c_str()).x;
+    ImGui::SameLine(std::max(0.0f, static_cast<float>(width) - room - 12 * scale));
+    ImGui::TextUnformatted(doing.c_str());
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+// ---- over the pictures -----------------------------------------------------------------------------------
+
+void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places,
+            float scale) {
+    const Shown& shown = *contents.shown;
+    for (const PanelPlace& place : places) {
+        const float x = static_cast<float>(place.rect.x) + 8 * scale,
+                    y = static_cast<float>(place.rect.y) + 6 * scale;
+        const bool narrow = static_cast<float>(place.rect.width) < 40 * scale;
+        if (narrow) continue;
+        ImGui::GetForegroundDrawList()->PushClipRect(
+            {static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
+            {static_cast<float>(place.rect.x + place.rect.width),
+             static_cast<float>(place.rect.y + place.rect.height)});
+        if (place.panel == 2) {
+            const std::string kind = fmt::format(
+                "{} difference of {}: {} (left) against {} (right)", viewer::nameOf(state.look.difference),
+                debugMode(shown.order.look.mode).name, shown.panels[0].name, shown.panels[1].name);
+            drawOutlined(x, y, white, kind);
+            if (shown.difference && !shown.difference->missing.empty())
+                drawOutlined(x, y + 18 * scale, grey, shown.difference->missing);
+        } else {
+            const Panel& panel = shown.panels.at(place.panel);
+            drawOutlined(x, y, white,
+                         fmt::format("{}: {}", panel.name, debugMode(shown.order.look.mode).name));
+            if (!panel.missing.empty()) drawOutlined(x, y + 18 * scale, grey, panel.missing);
+        }
+        ImGui::GetForegroundDrawList()->PopClipRect();
+    }
+}
+
+void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::vector<PanelPlace>& places,
+              float scale) {
+    if (state.canvas.layout != Layout::wipe || places.empty() || places.front().panel == 2) return;
+    const auto x =
+        static_cast<float>(canvas.x) + static_cast<float>(std::lround(state.canvas.wipe * canvas.width));
+    ImDrawList* const list = ImGui::GetBackgroundDrawList();
+    const float middle = static_cast<float>(canvas.y) + 0.5f * static_cast<float>(canvas.height);
+    list->AddLine({x, static_cast<float>(canvas.y)}, {x, static_cast<float>(canvas.y + canvas.height)}, white,
+                  scale);
+    list->AddTriangleFilled({x - 10 * scale, middle}, {x - 4 * scale, middle - 6 * scale},
+                            {x - 4 * scale, middle + 6 * scale}, white);
+    list->AddTriangleFilled({x + 10 * scale, middle}, {x + 4 * scale, middle + 6 * scale},
+                            {x + 4 * scale, middle - 6 * scale}, white);
+}
+
+// A bar of colours with the values at its ends and in its middle, and what they are.
+template <class Color>
+void legend(const CanvasRect& canvas, float scale, const Color& color,
+            const std::array<std::string, 3>& values, const std::string& words) {
+    ImDrawList* const list = ImGui::GetBackgroundDrawList();
+    const float width = std::min(260 * scale, 0.6f * static_cast<float>(canvas.width)), tall = 12 * scale;
+    const float left = static_cast<float>(canvas.x) + 12 * scale;
+    const float top = static_cast<float>(canvas.y + canvas.height) - 56 * scale;
+    list->AddRectFilled(
+        {left - 6 * scale, top - 20 * scale},
+        {left + std::max(width, ImGui::CalcTextSize(words.c_str()).x) + 6 * scale, top + 34 * scale},
+        IM_COL32(0, 0, 0, 190));
+    list->AddText({left, top - 17 * scale}, white, words.c_str());
+    constexpr int steps = 64;
+    for (int i = 0; i < steps; ++i) {
+        const std::array<std::uint8_t, 3> c = color((i + 0.5) / steps);
+        list->AddRectFilled({left + width * static_cast<float>(i) / steps, top},
+                            {left + width * static_cast<float>(i + 1) / steps + 1, top + tall},
+                            IM_COL32(c[0], c[1], c[2], 255));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float room = ImGui::CalcTextSize(values[i].c_str()).x;
+        list->AddText({left + (width - room) * 0.5f * static_cast<float>(i), top + tall + 3 * scale}, white,
+                      values[i].c_str());
+    }
+}
+
+void legends(const Contents& contents, const CanvasRect& canvas, float scale) {
+    const Shown& shown = *contents.shown;
+    if (shown.difference) {
+        if (!shown.difference->missing.empty()) return;
+        const double top = shown.difference->top;
+        if (top == 0)
+            drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
+                         static_cast<float>(canvas.y + canvas.height) - 24 * scale, white,
+                         shown.difference->words + ": 0 everywhere");
+        else if (shown.difference->is_signed)
+            legend(
+                canvas, scale,
+                [](double t) { return signedColor(std::copysign((2 * t - 1) * (2 * t - 1), 2 * t - 1)); },
+                {fmt::format("-{:.3g}", top), "0", fmt::format("{:.3g}", top)}, shown.difference->words);
+        else
+            legend(
+                canvas, scale, [](double t) { return errorColor(t); },
+                {"0", fmt::format("{:.3g}", 0.25 * top), fmt::format("{:.3g}", top)},
+                shown.difference->words);
+    } else if (shown.heat_top > 0) {
+        legend(
+            canvas, scale, [](double t) { return heatColor(t); },
+            {"0", fmt::format("{:g}", 0.5 * shown.heat_top), fmt::format("{:g}", shown.heat_top)},
+            "lights a pixel");
+    } else if (shown.order.look.mode != static_cast<int>(gpu::DEBUG_lit)) {
+        drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
+                     static_cast<float>(canvas.y + canvas.height) - 24 * scale, white, shown.scale);
+    }
+}
+
+// The values of large pixels, written into them.
+void values(const Contents& contents, const std::vector<PanelPlace>& places) {
+    const Shown& shown = *contents.shown;
+    const Size& full = shown.order.subject.settings.size;
+    for (const PanelPlace& place : places) {
+        const auto [left, top, size] = place.placement;
+        if (size < valuesFrom) continue;
+        const Image& image =
+            place.panel == 2 ? shown.difference->values : shown.panels.at(place.panel).values;
+        if (image.empty() || image.width != full.width || image.height != full.height) continue;
+        ImDrawList* const list = ImGui::GetForegroundDrawList();
+        list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
+                           {static_cast<float>(place.rect.x + place.rect.width),
+                            static_cast<float>(place.rect.y + place.rect.height)});
+        const int x0 = std::max(0, static_cast<int>((place.rect.x - left) / size)),
+                  x1 = std::min(full.width - 1,
+                                static_cast<int>((place.rect.x + place.rect.width - left) / size));
+        const int y0 = std::max(0, static_cast<int>((place.rect.y - top) / size)),
+                  y1 = std::min(full.height - 1,
+                                static_cast<int>((place.rect.y + place.rect.height - top) / size));
+        const float line = ImGui::GetTextLineHeight();
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x)
+                for (int c = 0; c < image.components; ++c)
+                    drawOutlined(static_cast<float>(left + x * size) + 4,
+                                 static_cast<float>(top + y * size) + 3 + static_cast<float>(c) * line, white,
+                                 fmt::format("{:.4g}", image.at(x, y, c)));
+        list->PopClipRect();
+    }
+}
+
+// Where a point of the world lies in a panel; nothing behind the camera.
+struct Projected {
+    float x = 0, y = 0;
+    double depth = 0;
+};
+std::optional<Projected> project(const View& view, const glm::dvec3& world, const Placement& placement,
+                                 const Size& size) {
+    const glm::dvec4 clip = view.clipFromWorld() * glm::dvec4(world - view.eye(), 1);
+    if (!(clip.w > 0)) return std::nullopt;
+    return Projected{
+        static_cast<float>(placement.left + (clip.x / clip.w * 0.5 + 0.5) * size.width * placement.scale),
+        static_cast<float>(placement.top + (clip.y / clip.w * 0.5 + 0.5) * size.height * placement.scale),
+        clip.w};
+}
+
+// A circle as large as the sphere of the light's range, and where the light is.
+void lights(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
+    const Shown& shown = *contents.shown;
+    const Size& full = shown.order.subject.settings.size;
+    ImDrawList* const list = ImGui::GetBackgroundDrawList();
+    for (const PanelPlace& place : places) {
+        list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
+                           {static_cast<float>(place.rect.x + place.rect.width),
+                            static_cast<float>(place.rect.y + place.rect.height)});
+        int directional = 0;
+        for (const Light& light : shown.lights) {
+            const auto largest = double{std::max({light.color.x, light.color.y, light.color.z, 1e-6f})};
+            const auto part = [&](float c) {
+                return static_cast<int>(std::lround(80 + 175 * double{c} / largest));
+            };
+            const ImU32 color = IM_COL32(part(light.color.x), part(light.color.y), part(light.color.z), 255);
+            if (light.kind == LightKind::directional) {
+                drawOutlined(
+                    static_cast<float>(place.rect.x) + 12 * scale,
+                    static_cast<float>(place.rect.y) + (48 + 16 * static_cast<float>(directional++)) * scale,
+                    color,
+                    fmt::format("directional {} towards {:.2f},{:.2f},{:.2f}", light.name, light.direction.x,
+                                light.direction.y, light.direction.z));
+                continue;
+            }
+            const std::optional<Projected> at = project(shown.view, light.position, place.placement, full);
+            if (!at) continue;
+            list->AddCircleFilled({at->x, at->y}, 4 * scale, color);
+            list->AddCircle({at->x, at->y}, 5 * scale, black);
+            if (!std::isfinite(light.range)) continue;
+            const std::optional<Projected> edge = project(
+                shown.view, light.position + shown.view.up() * double{light.range}, place.placement, full);
+            if (!edge) continue;
+            const float radius = std::hypot(edge->x - at->x, edge->y - at->y);
+            list->AddCircle({at->x, at->y}, std::min(radius, 8000.0f), color, 48, scale);
+        }
+        list->PopClipRect();
+    }
+}
+
+void chosenPixel(const InterfaceState& state, const std::vector<PanelPlace>& places, float scale) {
+    if (!state.pixel) return;
+    for (const PanelPlace& place : places) {
+        const auto [left, top, size] = place.placement;
+        const auto x = static_cast<float>(left + state.pixel->x * size),
+                   y = static_cast<float>(top + state.pixel->y * size);
+        const auto side = static_cast<float>(size);
+        if (!place.rect.contains(double{x} + 0.5 * size, double{y} + 0.5 * size)) continue;
+        ImDrawList* const list = ImGui::GetBackgroundDrawList();
+        const float edge = std::max(0.0f, 4 * scale - 0.5f * side);
+        list->AddRect({x - edge - 1, y - edge - 1}, {x + side + edge + 1, y + side + edge + 1}, black, 0, 0,
+                      3 * scale);
+        list->AddRect({x - edge - 1, y - edge - 1}, {x + side + edge + 1, y + side + edge + 1},
+                      IM_COL32(255, 230, 0, 255), 0, 0, scale);
+    }
+}
+
+void help(InterfaceState& state, int width, int height, float scale) {
+    if (!state.help) return;
+    ImGui::SetNextWindowPos({0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)},
+                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints(
+        {0, 0}, {static_cast<float>(width), std::max(60.0f, static_cast<float>(height) - 80 * scale)});
+    if (ImGui::Begin("Keys", &state.help,
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+            for (const KeyBinding& binding : keyBindings()) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextColored({1, 0.9f, 0.4f, 1}, "%s", std::string(binding.name).c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(std::string(binding.does).c_str());
+            }
+            for (const auto& [name, does] :
+                 {std::pair{"left drag",
+                            "looks around; in zoom moves the picture; on the wipe's line moves the line"},
+                  std::pair{"right click", "looks into a pixel: both surfaces, its lights, the tolerance"},
+                  std::pair{"wheel", "how fast the camera moves; in zoom how large pixels are"},
+                  std::pair{"drop a file",
+                            "a scene, an environment (.hdr, .exr) or a stored picture (.exr of ours)"}}) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextColored({1, 0.9f, 0.4f, 1}, "%s", name);
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(does);
+            }
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+}
+
+// How far the scene is read, while nothing can be drawn yet.
+void loading(const Contents& contents, const CanvasRect& canvas, float scale) {
+    if (contents.shown && !contents.status.loading) return;
+    const float width = std::min(420 * scale, 0.8f * static_cast<float>(canvas.width));
+    ImGui::SetNextWindowPos({static_cast<float>(canvas.x) + 0.5f * static_cast<float>(canvas.width),
+                             static_cast<float>(canvas.y) + 0.5f * static_cast<float>(canvas.height)},
+                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({width, 0});
+    if (ImGui::Begin(
+            "loading", nullptr,
+            ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings)) {
+        ImGui::TextUnformatted(contents.status.doing.empty() ? "waiting" : contents.status.doing.c_str());
+        ImGui::ProgressBar(static_cast<float>(contents.status.fraction));
+    }
+    ImGui::End();
+}
+
+std::string plural(double count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+void information(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
+                 float scale) {
+    if (!state.information || !contents.shown) return;
+    const Shown& shown = *contents.shown;
+    ImGui::SetNextWindowPos(
+        {static_cast<float>(canvas.x + canvas.width) - 8 * scale, static_cast<float>(canvas.y) + 8 * scale},
+        ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowBgAlpha(0.72f);
+    if (ImGui::Begin("information", nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoFocusOnAppearing)) {
+        const bool small = shown.size.width != shown.order.subject.settings.size.width;
+        ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller while it moves" : "");
+        for (std::size_t i = 0; i < 2; ++i) {
+            const PathFacts& facts = shown.paths.at(i);
+            if (facts.name.empty()) continue;
+            ImGui::Text("%-12s %7.2f ms  %6.1f MiB", facts.name.c_str(), facts.ms,
+                        static_cast<double>(facts.bytes.images + facts.bytes.buffers) / (1 << 20));
+            if (contents.history && !contents.history->at(i).total.empty()) {
+                const std::deque<float>& total = contents.history->at(i).total;
+                const std::vector<float> flat(total.begin(), total.end());
+                const std::string label = fmt::format("##total{}", i);
+                ImGui::PlotLines(label.c_str(), flat.data(), static_cast<int>(flat.size()), 0, "frame, ms", 0,
+                                 1.2f * *std::ranges::max_element(flat), {230 * scale, 34 * scale});
+            }
+        }
+        const PathFacts& facts = shown.paths[1];
+        ImGui::Text("%s", plural(static_cast<double>(facts.counters.lights), "light").c_str());
+        if (facts.mean_lights)
+            ImGui::Text("a pixel evaluates %.1f, at most %.0f", *facts.mean_lights, *facts.most_lights);
+        if (facts.counters.overflowed_lists > 0)
+            ImGui::TextColored(
+                {1, 0.6f, 0.3f, 1}, "%s without room",
+                plural(static_cast<double>(facts.counters.overflowed_lists), "light list").c_str());
+        if (facts.counters.nonfinite_pixels > 0)
+            ImGui::TextColored({1, 0.4f, 1, 1}, "%s were NaN or infinite",
+                               plural(static_cast<double>(facts.counters.nonfinite_pixels), "pixel").c_str());
+        ImGui::Text("interface: 99 %% of its frames within %.1f ms", contents.interface_ms);
+    }
+    ImGui::End();
+}
+
+}  // namespace
+
+void History::add(const PathFacts& facts) {
+    if (facts.ms <= 0) return;
+    push(total, facts.ms);
+    for (const PassTime& pass : facts.passes) push(passes[pass.name], pass.ms);
+}
+
+CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale) {
+    const int top = static_cast<int>(barHeight * scale), bottom = static_cast<int>(footHeight * scale);
+    // A narrow window keeps some of its width for pictures.
+    const int side = state.panels ? std::min(static_cast<int>(sideWidth * scale), width / 2) : 0;
+    return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};
+}
+
+void drawOutlined(float x, float y, std::uint32_t color, const std::string& text) {
+    ImDrawList* const list = ImGui::GetForegroundDrawList();
+    for (const auto& [dx, dy] : {std::pair{-1.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, -1.0f}, {0.0f, 1.0f}})
+        list->AddText({x + dx, y + dy}, black, text.c_str());
+    list->AddText({x, y}, color, text.c_str());
+}
+
+std::string valueWords(const Image& image, int x, int y) {
+    std::string words;
+    if (x < 0 || y < 0 || x >= image.width || y >= image.height) return words;
+    for (int c = 0; c < image.components; ++c)
+        words += fmt::format("{}{}", c > 0 ? " " : "", image.at(x, y, c));
+    return words;
+}
+
+std::string renderCommand(const InterfaceState& state) {
+    std::vector<std::string> words = commandWords("render", state.subject.scene, state.subject.settings);
+    if (state.look.mode != static_cast<int>(gpu::DEBUG_lit))
+        words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.mode).name));
+    if (state.look.exposure)
+        words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));
+    if (state.look.ev100)
+        words = withOption(std::move(words), "--ev100", fmt::format("{}", *state.look.ev100));
+    if (!state.look.tonemap) words = withWords(std::move(words), {"--no-tonemap"});
+    return shellLine(words);
+}
+
+std::string compareCommand(const InterfaceState& state) {
+    std::vector<std::string> words = commandWords("compare", state.subject.scene, state.subject.settings);
+    if (state.look.against == Against::reference)
+        words = withOption(std::move(words), "--baseline", "reference");
+    if (state.look.against == Against::file)
+        words = withOption(std::move(words), "--baseline", state.look.file.string());
+    return shellLine(words);
+}
+
+void setOption(InterfaceState& state, const std::string& option, const std::string& word) {
+    try {
+        state.edited.set(option, word);
+        state.problem.clear();
+    } catch (const std::runtime_error& error) {
+        state.problem = error.what();
+        return;
+    }
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Settings settings = withoutReference(state.edited);
+        settings.path = path;
+        if (const auto problem = settings.problem()) {
+            state.problem = *problem;
+            return;
+        }
+    }
+    if (option == "size") state.follow = false;
+    state.subject.settings = state.edited;
+}
+
+void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
+                   const std::vector<PanelPlace>& places, double scale) {
+    const auto s = static_cast<float>(scale);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const int width = static_cast<int>(display.x), height = static_cast<int>(display.y);
+    if (contents.shown) {
+        legends(contents, canvas, s);
+        if (state.light_debug) lights(contents, places, s);
+        chosenPixel(state, places, s);
+        wipeLine(state, canvas, places, s);
+        values(contents, places);
+        titles(state, contents, places, s);
+    }
+    bar(state, contents, width, s);
+    foot(state, contents, width, height, s);
+    if (state.panels)
+        drawPanels(state, contents,
+                   {canvas.x + canvas.width, canvas.y, width - canvas.x - canvas.width, canvas.height}, s);
+    information(state, contents, canvas, s);
+    loading(contents, canvas, s);
+    help(state, width, height, s);
+}
+
+}  // namespace diptych::viewer

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/panels.h"
+
+#include "compare/report/titles.h"
+#include "shared/frame/settings.h"
+#include "shared/scene/lights/lights_json.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::viewer {
+namespace {
+
+const ImVec4 bad{1, 0.42f, 0.38f, 1}, good{0.5f, 0.9f, 0.5f, 1}, faint{0.62f, 0.62f, 0.65f, 1};
+
+void wrapped(const std::string& text, const ImVec4* color = nullptr) {
+    if (color) ImGui::PushStyleColor(ImGuiCol_Text, *color);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    if (color) ImGui::PopStyleColor();
+}
+
+// ---- verdict ---------------------------------------------------------------------------------------------
+
+std::string figure(double value) {
+    return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "infinite";
+}
+
+void channelRow(InterfaceState& state, const ChannelDiff& channel) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const bool compared = isCompared(channel.verdict);
+    const std::string name(channel.mode->name);
+    if (ImGui::Selectable(name.c_str(), channel.mode->number == state.look.mode,
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+        state.look.mode = channel.mode->number;
+        if (compared && channel.stats.worst_x >= 0)
+            state.requests.worst = {channel.mode->number, {channel.stats.worst_x, channel.stats.worst_y}};
+        if (compared && state.look.difference == Difference::none)
+            state.look.difference = Difference::absolute;
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(420);
+        ImGui::TextUnformatted(std::string(channel.mode->shows).c_str());
+        if (compared) ImGui::TextUnformatted(("tolerance: " + channel.tolerance.because).c_str());
+        if (!channel.reason.empty()) ImGui::TextColored(bad, "%s", channel.reason.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+    ImGui::TableNextColumn();
+    if (compared) ImGui::TextUnformatted(figure(channel.stats.max).c_str());
+    ImGui::TableNextColumn();
+    if (compared) ImGui::TextUnformatted(figure(channel.tolerance.max).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(compared ? std::string(nameOf(channel.mode->metric)).c_str() : "");
+    ImGui::TableNextColumn();
+    const bool failed = channel.verdict == Verdict::fail;
+    ImGui::TextColored(failed     ? bad
+                       : compared ? good
+                                  : faint,
+                       "%s", std::string(nameOf(channel.verdict)).c_str());
+}
+
+void comparisonTable(InterfaceState& state, const Report& report, const Comparison& comparison,
+                     std::size_t index) {
+    const std::string title =
+        fmt::format("{}: {}", pairTitle(report, comparison), comparison.passed() ? "pass" : "FAIL");
+    ImGui::TextColored(comparison.passed() ? good : bad, "%s", title.c_str());
+    for (const std::string& failure : comparison.failures) wrapped(failure, &bad);
+    const std::string id = fmt::format("channels{}", index);
+    if (!ImGui::BeginTable(id.c_str(), 5, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) return;
+    for (const char* head : {"channel", "largest error", "tolerance", "metric", "verdict"})
+        ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    for (const ChannelDiff* channel : failuresFirst(comparison)) channelRow(state, *channel);
+    ImGui::EndTable();
+}
+
+void verdictTab(InterfaceState& state, const Contents& contents) {
+    if (!contents.judged) {
+        wrapped("Both paths are compared, channel by channel, once the view stands still.", &faint);
+        return;
+    }
+    if (contents.judged->subject != state.subject)
+        wrapped("of the view before; this one is judged once it stands still", &faint);
+    else
+        wrapped(
+            "angular errors in degrees, absolute ones in the channel's unit; a click shows the difference "
+            "and its "
+            "worst pixel",
+            &faint);
+    std::size_t index = 0;
+    for (const Comparison& comparison : contents.judged->report.comparisons)
+        comparisonTable(state, contents.judged->report, comparison, index++);
+    if (ImGui::SmallButton("copy as diptych compare")) state.requests.copy = compareCommand(state);
+}
+
+// ---- settings --------------------------------------------------------------------------------------------
+
+std::vector<std::string> wordsOf(const std::string& accepted) {
+    std::vector<std::string> words;
+    std::size_t from = 0;
+    for (std::size_t bar = 0; bar != accepted.npos; from = bar + 1) {
+        bar = accepted.find('|', from);
+        words.push_back(accepted.substr(from, bar == accepted.npos ? bar : bar - from));
+    }
+    return words;
+}
+
+void textInput(InterfaceState& state, const std::string& option, const std::string& value,
+               const std::string& accepted) {
+    const std::string label = "##" + option;
+    std::array<char, 512> text{};
+    const auto typed = state.typed.find(option);
+    const std::string& now = typed == state.typed.end() ? value : typed->second;
+    std::strncpy(text.data(), now.c_str(), text.size() - 1);
+    if (ImGui::InputTextWithHint(label.c_str(), accepted.c_str(), text.data(), text.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+        setOption(state, option, text.data());
+        state.typed.erase(option);
+    } else if (ImGui::IsItemActive()) {
+        state.typed[option] = text.data();
+    } else if (typed != state.typed.end()) {
+        setOption(state, option, typed->second);
+        state.typed.erase(option);
+    }
+}
+
+void settingRow(InterfaceState& state, const Field& field) {
+    const std::string option(field.option), value = state.edited.valueOf(option),
+                                            accepted = acceptedValues(option);
+    const bool usual = value == Settings().valueOf(option);
+    std::string unread;
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Settings settings = state.edited;
+        settings.path = path;
+        if (const std::string_view why = ignoredBecause(settings, option); !why.empty())
+            unread += fmt::format("{}{} does not read it: {}", unread.empty() ? "" : "; ", nameOf(path), why);
+    }
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(usual ? ImVec4{0.8f, 0.8f, 0.82f, 1} : ImVec4{1, 0.85f, 0.4f, 1}, "%s",
+                       option.c_str());
+    if (ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(420);
+        ImGui::TextUnformatted(std::string(field.help).c_str());
+        ImGui::TextColored(faint, "--%s %s; usually %s", option.c_str(), accepted.c_str(),
+                           Settings().valueOf(option).empty() ? "empty" : Settings().valueOf(option).c_str());
+        if (!unread.empty()) ImGui::TextColored(faint, "%s", unread.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-1);
+    if (accepted.find('|') == accepted.npos) return textInput(state, option, value, accepted);
+    if (!ImGui::BeginCombo(("##" + option).c_str(), value.c_str())) return;
+    for (const std::string& word : wordsOf(accepted))
+        if (ImGui::Selectable(word.c_str(), word == value)) setOption(state, option, word);
+    ImGui::EndCombo();
+}
+
+void settingsTab(InterfaceState& state) {
+    if (!state.problem.empty()) wrapped("not drawn: " + state.problem, &bad);
+    ImGui::SetNextItemWidth(160);
+    ImGui::InputTextWithHint("##filter", "part of a name", state.filter.data(), state.filter.size());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("as usual")) {
+        Settings settings;
+        settings.size = state.subject.settings.size;
+        settings.camera = state.subject.settings.camera;
+        settings.path = state.subject.settings.path;
+        state.edited = state.subject.settings = settings;
+        state.problem.clear();
+        state.typed.clear();
+    }
+    ImGui::SameLine();
+    bool follow = state.follow;
+    if (ImGui::Checkbox("size of the window", &follow)) state.follow = follow;
+    const std::string filter = state.filter.data();
+    if (!ImGui::BeginTable("settings", 2, ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("setting", 0, 0.45f);
+    ImGui::TableSetupColumn("value", 0, 0.55f);
+    for (const Field& field : settingFields())
+        if (filter.empty() || std::string(field.option).find(filter) != std::string::npos)
+            settingRow(state, field);
+    ImGui::EndTable();
+}
+
+// ---- scene -----------------------------------------------------------------------------------------------
+
+void animationRows(InterfaceState& state, const SceneFacts& facts) {
+    if (facts.animations.empty()) return;
+    ImGui::Separator();
+    auto time = static_cast<float>(state.subject.settings.time);
+    ImGui::SetNextItemWidth(220);
+    if (ImGui::SliderFloat("time, s", &time, 0, static_cast<float>(std::max(facts.duration, 1e-3)), "%.3f"))
+        setOption(state, "time", fmt::format("{}", time));
+    ImGui::SameLine();
+    if (ImGui::SmallButton(state.playing ? "stop (K)" : "play (K)")) state.playing = !state.playing;
+}
+
+void lightRows(InterfaceState& state, const Contents& contents) {
+    ImGui::Separator();
+    bool rig = !state.subject.settings.lights.empty();
+    const std::string named = rig ? state.subject.settings.lights : state.rig;
+    if (!named.empty() && ImGui::Checkbox(fmt::format("lights {} (L)", named).c_str(), &rig)) {
+        if (!rig) state.rig = named;
+        setOption(state, "lights", rig ? named : "none");
+    }
+    ImGui::Checkbox("where they are and how far they reach (Q)", &state.light_debug);
+    if (!contents.shown) return;
+    if (!ImGui::BeginTable(
+            "lights", 4, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
+            {0, std::min(180.0f, 26.0f * static_cast<float>(contents.shown->lights.size() + 1))}))
+        return;
+    for (const char* head : {"light", "kind", "intensity", "range, m"}) ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(contents.shown->lights.size()));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const Light& light = contents.shown->lights[static_cast<std::size_t>(i)];
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::Text("%d %s", i, light.name.c_str());
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(std::string(nameOf(light.kind)).c_str());
+            ImGui::TableNextColumn();
+            ImGui::Text("%.4g", double{light.intensity});
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(std::isfinite(light.range) ? fmt::format("{:.4g}", light.range).c_str()
+                                                              : "none");
+        }
+    ImGui::EndTable();
+}
+
+void planRows(const Contents& contents) {
+    if (!contents.judged || contents.judged->plan.empty()) return;
+    for (const bool modelled : {true, false}) {
+        if (!ImGui::CollapsingHeader(
+                modelled ? "What this scene needs modelled" : "What is left out, and why",
+                modelled ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
+            continue;
+        for (const Requirements::Line& line : contents.judged->plan)
+            if (line.modelled == modelled) wrapped(fmt::format("{}: {}", line.what, line.why));
+    }
+}
+
+void sceneTab(InterfaceState& state, const Contents& contents) {
+    wrapped(state.subject.scene);
+    if (ImGui::SmallButton("read again (R)")) state.requests.reload = true;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("copy as diptych render (Y)")) state.requests.copy = renderCommand(state);
+    if (!contents.facts) return;
+    const SceneFacts& facts = *contents.facts;
+    ImGui::Separator();
+    const std::string& camera = state.subject.settings.camera;
+    ImGui::SetNextItemWidth(260);
+    if (ImGui::BeginCombo("camera (N)", camera.empty() ? "the scene's first, or the default view"
+                                        : camera.find('=') != camera.npos ? "free"
+                                                                          : camera.c_str())) {
+        if (ImGui::Selectable("the scene's first, or the default view", camera.empty()))
+            state.requests.camera = "";
+        for (std::size_t i = 0; i < facts.cameras.size(); ++i)
+            if (ImGui::Selectable(fmt::format("{} {}", i, facts.cameras[i]).c_str(),
+                                  camera == std::to_string(i)))
+                state.requests.camera = std::to_string(i);
+        ImGui::EndCombo();
+    }
+    animationRows(state, facts);
+    lightRows(state, contents);
+    ImGui::Separator();
+    wrapped("environment: " + state.subject.settings.env);
+    if (ImGui::CollapsingHeader("Notes", ImGuiTreeNodeFlags_DefaultOpen)) {
+        std::vector<std::string> notes = facts.notes;
+        if (contents.shown)
+            for (const PathFacts& path : contents.shown->paths)
+                for (const std::string& note : path.notes)
+                    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+        for (const std::string& note : notes) wrapped(note);
+        if (notes.empty()) wrapped("none", &faint);
+    }
+    planRows(contents);
+}
+
+// ---- pixel -----------------------------------------------------------------------------------------------
+
+void pixelTab(InterfaceState& state, const Contents& contents) {
+    if (!state.pixel) {
+        wrapped(
+            "A right click on a picture looks into a pixel: both surfaces, each light's term in both paths "
+            "and the "
+            "reference, the first step that differs, the tolerance and its reason.",
+            &faint);
+        return;
+    }
+    ImGui::Text("pixel %d,%d", state.pixel->x, state.pixel->y);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("copy as diptych compare --pixel"))
+        state.requests.copy =
+            fmt::format("{} --pixel {},{}", compareCommand(state), state.pixel->x, state.pixel->y);
+    const bool here =
+        contents.story && contents.story->pixel == *state.pixel && contents.story->subject == state.subject;
+    if (!here) wrapped("being drawn: each light alone in both paths, and the reference", &faint);
+    if (!contents.story) return;
+    ImGui::BeginChild("story", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    if (!here) ImGui::PushStyleColor(ImGuiCol_Text, faint);
+    ImGui::TextUnformatted(contents.story->words.c_str());
+    if (!here) ImGui::PopStyleColor();
+    ImGui::EndChild();
+}
+
+// ---- cost ------------------------------------------------------------------------------------------------
+
+void passTable(const PathFacts& facts, const History& history, float scale) {
+    double sum = 0;
+    for (const PassTime& pass : facts.passes) sum += pass.ms;
+    if (!ImGui::BeginTable(facts.name.c_str(), 4, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg))
+        return;
+    for (const char* head : {"pass", "ms", "share", "the last frames"}) ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    for (const PassTime& pass : facts.passes) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(pass.name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::Text("%.3f", pass.ms);
+        ImGui::TableNextColumn();
+        ImGui::Text("%.0f %%", sum > 0 ? 100 * pass.ms / sum : 0);
+        ImGui::TableNextColumn();
+        const auto found = history.passes.find(pass.name);
+        if (found == history.passes.end() || found->second.empty()) continue;
+        const std::vector<float> flat(found->second.begin(), found->second.end());
+        ImGui::PlotLines(("##" + facts.name + pass.name).c_str(), flat.data(), static_cast<int>(flat.size()),
+                         0, nullptr, 0, 1.2f * *std::ranges::max_element(flat), {120 * scale, 18 * scale});
+    }
+    ImGui::EndTable();
+}
+
+void costTab(const Contents& contents, float scale) {
+    wrapped(fmt::format("drawn by {}; the window by {}", contents.drawn_by, contents.shown_by), &faint);
+    if (!contents.shown || !contents.history) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const PathFacts& facts = contents.shown->paths.at(i);
+        if (facts.name.empty()) continue;
+        ImGui::Separator();
+        ImGui::Text("%s: %.2f ms a frame", facts.name.c_str(), facts.ms);
+        constexpr double mib = 1 << 20;
+        ImGui::Text("images %.2f MiB, buffers %.2f MiB; %llu bytes a pixel for geometry",
+                    static_cast<double>(facts.bytes.images) / mib,
+                    static_cast<double>(facts.bytes.buffers) / mib,
+                    static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
+        passTable(facts, contents.history->at(i), scale);
+    }
+}
+
+}  // namespace
+
+void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRect& rect, float scale) {
+    ImGui::SetNextWindowPos({static_cast<float>(rect.x), static_cast<float>(rect.y)});
+    ImGui::SetNextWindowSize({static_cast<float>(rect.width), static_cast<float>(rect.height)});
+    ImGui::Begin("panels", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    const std::optional<Tab> open = std::exchange(state.open, std::nullopt);
+    const auto tab = [&](Tab which, const char* name, const auto& draw) {
+        if (!ImGui::BeginTabItem(name, nullptr, open == which ? ImGuiTabItemFlags_SetSelected : 0)) return;
+        ImGui::BeginChild(name, {0, 0});
+        draw();
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+    };
+    if (ImGui::BeginTabBar("tabs")) {
+        tab(Tab::verdict, "Verdict", [&] { verdictTab(state, contents); });
+        tab(Tab::settings, "Settings", [&] { settingsTab(state); });
+        tab(Tab::scene, "Scene", [&] { sceneTab(state, contents); });
+        tab(Tab::pixel, "Pixel", [&] { pixelTab(state, contents); });
+        tab(Tab::cost, "Cost", [&] { costTab(contents, scale); });
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+}  // namespace diptych::viewer

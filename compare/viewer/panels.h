@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The tabs at the side: verdict, settings, scene, pixel, cost.
+#pragma once
+
+#include "compare/viewer/interface.h"
+
+namespace diptych::viewer {
+
+void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRect& rect, float scale);
+
+}  // namespace diptych::viewer

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/reference_thread.h"
+
+#include "compare/render/frame_facts.h"
+#include "compare/render/reference_frame.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace diptych::viewer {
+namespace {
+
+constexpr auto litChannel = static_cast<int>(gpu::DEBUG_lit);
+
+struct Stopped {};
+
+}  // namespace
+
+// On Linux a thread has a nice value of its own, which threads that it starts inherit.
+void yieldToInterface() {
+    constexpr int nicer = 10;
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nicer);
+}
+
+void ReferenceThread::stop() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+    stop_ = false;
+}
+
+void ReferenceThread::begin(std::shared_ptr<const Scene> scene, const Settings& settings,
+                            std::optional<Frame> surfaces) {
+    stop();
+    done_ = 0;
+    settings_ = settings;
+    {
+        const std::lock_guard lock(mutex_);
+        finished_.reset();
+        error_.clear();
+        partial_ = {};
+        partial_.settings = settings;
+        partial_.name = std::string(nameOf(settings.path));
+        if (surfaces) {
+            partial_.channels = surfaces->channels;
+            partial_.background = surfaces->background;
+        }
+        partial_.channels[litChannel] = Image(settings.size.width, settings.size.height, 3);
+    }
+    thread_ = std::thread([this, scene = std::move(scene), settings, surfaces = std::move(surfaces)] {
+        run(scene, settings, surfaces);
+    });
+}
+
+void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Settings& settings,
+                          const std::optional<Frame>& surfaces) {
+    yieldToInterface();
+    try {
+        Progress progress([this](const std::string&, double fraction, const std::string&) {
+            if (stop_) throw Stopped();
+            done_ = std::min(fraction, 0.999);  // 1 once the Frame is there
+        });
+        RenderOptions options;
+        options.runs = 0;
+        options.environment_errors = true;
+        for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
+        options.requested = options.channels;
+        options.progress = Stage(progress, "reference");
+        options.tile = [this](const std::map<int, Image>& channels, int x, int y, int width, int height) {
+            const Image& lit = channels.at(litChannel);
+            const std::lock_guard lock(mutex_);
+            Image& mine = partial_.channels.at(litChannel);
+            for (int row = y; row < y + height; ++row)
+                std::copy_n(lit.data.data() + lit.offset(x, row), 3 * width,
+                            mine.data.data() + mine.offset(x, row));
+            wake_();
+        };
+        const SceneView view = makeSceneView(*scene, viewRequest(settings));
+        auto frame = std::make_shared<Frame>(
+            drawReferenceFrame(*scene, view, settings, surfaces ? &*surfaces : nullptr, options));
+        const std::lock_guard lock(mutex_);
+        finished_ = std::move(frame);
+        done_ = 1;
+    } catch (const Stopped&) {
+        return;
+    } catch (const std::exception& error) {
+        const std::lock_guard lock(mutex_);
+        error_ = error.what();
+    }
+    wake_();
+}
+
+std::shared_ptr<const Frame> ReferenceThread::frame() const {
+    const std::lock_guard lock(mutex_);
+    if (finished_) return finished_;
+    return settings_ ? std::make_shared<const Frame>(partial_) : nullptr;
+}
+
+std::string ReferenceThread::error() const {
+    const std::lock_guard lock(mutex_);
+    return error_;
+}
+
+}  // namespace diptych::viewer

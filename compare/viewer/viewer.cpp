@@ -1,0 +1,839 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/viewer.h"
+
+#include "compare/files/our_files.h"
+#include "compare/viewer/canvas.h"
+#include "compare/viewer/drawing_thread.h"
+#include "compare/viewer/fly_camera.h"
+#include "compare/viewer/interface.h"
+#include "compare/viewer/keys.h"
+#include "compare/viewer/presenter.h"
+#include "compare/viewer/scene_watch.h"
+#include "compare/viewer/window.h"
+#include "shared/frame/debug_modes.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace diptych::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int usualWidth = 1280, usualHeight = 760;  // of the window, at scale 1
+// Between two frames of the interface, s: 60 a second while something moves, and not more than 125.
+constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.25;
+// A view stands still once nothing has moved for so long, s.
+constexpr double stillAfter = 0.15, resizedAfter = 0.3;
+constexpr double watchPause = 0.3;  // s
+constexpr double flightTime = 0.3;  // s, of a zoom that flies to a pixel
+constexpr double zoomed = 24;       // window pixels a pixel, of Z
+constexpr double least_zoom = 1, most_zoom = 128;
+constexpr double wipeReach = 7;    // window pixels around the wipe's line that take hold of it
+constexpr int mostPresenters = 3;  // made anew one after the other where devices are lost
+
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+// Dear ImGui's context, and what feeds it with the window's events.
+struct ImGuiContextOf {
+    explicit ImGuiContextOf(GLFWwindow* window) {
+        IMGUI_CHECKVERSION();
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;
+        ImGui_ImplGlfw_InitForVulkan(window, false);
+    }
+    ~ImGuiContextOf() {
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    ImGuiContextOf(const ImGuiContextOf&) = delete;
+    ImGuiContextOf& operator=(const ImGuiContextOf&) = delete;
+};
+
+void setScale(double scale) {
+    ImGui::GetStyle() = ImGuiStyle();
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().WindowRounding = 0;
+    ImGui::GetStyle().WindowBorderSize = 0;
+    ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {0.11f, 0.11f, 0.125f, 1};
+    ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale));
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    ImFontConfig config;
+    config.SizePixels = static_cast<float>(std::round(13 * scale));
+    io.Fonts->AddFontDefault(&config);
+}
+
+// What the cursor drags.
+enum class Drag { none, look, wipe, picture };
+
+class Viewer {
+public:
+    explicit Viewer(const ViewerOptions& options)
+        : options_(options),
+          window_(usualWidth, usualHeight, "Diptych"),
+          imgui_(window_.handle()),
+          drawing_({options.device, options.compare, Window::wake}) {
+        state_.subject = options.subject;
+        if (state_.subject.settings.path == Path::reference)
+            state_.subject.settings.path = Path::forward_plus;
+        state_.look = options.look;
+        state_.stored = options.look.file;
+        state_.follow = !options.size_given;
+        state_.edited = state_.subject.settings;
+        state_.rig = state_.subject.settings.lights;
+        if (options.pixel) {
+            state_.pixel = options.pixel;
+            state_.open = Tab::pixel;
+            state_.canvas.zoom = zoomed;
+            state_.canvas.centre_x = options.pixel->x + 0.5;
+            state_.canvas.centre_y = options.pixel->y + 0.5;
+        }
+        scale_ = window_.contentScale();
+        setScale(scale_);
+        makePresenter();
+        watch_.watch(state_.subject.scene, otherFiles());
+    }
+
+    ViewerResult run() {
+        while (!quit_) {
+            const Input input = window_.poll(pause());
+            if (input.closed) break;
+            const Clock::time_point start = Clock::now();
+            window_.size(width_, height_);
+            const bool news = takeNews();
+            now_ = secondsBetween(begun_, start);
+            if (width_ == 0 || height_ == 0) {  // minimised
+                last_ = now_;
+                handleDropped(input);
+                continue;
+            }
+            handle(input);
+            ask();
+            if (input.any || news || isMoving()) frames_left_ = 3;
+            if (frames_left_ > 0) {
+                --frames_left_;
+                frame();
+                addTime(1000 * secondsBetween(start, Clock::now()));
+            }
+            last_ = now_;
+        }
+        sayTimes();
+        ViewerResult result{drawing_.validationMessages() + log_.messages, drawing_.firstValidationMessage()};
+        if (result.first_validation_message.empty()) result.first_validation_message = log_.first;
+        return result;
+    }
+
+private:
+    // ---- time
+    // ----------------------------------------------------------------------------------------------
+
+    bool isMoving() const { return now_ < moving_until_ || state_.playing || flight_ || isHeldMoving(); }
+
+    double pause() const {
+        const double since = secondsBetween(begun_, Clock::now()) - last_;
+        if (isMoving() || frames_left_ > 0)
+            return std::max(0.001, (isMoving() ? movingPause : leastPause) - since);
+        return idlePause;
+    }
+
+    void addTime(double ms) {
+        times_.push_back(ms);
+        if (times_.size() % 30 == 0) percentile_ = percentileOf(0.99);
+    }
+    double percentileOf(double share) const {
+        if (times_.empty()) return 0;
+        std::vector<double> sorted = times_;
+        const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+        std::ranges::nth_element(sorted, sorted.begin() + place);
+        return sorted[static_cast<std::size_t>(place)];
+    }
+
+    void say(const std::string& line) const {
+        if (options_.say) options_.say(line);
+    }
+    void sayTimes() const {
+        if (!times_.empty())
+            say(fmt::format(
+                "interface: {} frames, median {:.1f} ms, 99th percentile {:.1f} ms, longest {:.1f} ms",
+                times_.size(), percentileOf(0.5), percentileOf(0.99), percentileOf(1)));
+    }
+    void tell(const std::string& message) {
+        state_.message = message;
+        state_.message_until = ImGui::GetTime() + 6;
+        frames_left_ = 3;
+        say(message);
+    }
+
+    // ---- what comes from the drawing thread
+    // ------------------------------------------------------------------
+
+    // Whether there is anything new to show.
+    bool takeNews() {
+        Contents next = contents_;
+        next.shown = drawing_.shown();
+        next.judged = drawing_.judged();
+        next.story = drawing_.story();
+        next.facts = drawing_.facts();
+        next.status = drawing_.status();
+        next.idle = drawing_.idle();
+        const bool pictures = next.shown != contents_.shown;
+        const bool news = pictures || next.judged != contents_.judged || next.story != contents_.story ||
+                          next.facts != contents_.facts || next.status.doing != contents_.status.doing ||
+                          std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
+                          next.status.error != contents_.status.error || next.idle != contents_.idle;
+        if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
+        contents_ = std::move(next);
+        if (pictures) takePictures();
+        if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
+        return news;
+    }
+
+    void takePictures() {
+        const Shown& shown = *contents_.shown;
+        for (std::size_t i = 0; i < 2; ++i) history_[i].add(shown.paths[i]);
+        const std::string& asked = state_.subject.settings.camera;
+        if (shown.order.subject.settings.camera == asked && asked != own_camera_ &&
+            shown.order.subject.scene == state_.subject.scene) {
+            camera_.take(shown.camera);
+            own_camera_ = asked;
+        }
+    }
+
+    // ---- what is asked of it
+    // -----------------------------------------------------------------------------------
+
+    // Of what is drawn and of what the settings' panel shows alike.
+    template <class Change>
+    void change(const Change& change) {
+        change(state_.subject.settings);
+        change(state_.edited);
+    }
+
+    void ask() {
+        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
+        if (state_.follow) {
+            const bool halves =
+                state_.canvas.layout == Layout::side_by_side && state_.look.difference == Difference::none;
+            const Size size{std::max(1, halves ? (canvas.width - 2) / 2 : canvas.width),
+                            std::max(1, canvas.height)};
+            if (size != state_.subject.settings.size) {
+                if (order_.number != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
+                change([&](Settings& s) { s.size = size; });
+            }
+        }
+        if (state_.pixel && (state_.pixel->x >= state_.subject.settings.size.width ||
+                             state_.pixel->y >= state_.subject.settings.size.height))
+            state_.pixel.reset();
+        const bool moving = now_ < moving_until_ || state_.playing || isHeldMoving();
+        if (order_.number != 0 && order_.subject == state_.subject && order_.look == state_.look &&
+            order_.moving == moving && order_.pixel == state_.pixel)
+            return;
+        order_.subject = state_.subject;
+        order_.look = state_.look;
+        order_.moving = moving;
+        order_.pixel = state_.pixel;
+        order_.number = drawing_.ask(order_);
+        for (Waiting& waiting : waiting_)
+            if (waiting.order == 0) waiting.order = order_.number;
+    }
+
+    std::vector<std::filesystem::path> otherFiles() const {
+        std::vector<std::filesystem::path> files;
+        const Settings& settings = state_.subject.settings;
+        if (settings.env != "none" && settings.env != "scene") files.emplace_back(settings.env);
+        if (settings.lights.ends_with(".json")) files.emplace_back(settings.lights);
+        return files;
+    }
+
+    void readAgain() {
+        ++state_.subject.reading;
+        watch_.watch(state_.subject.scene, otherFiles());
+    }
+
+    void openScene(const std::string& scene) {
+        state_.subject.scene = scene;
+        change([](Settings& s) {
+            s.camera.clear();
+            s.time = 0;
+            s.animation.clear();
+        });
+        own_camera_ = "none taken yet";
+        state_.pixel.reset();
+        state_.canvas.zoom = 0;
+        readAgain();
+    }
+
+    // ---- input
+    // -----------------------------------------------------------------------------------------------
+
+    static bool isKeyDown(int key, void* of) { return static_cast<const Window*>(of)->isDown(key); }
+    bool isHeld(Action action) const {
+        return viewer::isHeld(action, isKeyDown, const_cast<Window*>(&window_)) ||
+               (action == Action::sink && window_.isDown(GLFW_KEY_RIGHT_CONTROL));
+    }
+    bool isHeldMoving() const {
+        if (ImGui::GetIO().WantTextInput || !camera_.canMove()) return false;
+        return std::ranges::any_of(std::array{Action::forward, Action::left, Action::back, Action::right,
+                                              Action::rise, Action::sink},
+                                   [&](Action action) { return isHeld(action); });
+    }
+
+    void handle(const Input& input) {
+        handleDropped(input);
+        handleRequests();
+        const ImGuiIO& io = ImGui::GetIO();
+        if (!io.WantTextInput)
+            for (const KeyDown& key : input.keys) press(key);
+        handleMouse(input, io.WantCaptureMouse);
+        move();
+        fly();
+        play();
+        state_.canvas.other = !io.WantTextInput && isHeld(Action::flicker);
+        if (options_.watch && now_ - watched_ > watchPause) {
+            watched_ = now_;
+            if (watch_.changed()) {
+                tell("read again: a file has changed");
+                readAgain();
+            }
+        }
+        if (const double scale = window_.contentScale(); scale != scale_) {
+            scale_ = scale;
+            setScale(scale);
+            presenter_->takeFonts();
+        }
+    }
+
+    void handleRequests() {
+        InterfaceState::Requests requests = std::exchange(state_.requests, {});
+        if (!requests.copy.empty()) {
+            window_.copy(requests.copy);
+            tell("copied: " + requests.copy);
+        }
+        if (requests.reload) readAgain();
+        if (requests.worst) flyTo(requests.worst->second);
+        if (requests.camera) {
+            change([&](Settings& s) { s.camera = *requests.camera; });
+            own_camera_ = "none taken yet";
+        }
+    }
+
+    void handleDropped(const Input& input) {
+        for (const std::filesystem::path& file : input.dropped) {
+            std::string ending = file.extension().string();
+            std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+            if (ending == ".gltf" || ending == ".glb") {
+                openScene(file.string());
+            } else if (ending == ".exr" && isOurPicture(file)) {
+                state_.stored = state_.look.file = file;
+                state_.look.against = Against::file;
+                tell("left: " + file.string());
+            } else if (ending == ".hdr" || ending == ".exr") {
+                change([&](Settings& s) { s.env = file.string(); });
+                tell("environment: " + file.string());
+            } else {
+                tell(fmt::format("{}: is no .gltf, .glb, .exr or .hdr", file.string()));
+            }
+        }
+    }
+
+    void press(const KeyDown& key) {
+        const std::optional<KeyPress> found = actionOf(key.key, key.control);
+        if (!found) return;
+        waiting_.push_back({std::string(nameOfKey(found->action)), Clock::now(), 0, order_.number});
+        act(*found, key.shift);
+    }
+
+    static std::string_view nameOfKey(Action action) {
+        for (const KeyBinding& binding : keyBindings())
+            if (binding.action == action) return binding.name;
+        return {};
+    }
+
+    template <class Value>
+    static void cycle(Value& value, std::initializer_list<Value> values) {
+        const auto* const at = std::ranges::find(values, value);
+        value = at == values.end() || at + 1 == values.end() ? *values.begin() : *(at + 1);
+    }
+
+    void act(const KeyPress& pressed, bool shift) {
+        switch (pressed.action) {
+            case Action::forward:
+            case Action::left:
+            case Action::back:
+            case Action::right:
+            case Action::rise:
+            case Action::sink:
+            case Action::flicker:
+                if (pressed.action != Action::flicker && !camera_.canMove() && contents_.shown)
+                    tell("this camera is orthographic, and --camera describes none that is: N takes another");
+                break;
+            case Action::orbit:
+                state_.orbiting = !state_.orbiting;
+                tell(state_.orbiting ? "dragging orbits what is under the cursor" : "dragging looks around");
+                break;
+            case Action::wipe:
+                cycle(state_.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single});
+                break;
+            case Action::difference:
+                cycle(state_.look.difference, {Difference::none, Difference::signed_difference,
+                                               Difference::absolute, Difference::relative, Difference::flip});
+                break;
+            case Action::against:
+                if (state_.stored.empty())
+                    cycle(state_.look.against, {Against::paths, Against::reference});
+                else
+                    cycle(state_.look.against, {Against::paths, Against::reference, Against::file});
+                state_.look.file =
+                    state_.look.against == Against::file ? state_.stored : std::filesystem::path();
+                break;
+            case Action::swap:
+                change([](Settings& s) {
+                    s.path = s.path == Path::deferred ? Path::forward_plus : Path::deferred;
+                });
+                break;
+            case Action::channel:
+                state_.look.mode = pressed.number;
+                break;
+            case Action::next_channel:
+                nextChannel(shift ? -1 : 1);
+                break;
+            case Action::light_debug:
+                state_.light_debug = !state_.light_debug;
+                break;
+            case Action::light_visibility: {
+                constexpr auto heat = static_cast<int>(gpu::DEBUG_light_count);
+                state_.look.mode = state_.look.mode == heat ? static_cast<int>(gpu::DEBUG_lit) : heat;
+                break;
+            }
+            case Action::information:
+                state_.information = !state_.information;
+                break;
+            case Action::zoom:
+                if (state_.canvas.zoom > 0)
+                    state_.canvas.zoom = 0;
+                else
+                    flyTo(contents_.under ? contents_.under->pixel
+                                          : PixelPlace{state_.subject.settings.size.width / 2,
+                                                       state_.subject.settings.size.height / 2});
+                break;
+            case Action::worst_pixel:
+                worstPixel();
+                break;
+            case Action::next_camera:
+                nextCamera();
+                break;
+            case Action::play:
+                if (contents_.facts && contents_.facts->duration > 0)
+                    state_.playing = !state_.playing;
+                else
+                    tell("this scene has no animation");
+                break;
+            case Action::rig:
+                if (state_.rig.empty() && state_.subject.settings.lights.empty())
+                    tell("there are no lights of --lights: the settings' panel takes some, as point:32");
+                else if (state_.subject.settings.lights.empty())
+                    setOption(state_, "lights", state_.rig);
+                else {
+                    state_.rig = state_.subject.settings.lights;
+                    setOption(state_, "lights", "none");
+                }
+                break;
+            case Action::screenshot:
+                drawing_.save(options_.out.empty() ? "." : options_.out);
+                tell("writing both panels and all channels");
+                break;
+            case Action::reload:
+                readAgain();
+                break;
+            case Action::copy_command:
+                state_.requests.copy = renderCommand(state_);
+                handleRequests();
+                break;
+            case Action::panels:
+                state_.panels = !state_.panels;
+                break;
+            case Action::full_screen:
+                window_.toggleFullScreen();
+                break;
+            case Action::help:
+                state_.help = !state_.help;
+                break;
+            case Action::leave:
+                leave();
+                break;
+            case Action::quit:
+                quit_ = true;
+                break;
+        }
+    }
+
+    void leave() {
+        flight_.reset();
+        if (state_.help)
+            state_.help = false;
+        else if (state_.canvas.zoom > 0)
+            state_.canvas.zoom = 0;
+        else if (state_.pixel)
+            state_.pixel.reset();
+        else if (window_.isFullScreen())
+            window_.toggleFullScreen();
+    }
+
+    // Of those beyond 9, in the order of their numbers.
+    void nextChannel(int step) {
+        std::vector<int> beyond;
+        for (const DebugMode& mode : debugModes())
+            if (mode.number > 9) beyond.push_back(mode.number);
+        const auto count = static_cast<std::ptrdiff_t>(beyond.size());
+        std::ptrdiff_t at = std::ranges::find(beyond, state_.look.mode) - beyond.begin();
+        at = at == count ? (step > 0 ? 0 : count - 1) : (at + step + count) % count;
+        state_.look.mode = beyond[static_cast<std::size_t>(at)];
+    }
+
+    void nextCamera() {
+        const std::size_t count = contents_.facts ? contents_.facts->cameras.size() : 0;
+        const std::string& now = state_.subject.settings.camera;
+        std::size_t next = 0;
+        if (!now.empty() && now.find('=') == now.npos)
+            next = (static_cast<std::size_t>(std::atoi(now.c_str())) + 1) % std::max<std::size_t>(count, 1);
+        const std::string words = count == 0 ? "" : std::to_string(next);
+        change([&](Settings& s) { s.camera = words; });
+        own_camera_ = "none taken yet";
+        tell(count == 0 ? "the default view: this scene has no camera"
+                        : fmt::format("camera {} {}", next, contents_.facts->cameras[next]));
+    }
+
+    void worstPixel() {
+        if (!contents_.judged || contents_.judged->subject != state_.subject)
+            return tell("there is no verdict of this view yet");
+        for (const Comparison& comparison : contents_.judged->report.comparisons)
+            for (const ChannelDiff& channel : comparison.channels)
+                if (channel.mode->number == state_.look.mode && channel.stats.worst_x >= 0)
+                    return flyTo({channel.stats.worst_x, channel.stats.worst_y});
+        tell(fmt::format("no pixel of {} differs", debugMode(state_.look.mode).name));
+    }
+
+    // ---- moving
+    // ------------------------------------------------------------------------------------------------
+
+    void moved() {
+        moving_until_ = now_ + stillAfter;
+        own_camera_ = camera_.words();
+        change([&](Settings& s) { s.camera = own_camera_; });
+    }
+
+    void move() {
+        if (!isHeldMoving()) {
+            held_ = false;
+            return;
+        }
+        const double seconds = std::min(now_ - last_, 0.1),
+                     by = state_.speed * camera_.reach() * std::min(seconds, held_ ? 1.0 : movingPause);
+        held_ = true;
+        const auto axis = [&](Action plus, Action minus) {
+            return (isHeld(plus) ? by : 0) - (isHeld(minus) ? by : 0);
+        };
+        camera_.move({axis(Action::right, Action::left), axis(Action::rise, Action::sink),
+                      axis(Action::forward, Action::back)});
+        moved();
+    }
+
+    void play() {
+        if (!state_.playing) return;
+        const double duration = contents_.facts ? contents_.facts->duration : 0;
+        if (!(duration > 0)) {
+            state_.playing = false;
+            return;
+        }
+        const double time = std::fmod(state_.subject.settings.time + std::min(now_ - last_, 0.25), duration);
+        change([&](Settings& s) { s.time = time; });
+    }
+
+    // A zoom that is on its way to a pixel.
+    struct Flight {
+        double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = zoomed, to_x = 0, to_y = 0;
+    };
+    void flyTo(const PixelPlace& pixel) {
+        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
+        const Size& size = state_.subject.settings.size;
+        const double fits = std::min(double(canvas.width) / size.width, double(canvas.height) / size.height);
+        const bool is = state_.canvas.zoom > 0;
+        flight_ = Flight{now_,
+                         is ? state_.canvas.zoom : fits,
+                         is ? state_.canvas.centre_x : 0.5 * size.width,
+                         is ? state_.canvas.centre_y : 0.5 * size.height,
+                         std::max(zoomed, state_.canvas.zoom),
+                         pixel.x + 0.5,
+                         pixel.y + 0.5};
+    }
+    void fly() {
+        if (!flight_) return;
+        const double t = std::clamp((now_ - flight_->begun) / flightTime, 0.0, 1.0),
+                     eased = t * t * (3 - 2 * t);
+        state_.canvas.zoom = flight_->from_zoom * std::pow(flight_->to_zoom / flight_->from_zoom, eased);
+        // The place moves as the zoom's inverse does, so that the target nears the middle evenly.
+        const double share = flight_->to_zoom == flight_->from_zoom
+                                 ? eased
+                                 : (1 / flight_->from_zoom - 1 / state_.canvas.zoom) /
+                                       (1 / flight_->from_zoom - 1 / flight_->to_zoom);
+        state_.canvas.centre_x = std::lerp(flight_->from_x, flight_->to_x, share);
+        state_.canvas.centre_y = std::lerp(flight_->from_y, flight_->to_y, share);
+        if (t >= 1) flight_.reset();
+    }
+
+    double wipePlace(const CanvasRect& canvas) const {
+        return canvas.x + static_cast<double>(std::lround(state_.canvas.wipe * canvas.width));
+    }
+
+    void handleMouse(const Input& input, bool taken) {
+        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
+        const std::vector<PanelPlace> places = placesNow(canvas);
+        for (const Input::Button& button : input.buttons) {
+            if (!button.down) {
+                if (button.button == GLFW_MOUSE_BUTTON_LEFT) drag_ = Drag::none;
+                continue;
+            }
+            if (taken || !canvas.contains(button.x, button.y)) continue;
+            if (button.button == GLFW_MOUSE_BUTTON_RIGHT) {
+                if (const auto under = pixelUnder(places, state_.subject.settings.size, button.x, button.y)) {
+                    state_.pixel = under->pixel;
+                    state_.open = Tab::pixel;
+                }
+            } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
+                const bool wipes = state_.canvas.layout == Layout::wipe &&
+                                   state_.look.difference == Difference::none &&
+                                   std::abs(button.x - wipePlace(canvas)) <= wipeReach * scale_;
+                drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::picture : Drag::look;
+                pivot_ = pivotAt(places, button.x, button.y);
+                cursor_x_ = button.x;
+                cursor_y_ = button.y;
+            }
+        }
+        const double dx = input.x - cursor_x_, dy = input.y - cursor_y_;
+        cursor_x_ = input.x;
+        cursor_y_ = input.y;
+        if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
+        if (input.wheel != 0 && !taken && canvas.contains(input.x, input.y)) wheel(input, places);
+        contents_.under = canvas.contains(input.x, input.y) && !taken
+                              ? pixelUnder(places, state_.subject.settings.size, input.x, input.y)
+                              : std::nullopt;
+    }
+
+    void dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double dx, double dy) {
+        switch (drag_) {
+            case Drag::none:
+                return;
+            case Drag::wipe:
+                state_.canvas.wipe = std::clamp((cursor_x_ - canvas.x) / canvas.width, 0.0, 1.0);
+                return;
+            case Drag::picture:
+                state_.canvas.centre_x -= dx / state_.canvas.zoom;
+                state_.canvas.centre_y -= dy / state_.canvas.zoom;
+                return;
+            case Drag::look: {
+                if (!camera_.canMove() || !contents_.shown || places.empty()) return;
+                // As if the picture were dragged: its height is the field of view.
+                const double tall = state_.subject.settings.size.height * places.front().placement.scale;
+                const double angle =
+                    contents_.shown->camera.fov_degrees * std::numbers::pi / 180 / std::max(tall, 1.0);
+                if (state_.orbiting)
+                    camera_.orbit(pivot_, 2 * dx * angle, -2 * dy * angle);
+                else
+                    camera_.look(dx * angle, -dy * angle);
+                moved();
+                return;
+            }
+        }
+    }
+
+    void wheel(const Input& input, const std::vector<PanelPlace>& places) {
+        if (state_.canvas.zoom > 0) {
+            const auto under = pixelUnder(places, state_.subject.settings.size, input.x, input.y);
+            const double before = state_.canvas.zoom;
+            state_.canvas.zoom =
+                std::clamp(std::round(before * std::exp2(0.5 * input.wheel)), least_zoom, most_zoom);
+            if (state_.canvas.zoom == before && input.wheel > 0)
+                state_.canvas.zoom = std::min(before + 1, most_zoom);
+            if (!under || places.empty()) return;
+            // What is under the cursor stays there.
+            const double x = under->pixel.x + 0.5, y = under->pixel.y + 0.5,
+                         ratio = before / state_.canvas.zoom;
+            state_.canvas.centre_x = x + (state_.canvas.centre_x - x) * ratio;
+            state_.canvas.centre_y = y + (state_.canvas.centre_y - y) * ratio;
+            return;
+        }
+        state_.speed = std::clamp(state_.speed * std::exp2(0.5 * input.wheel), 1e-4, 1e4);
+        tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.reach()));
+    }
+
+    // Where in the world the pixel is, if a verdict has drawn its position; else what the camera was aimed
+    // at.
+    glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
+        const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
+        const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
+        if (!under || !contents_.judged || contents_.judged->subject != state_.subject) return ahead;
+        for (const Frame& frame : contents_.judged->report.frames) {
+            const auto position = frame.channels.find(static_cast<int>(gpu::DEBUG_position));
+            const auto depth = frame.channels.find(static_cast<int>(gpu::DEBUG_depth));
+            if (position == frame.channels.end() || depth == frame.channels.end()) continue;
+            const auto [px, py] = under->pixel;
+            if (!(depth->second.at(px, py) > 0)) return ahead;
+            return camera_.eye() + glm::dvec3(double{position->second.at(px, py, 0)},
+                                              double{position->second.at(px, py, 1)},
+                                              double{position->second.at(px, py, 2)});
+        }
+        return ahead;
+    }
+
+    // ---- drawing the window
+    // --------------------------------------------------------------------------------------
+
+    std::vector<PanelPlace> placesNow(const CanvasRect& canvas) const {
+        return placesOf(canvas, state_.subject.settings.size, state_.canvas,
+                        state_.look.difference != Difference::none);
+    }
+
+    void makePresenter() {
+        presenter_.reset();
+        presenter_.emplace(window_.handle(), options_.device.validate ? &log_ : nullptr);
+        composed_ = {};
+        contents_.shown_by = presenter_->device();
+    }
+
+    void frame() {
+        contents_.history = &history_;
+        contents_.interface_ms = percentile_;
+        contents_.drawn_by = drawing_.device();
+        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
+        const std::vector<PanelPlace> places = placesNow(canvas);
+        presenter_->beginFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+        drawInterface(state_, contents_, canvas, places, scale_);
+        ImGui::Render();
+        compose(canvas, places);
+        if (!presenter_->show(pixels_, ImGui::GetDrawData())) {
+            if (++presenters_ > mostPresenters)
+                throw std::runtime_error(
+                    "view: the device that shows the window was lost several times; try another --device");
+            say("the device that shows the window was lost and is started again");
+            makePresenter();
+        }
+        setTitle();
+        sayShown();
+    }
+
+    void setTitle() {
+        window_.setTitle(fmt::format("Diptych - {} - {}",
+                                     contents_.facts ? contents_.facts->name : state_.subject.scene,
+                                     debugMode(state_.look.mode).name));
+    }
+
+    // What the pixels in the window are of.
+    struct Composed {
+        std::shared_ptr<const Shown> shown;
+        CanvasRect canvas;
+        CanvasView view;
+        bool difference = false;
+        bool operator==(const Composed&) const = default;
+    };
+
+    void compose(const CanvasRect& canvas, const std::vector<PanelPlace>& places) {
+        const Composed now{contents_.shown, canvas, state_.canvas,
+                           state_.look.difference != Difference::none};
+        if (!now.shown || now == composed_) return;
+        composed_ = now;
+        pixels_.x = canvas.x;
+        pixels_.y = canvas.y;
+        pixels_.width = canvas.width;
+        pixels_.height = canvas.height;
+        pixels_.data = composed(*now.shown, canvas, places, presenter_->isBgr());
+        ++pixels_.version;
+    }
+
+    // How long keys and the first pictures took to be seen.
+    struct Waiting {
+        std::string key;
+        Clock::time_point pressed;
+        std::uint64_t order = 0;   // that shows it; 0: none was asked for yet
+        std::uint64_t before = 0;  // the order of that time: a key that asks for nothing is seen at once
+    };
+    void sayShown() {
+        if (!contents_.shown) {
+            return;
+        }
+        const Shown& shown = *contents_.shown;
+        const bool whole = shown.size == shown.order.subject.settings.size;
+        const Clock::time_point now = Clock::now();
+        if (!said_first_) {
+            said_first_ = true;
+            say(fmt::format("first picture after {:.2f} s, {}x{}", secondsBetween(begun_, now),
+                            shown.size.width, shown.size.height));
+        }
+        if (!said_whole_ && whole) {
+            said_whole_ = true;
+            say(fmt::format("first whole picture after {:.2f} s, {}x{}", secondsBetween(begun_, now),
+                            shown.size.width, shown.size.height));
+        }
+        std::erase_if(waiting_, [&](const Waiting& waiting) {
+            if (waiting.order == 0 ? order_.number != waiting.before : shown.order.number < waiting.order)
+                return false;
+            say(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
+                            1000 * secondsBetween(waiting.pressed, now), shown.size.width,
+                            shown.size.height));
+            return true;
+        });
+    }
+
+    const ViewerOptions& options_;
+    const Clock::time_point begun_ = Clock::now();
+    InterfaceState state_;
+    Window window_;
+    ImGuiContextOf imgui_;
+    ValidationLog log_;
+    std::optional<Presenter> presenter_;
+    int presenters_ = 0;
+    DrawingThread drawing_;
+    Contents contents_;
+    std::array<History, 2> history_;
+    FlyCamera camera_;
+    std::string own_camera_ = "none taken yet";  // the words that camera_ stands for
+    SceneWatch watch_;
+    Order order_;                                                 // asked for last
+    double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
+    double scale_ = 1;
+    int width_ = 0, height_ = 0, frames_left_ = 3;
+    bool quit_ = false, held_ = false, said_first_ = false, said_whole_ = false;
+    Drag drag_ = Drag::none;
+    glm::dvec3 pivot_{0};
+    double cursor_x_ = 0, cursor_y_ = 0;
+    std::optional<Flight> flight_;
+    WindowPixels pixels_;
+    Composed composed_;
+    std::vector<Waiting> waiting_;
+    std::vector<double> times_;
+    double percentile_ = 0;
+};
+
+}  // namespace
+
+ViewerResult runViewer(const ViewerOptions& options) {
+    return Viewer(options).run();
+}
+
+}  // namespace diptych::viewer
