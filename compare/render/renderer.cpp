@@ -70,6 +70,11 @@ private:
     void step(const std::string& what, double frames = 1) {
         options_.progress.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
         framesDone_ += frames;
+        doing_ = what;
+    }
+    // Between parts of what step() announced last.
+    void goOn() {
+        options_.progress.at(std::min(1.0, framesDone_ / framesIn(options_)), frame_.name + ": " + doing_);
     }
     bool isRequested(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
@@ -179,6 +184,7 @@ private:
         PassList& passes = prepared_.passes;
         while (!captured.empty()) {
             const std::size_t pass = captured.front().pass;
+            goOn();
             passes.run(first, pass + 1);
             for (first = pass + 1; !captured.empty() && captured.front().pass == pass;
                  captured = captured.subspan(1)) {
@@ -210,6 +216,7 @@ private:
     const Settings& settings_;
     const RenderOptions& options_;
     double framesDone_ = 0;
+    std::string doing_;
     PreparedFrame prepared_;
     Frame frame_;
     Image lit_;

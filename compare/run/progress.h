@@ -26,8 +26,9 @@ class Progress {
 public:
     // Without an output nothing is ever written.
     explicit Progress(std::optional<ProgressOutput> output);
-    // Tells `listener` every step, from the thread that takes it, and writes nothing. What the listener
-    // throws ends the work that reports.
+    // Tells `listener` every step, from the thread that takes it, and writes nothing. It may throw, which
+    // ends work that reports from one thread; not in a parallel loop in which others are nested, which would
+    // be left half done.
     using Listener = std::function<void(const std::string& what, double fraction, const std::string& step)>;
     explicit Progress(Listener listener);
     ~Progress();

@@ -39,6 +39,7 @@ constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), depthMode = static_cast<i
 
 // Both paths of a picture that moves: 16 pictures a second, and a key is seen within two of them.
 constexpr double movingMs = 60;
+constexpr int leastShadowSize = 256;  // texels, while it moves
 // A still picture that takes longer is preceded by a smaller one.
 constexpr double patienceMs = 250;
 // How often what is done of the reference is shown.
@@ -82,12 +83,34 @@ void guessBackground(Frame& frame) {
 
 }  // namespace
 
-Size movingSize(const Size& full, double milliseconds, double pixels, double took) {
-    const double all = double(full.width) * full.height,
-                 expected = pixels > 0 ? took * all / pixels : milliseconds;
+void PictureCost::add(double pixels, double ms) {
+    const Point now{pixels, ms};
+    if (small_.pixels == 0 || pixels <= small_.pixels * 1.5) {
+        if (small_.pixels >= 2 * pixels) large_ = small_;
+        small_ = now;
+    } else {
+        large_ = now;
+    }
+}
+
+double PictureCost::perPixel() const {
+    if (!known()) return 0;
+    const bool two = large_.pixels >= 1.5 * small_.pixels && large_.ms > small_.ms;
+    return two ? (large_.ms - small_.ms) / (large_.pixels - small_.pixels) : small_.ms / small_.pixels;
+}
+double PictureCost::fixed() const {
+    return known() ? std::max(0.0, small_.ms - perPixel() * small_.pixels) : 0;
+}
+double PictureCost::of(double pixels) const {
+    return fixed() + perPixel() * pixels;
+}
+
+Size movingSize(const Size& full, double milliseconds, const PictureCost& cost) {
+    const double room = std::max(0.5 * milliseconds, milliseconds - cost.fixed());
+    const double expected = cost.perPixel() * full.width * full.height;
     // Beyond 8 a picture says nothing any more.
     const int divisor =
-        std::clamp(static_cast<int>(std::ceil(std::sqrt(expected / milliseconds) - 0.05)), 1, 8);
+        cost.known() ? std::clamp(static_cast<int>(std::ceil(std::sqrt(expected / room) - 0.05)), 1, 8) : 3;
     Size size = full;
     size.width = std::max(1, full.width / divisor);
     size.height = std::max(1, full.height / divisor);
@@ -106,6 +129,8 @@ struct DrawingThread::State {
           }),
           progress(
               [this](const std::string&, double fraction, const std::string& step) { at(fraction, step); }),
+          comparing(
+              [this](const std::string&, double fraction, const std::string& step) { note(fraction, step); }),
           thread([this] { run(); }) {}
     ~State() {
         {
@@ -155,14 +180,16 @@ struct DrawingThread::State {
     std::optional<std::pair<Subject, PixelPlace>> told;
     std::optional<std::pair<std::filesystem::path, std::shared_ptr<const Frame>>> stored;
     std::array<PathFacts, 2> paths;
-    double last_pixels = 0, last_ms = 0;  // of a whole picture of both paths
-    std::optional<Exposure> exposure;     // of the last still picture
+    PictureCost cost;                  // of pictures that move, once their pipelines are there
+    std::size_t compiled = 0;          // pipelines after the last picture
+    std::optional<Exposure> exposure;  // of the last still picture
     Look exposure_of;
     Clock::time_point reference_shown{};
     int recoveries = 0;
     bool loading = false;
     ReferenceThread reference;
-    Progress progress;
+    Progress progress;   // throws Superseded where nobody wants the work any more
+    Progress comparing;  // of parallel work, which is seen to its end
     std::thread thread;
 
     // ---- the loop --------------------------------------------------------------------------------------
@@ -248,6 +275,9 @@ struct DrawingThread::State {
     }
     void at(double fraction, const std::string& step) {
         heed();
+        note(fraction, step);
+    }
+    void note(double fraction, const std::string& step) {
         {
             const std::lock_guard lock(mutex);
             status.fraction = fraction;
@@ -363,9 +393,13 @@ struct DrawingThread::State {
     // ---- pictures ----------------------------------------------------------------------------------------
 
     Settings settingsOf(Path path, const Size& size) const {
+        const Size& full = order.subject.settings.size;
         Settings settings = withoutReference(order.subject.settings);
         settings.path = path;
         settings.size = size;
+        // Shadow maps cost what they cost however small the picture is, so they shrink with it.
+        settings.shadow_size = std::max(std::min(settings.shadow_size, leastShadowSize),
+                                        settings.shadow_size * size.width / std::max(1, full.width));
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
         return settings;
     }
@@ -380,7 +414,6 @@ struct DrawingThread::State {
         PreparedFrames prepared = renderer->prepare(settings);
         std::array<Frame, 2> result;
         for (std::size_t i = 0; i < 2; ++i) {
-            heed();
             Frame& frame = result.at(i);
             frame = prepared.described(i);
             frame.passes = prepared.profile(i);
@@ -407,12 +440,13 @@ struct DrawingThread::State {
         return render;
     }
 
-    std::array<Frame, 2> drawChannels(const Size& size, const std::vector<int>& channels) {
+    // A picture that moves is seen to its end: the next order comes before it is done, and so would none be.
+    std::array<Frame, 2> drawChannels(const Size& size, const std::vector<int>& channels, bool passing) {
         RenderOptions render = channelOptions(channels);
         std::array<Frame, 2> result;
         for (std::size_t i = 0; i < 2; ++i) {
-            render.progress =
-                stage("draw").part(0.5 * static_cast<double>(i), 0.5 * static_cast<double>(i + 1));
+            render.progress = Stage(passing ? comparing : progress, "draw")
+                                  .part(0.5 * static_cast<double>(i), 0.5 * static_cast<double>(i + 1));
             result.at(i) =
                 renderer->draw(settingsOf(i == 0 ? Path::deferred : Path::forward_plus, size), render);
         }
@@ -449,16 +483,13 @@ struct DrawingThread::State {
     void drawSmallerFirst() {
         const Size full = order.subject.settings.size;
         if (drawn == order.subject || order.look.mode != lit) return;
-        const double expected =
-            last_pixels > 0 ? last_ms * full.width * full.height / last_pixels : 2 * patienceMs;
-        if (expected < patienceMs) return;
-        const Size small = last_pixels > 0 ? movingSize(full, movingMs, last_pixels, last_ms)
-                                           : Size{std::max(1, full.width / 3), std::max(1, full.height / 3)};
+        if (cost.known() && cost.of(double(full.width) * full.height) < patienceMs) return;
+        const Size small = movingSize(full, movingMs, cost);
         drawAt(small, true);
     }
 
     void draw(const Size& full) {
-        if (order.moving) return drawAt(movingSize(full, movingMs, last_pixels, last_ms), true);
+        if (order.moving) return drawAt(movingSize(full, movingMs, cost), true);
         drawAt(full, false);
     }
 
@@ -475,16 +506,19 @@ struct DrawingThread::State {
         std::array<Frame, 2> passed;
         const bool known = !passing && drawn == order.subject && has({mode});
         if (passing)
-            passed = mode == lit ? drawLit(size) : drawChannels(size, {mode});
+            passed = mode == lit ? drawLit(size) : drawChannels(size, {mode}, true);
         else if (!known) {
-            frames = drawChannels(size, {mode});
+            frames = drawChannels(size, {mode}, false);
             drawn = order.subject;
             drawn_channels = {mode, lit, ids};
         }
         const std::array<Frame, 2>& now = passing ? passed : frames;
         if (!known) {
-            last_pixels = double(size.width) * size.height;
-            last_ms = msSince(start);
+            const double took = msSince(start);
+            // The first frame of each pipeline compiles it, and says little of the next.
+            if (passing && compiled == renderer->pipelines())
+                cost.add(double(size.width) * size.height, took);
+            compiled = renderer->pipelines();
             takeFacts(now, passing && mode == lit);
         }
         show(now, size, passing, start);
@@ -565,6 +599,8 @@ struct DrawingThread::State {
             paths.at(i).ms = times.at(i).time.median;
             paths.at(i).passes = times.at(i).passes;
         }
+        // Beside the frames both are prepared, read back and turned into colours; that is little.
+        cost.add(double(settings[0].size.width) * settings[0].size.height, paths[0].ms + paths[1].ms);
         timed = order.subject;
         auto next = std::make_shared<Shown>(*shown);
         next->paths = paths;
@@ -595,7 +631,8 @@ struct DrawingThread::State {
         const SceneView& view = views->at(viewRequest(both[0].settings));
         next->plan = planLines(view, settings.skinning);
         CompareOptions compare = options.compare;
-        compare.progress = stage("verdict").part(0.8, 1);
+        compare.progress = Stage(comparing, "verdict").part(0.8, 1);
+        heed();
         judged_reference = order.look.against == Against::reference && reference.done() >= 1;
         if (judged_reference) {
             std::vector<Frame> three{*reference.frame()};

@@ -94,6 +94,7 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     const auto space = [&] { ImGui::SameLine(0, 14 * scale); };
+    ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("channel");
     ImGui::SameLine();
     channelCombo(state, 150 * scale);
@@ -186,7 +187,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
                     y = static_cast<float>(place.rect.y) + 6 * scale;
         const bool narrow = static_cast<float>(place.rect.width) < 40 * scale;
         if (narrow) continue;
-        ImGui::GetForegroundDrawList()->PushClipRect(
+        ImGui::GetBackgroundDrawList()->PushClipRect(
             {static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
             {static_cast<float>(place.rect.x + place.rect.width),
              static_cast<float>(place.rect.y + place.rect.height)});
@@ -203,7 +204,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
                          fmt::format("{}: {}", panel.name, debugMode(shown.order.look.mode).name));
             if (!panel.missing.empty()) drawOutlined(x, y + 18 * scale, grey, panel.missing);
         }
-        ImGui::GetForegroundDrawList()->PopClipRect();
+        ImGui::GetBackgroundDrawList()->PopClipRect();
     }
 }
 
@@ -289,7 +290,7 @@ void values(const Contents& contents, const std::vector<PanelPlace>& places) {
         const Image& image =
             place.panel == 2 ? shown.difference->values : shown.panels.at(place.panel).values;
         if (image.empty() || image.width != full.width || image.height != full.height) continue;
-        ImDrawList* const list = ImGui::GetForegroundDrawList();
+        ImDrawList* const list = ImGui::GetBackgroundDrawList();
         list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
                            {static_cast<float>(place.rect.x + place.rect.width),
                             static_cast<float>(place.rect.y + place.rect.height)});
@@ -444,7 +445,7 @@ void information(const InterfaceState& state, const Contents& contents, const Ca
     if (!state.information || !contents.shown) return;
     const Shown& shown = *contents.shown;
     ImGui::SetNextWindowPos(
-        {static_cast<float>(canvas.x + canvas.width) - 8 * scale, static_cast<float>(canvas.y) + 8 * scale},
+        {static_cast<float>(canvas.x + canvas.width) - 8 * scale, static_cast<float>(canvas.y) + 28 * scale},
         ImGuiCond_Always, {1, 0});
     ImGui::SetNextWindowBgAlpha(0.72f);
     if (ImGui::Begin("information", nullptr,
@@ -462,7 +463,7 @@ void information(const InterfaceState& state, const Contents& contents, const Ca
                 const std::deque<float>& total = contents.history->at(i).total;
                 const std::vector<float> flat(total.begin(), total.end());
                 const std::string label = fmt::format("##total{}", i);
-                ImGui::PlotLines(label.c_str(), flat.data(), static_cast<int>(flat.size()), 0, "frame, ms", 0,
+                ImGui::PlotLines(label.c_str(), flat.data(), static_cast<int>(flat.size()), 0, nullptr, 0,
                                  1.2f * *std::ranges::max_element(flat), {230 * scale, 34 * scale});
             }
         }
@@ -498,7 +499,7 @@ CanvasRect canvasOf(const InterfaceState& state, int width, int height, double s
 }
 
 void drawOutlined(float x, float y, std::uint32_t color, const std::string& text) {
-    ImDrawList* const list = ImGui::GetForegroundDrawList();
+    ImDrawList* const list = ImGui::GetBackgroundDrawList();
     for (const auto& [dx, dy] : {std::pair{-1.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, -1.0f}, {0.0f, 1.0f}})
         list->AddText({x + dx, y + dy}, black, text.c_str());
     list->AddText({x, y}, color, text.c_str());

@@ -6,8 +6,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <exception>
@@ -22,10 +21,13 @@ struct Stopped {};
 
 }  // namespace
 
-// On Linux a thread has a nice value of its own, which threads that it starts inherit.
+// A batch thread has its full share of the processors, but does not take one from a thread that has just
+// woken up, as the interface does for each event. Threads that it starts, a driver's or a pool's, inherit
+// that.
 void yieldToInterface() {
-    constexpr int nicer = 10;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nicer);
+    const sched_param usual{};
+    sched_setscheduler(0, SCHED_BATCH,
+                       &usual);  // 0: this thread; where it may not, nothing is lost but smoothness
 }
 
 void ReferenceThread::stop() {
