@@ -3,13 +3,15 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
 #include "compare/viewer/viewer.h"
-#include "shared/image/limits.h"
+#include "shared/frame/debug_modes.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,6 +33,14 @@ struct ReportedView {
     throw std::runtime_error(fmt::format("--report {}: {}", file.parent_path().string(), what));
 }
 
+// Whether it fails, and by the channel asked for, if one was.
+bool failsHere(const Json& comparison, const Options& options) {
+    if (!options.debug_given) return comparison.at("verdict") == "fail";
+    return std::ranges::any_of(comparison.at("channels"), [&](const Json& channel) {
+        return channel.at("number") == options.shown && channel.at("verdict") == "fail";
+    });
+}
+
 // The first that fails, or else the first; of the scene, if one was given.
 const Json& chosenComparison(const Json& comparisons, const Options& options,
                              const std::filesystem::path& file) {
@@ -38,7 +48,7 @@ const Json& chosenComparison(const Json& comparisons, const Options& options,
     for (const Json& comparison : comparisons) {
         if (options.scene_given && comparison.at("scene") != options.scenes.front()) continue;
         if (!first) first = &comparison;
-        if (comparison.at("verdict") == "fail") return comparison;
+        if (failsHere(comparison, options)) return comparison;
     }
     if (!first)
         failReport(file, options.scene_given ? "has no comparison of " + options.scenes.front()

@@ -155,13 +155,21 @@ private:
                            decides, markup(channel_.tolerance.because));
     }
 
-    // The command that reproduces the failure.
+    // The command that reproduces the failure, and the one that shows it in a window.
     std::string again() const {
         if (channel_.verdict != Verdict::fail || command_.empty()) return {};
-        return fmt::format(
-            "<p class=\"again\"><span class=\"soft\">again, from the same folder</span> <code>{}</code>"
-            "<button data-do=\"copy\">copy</button></p>\n",
-            markup(shellLine(withOption(command_, "--channels", std::string(channel_.mode->name)))));
+        const std::string name(channel_.mode->name);
+        const auto line = [](const char* what, const std::vector<std::string>& words) {
+            return fmt::format(
+                "<p class=\"again\"><span class=\"soft\">{}, from the same folder</span> <code>{}</code>"
+                "<button data-do=\"copy\">copy</button></p>\n",
+                what, markup(shellLine(words)));
+        };
+        std::string text = line("again", withOption(command_, "--channels", name));
+        if (!layout_.report.empty())
+            text += line("in a window",
+                         {"view", "--report", layout_.report, "--debug", name, "--", right_.scene});
+        return text;
     }
 
     std::string pair() const {

@@ -84,12 +84,17 @@ void guessBackground(Frame& frame) {
 }  // namespace
 
 void PictureCost::add(double pixels, double ms) {
-    const Point now{pixels, ms};
+    // A machine that is busy for a moment says little of the next picture: what is known rises slowly.
+    constexpr double slowly = 1.15;
+    const auto take = [&](Point& point) {
+        const bool same = point.pixels > 0 && pixels <= point.pixels * 1.5 && pixels * 1.5 >= point.pixels;
+        point = {pixels, same ? std::min(ms, slowly * point.ms) : ms};
+    };
     if (small_.pixels == 0 || pixels <= small_.pixels * 1.5) {
         if (small_.pixels >= 2 * pixels) large_ = small_;
-        small_ = now;
+        take(small_);
     } else {
-        large_ = now;
+        take(large_);
     }
 }
 
@@ -176,7 +181,6 @@ struct DrawingThread::State {
     std::optional<std::uint64_t> shown_order, failed_order;
     std::optional<Subject> timed, judged_of;
     Against judged_against = Against::paths;
-    bool judged_reference = false;
     std::optional<std::pair<Subject, PixelPlace>> told;
     std::optional<std::pair<std::filesystem::path, std::shared_ptr<const Frame>>> stored;
     std::array<PathFacts, 2> paths;
@@ -245,10 +249,12 @@ struct DrawingThread::State {
                (reference.done() >= 1 || Clock::now() >= reference_shown + referencePause);
     }
     bool wantsTimes() const { return timed != order.subject; }
-    bool wantsVerdict() const {
-        return judged_of != order.subject || judged_against != order.look.against ||
-               (order.look.against == Against::reference && !judged_reference && reference.done() >= 1);
+    // What the verdict is against: the reference once it is there.
+    Against judgedAgainst() const {
+        return order.look.against == Against::reference && reference.done() < 1 ? Against::paths
+                                                                                : order.look.against;
     }
+    bool wantsVerdict() const { return judged_of != order.subject || judged_against != judgedAgainst(); }
     bool wantsStory() const { return order.pixel && told != std::pair(order.subject, *order.pixel); }
 
     // One piece; the most urgent first.
@@ -614,18 +620,21 @@ struct DrawingThread::State {
         render.requested = everyChannel();
         render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene);
         render.twice = false;
-        std::vector<Frame> both;
-        for (std::size_t i = 0; i < 2; ++i) {
-            render.progress =
-                stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-            both.push_back(renderer->draw(
-                settingsOf(i == 0 ? Path::deferred : Path::forward_plus, settings.size), render));
+        if (judged_of != order.subject || !has(everyChannel())) {
+            std::array<Frame, 2> judged_frames;
+            for (std::size_t i = 0; i < 2; ++i) {
+                render.progress =
+                    stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
+                judged_frames.at(i) = renderer->draw(
+                    settingsOf(i == 0 ? Path::deferred : Path::forward_plus, settings.size), render);
+            }
+            // Every channel is there from now on.
+            frames = std::move(judged_frames);
+            drawn = order.subject;
+            drawn_channels = everyChannel();
+            takeFacts(frames, false);
         }
-        // Every channel is there from now on.
-        frames = {both[0], both[1]};
-        drawn = order.subject;
-        drawn_channels = everyChannel();
-        takeFacts(frames, false);
+        std::vector<Frame> both(frames.begin(), frames.end());
         auto next = std::make_shared<Judged>();
         next->subject = order.subject;
         const SceneView& view = views->at(viewRequest(both[0].settings));
@@ -633,13 +642,13 @@ struct DrawingThread::State {
         CompareOptions compare = options.compare;
         compare.progress = Stage(comparing, "verdict").part(0.8, 1);
         heed();
-        judged_reference = order.look.against == Against::reference && reference.done() >= 1;
-        if (judged_reference) {
+        const Against against = judgedAgainst();
+        if (against == Against::reference) {
             std::vector<Frame> three{*reference.frame()};
             std::ranges::move(both, std::back_inserter(three));
             next->report = makeReferenceReport(std::move(three), {view.needs, view.needs, view.needs},
                                                reportDevice(*device), compare, {}, {});
-        } else if (order.look.against == Against::file) {
+        } else if (against == Against::file) {
             Frame baseline = *storedFrame();
             baseline.requested = both[0].requested;
             next->report = makeBaselineReport(std::move(baseline), std::move(both), view.needs,
@@ -649,7 +658,7 @@ struct DrawingThread::State {
                 makeReport(std::move(both), {view.needs, view.needs}, reportDevice(*device), compare, {});
         }
         judged_of = order.subject;
-        judged_against = order.look.against;
+        judged_against = against;
         auto again = std::make_shared<Shown>(*shown);
         again->paths = paths;
         {

@@ -357,10 +357,10 @@ void costTab(const Contents& contents, float scale) {
         ImGui::Separator();
         ImGui::Text("%s: %.2f ms a frame", facts.name.c_str(), facts.ms);
         constexpr double mib = 1 << 20;
-        ImGui::Text("images %.2f MiB, buffers %.2f MiB; %llu bytes a pixel for geometry",
-                    static_cast<double>(facts.bytes.images) / mib,
-                    static_cast<double>(facts.bytes.buffers) / mib,
-                    static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
+        ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; %llu bytes a pixel for geometry",
+                           static_cast<double>(facts.bytes.images) / mib,
+                           static_cast<double>(facts.bytes.buffers) / mib,
+                           static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
         passTable(facts, contents.history->at(i), scale);
     }
 }
