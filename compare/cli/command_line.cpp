@@ -347,8 +347,7 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         "Example: diptych compare builtin:gallery\nEach command has its own --help.\n"
         "Exit codes: 0 parity, 1 a difference beyond tolerance, 2 could not do it.");
     for (const Command& command : allCommands()) {
-        CLI::App& sub =
-            *app.add_subcommand(command.name, command.does + (command.built ? "" : " (not built yet)"));
+        CLI::App& sub = *app.add_subcommand(command.name, command.does);
         sub.footer("Example: " + command.example);
         describe(sub, command.name, options, parsed);
     }
@@ -381,8 +380,6 @@ Options parseCommandLine(const std::vector<std::string>& words) {
     }
 
     options.command = chosen->get_name();
-    const auto command = std::ranges::find(allCommands(), options.command, &Command::name);
-    if (!command->built) throw std::runtime_error(options.command + " is not built yet");
     resolve(options, parsed);
     return options;
 }

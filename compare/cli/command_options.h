@@ -14,10 +14,9 @@
 
 namespace diptych::cli {
 
-// name, what it does, an example, and whether it can be run
+// name, what it does, an example
 struct Command {
     std::string name, does, example;
-    bool built;
 };
 std::span<const Command> allCommands();
 

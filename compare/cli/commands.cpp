@@ -44,7 +44,7 @@ int runCommand(const Options& options) {
         {"plan", runPlan},       {"devices", runDevices}, {"view", runView}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
-    throw std::runtime_error(options.command + " is not built yet");
+    throw std::logic_error("no function of the command " + options.command);
 }
 
 std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,

@@ -21,6 +21,7 @@ ViewRequest viewRequest(const Settings& settings) {
     request.width = settings.size.width;
     request.height = settings.size.height;
     request.lights = settings.lights;
+    request.scene_lights = settings.scene_lights;
     request.seed = settings.seed;
     request.animation = settings.animation;
     request.environment_sun = settings.env_sun;

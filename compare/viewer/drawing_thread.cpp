@@ -416,7 +416,7 @@ struct DrawingThread::State {
     // lit alone, by the pipelines that are timed: nothing needs to be compiled for it, and little is read
     // back.
     std::array<Frame, 2> drawLit(const Size& size) {
-        const std::array settings{settingsOf(Path::deferred, size), settingsOf(Path::forward_plus, size)};
+        const std::array settings{settingsOf(drawn_paths[0], size), settingsOf(drawn_paths[1], size)};
         PreparedFrames prepared = renderer->prepare(settings);
         std::array<Frame, 2> result;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -453,8 +453,7 @@ struct DrawingThread::State {
         for (std::size_t i = 0; i < 2; ++i) {
             render.progress = Stage(passing ? comparing : progress, "draw")
                                   .part(0.5 * static_cast<double>(i), 0.5 * static_cast<double>(i + 1));
-            result.at(i) =
-                renderer->draw(settingsOf(i == 0 ? Path::deferred : Path::forward_plus, size), render);
+            result.at(i) = renderer->draw(settingsOf(drawn_paths.at(i), size), render);
         }
         return result;
     }
@@ -564,7 +563,7 @@ struct DrawingThread::State {
         auto next = std::make_shared<Shown>();
         next->order = order;
         next->size = size;
-        const std::size_t right = order.subject.settings.path == Path::deferred ? 0 : 1;
+        const std::size_t right = order.subject.settings.path == drawn_paths[0] ? 0 : 1;
         const std::shared_ptr<const Frame> left = leftFrame(passing, *next);
         const Frame& baseline = left ? *left : now.at(1 - right);
         // An exposure that is found anew for every smaller picture would flicker.
@@ -595,8 +594,8 @@ struct DrawingThread::State {
     // ------------------------------------------------------------------
 
     void time() {
-        const std::array settings{settingsOf(Path::deferred, order.subject.settings.size),
-                                  settingsOf(Path::forward_plus, order.subject.settings.size)};
+        const std::array settings{settingsOf(drawn_paths[0], order.subject.settings.size),
+                                  settingsOf(drawn_paths[1], order.subject.settings.size)};
         RenderOptions render;
         render.runs = 3;
         render.progress = stage("time");
@@ -625,8 +624,7 @@ struct DrawingThread::State {
             for (std::size_t i = 0; i < 2; ++i) {
                 render.progress =
                     stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-                judged_frames.at(i) = renderer->draw(
-                    settingsOf(i == 0 ? Path::deferred : Path::forward_plus, settings.size), render);
+                judged_frames.at(i) = renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render);
             }
             // Every channel is there from now on.
             frames = std::move(judged_frames);
@@ -674,8 +672,8 @@ struct DrawingThread::State {
         const Settings& settings = order.subject.settings;
         PixelQuestion question{.x = order.pixel->x,
                                .y = order.pixel->y,
-                               .baseline = settingsOf(Path::deferred, settings.size),
-                               .test = settingsOf(Path::forward_plus, settings.size),
+                               .baseline = settingsOf(drawn_paths[0], settings.size),
+                               .test = settingsOf(drawn_paths[1], settings.size),
                                .reference = referenceSettings(settings),
                                .device = reportDevice(*device),
                                .rules = options.compare.rules,
@@ -720,7 +718,7 @@ struct DrawingThread::State {
                 stem = folder / fmt::format("diptych-view-{:04}", number);
             const ReportDevice made = reportDevice(*device);
             const DebugMode& mode = debugMode(order.look.mode);
-            for (const Path path : {Path::deferred, Path::forward_plus}) {
+            for (const Path path : drawn_paths) {
                 const Frame frame = renderer->draw(settingsOf(path, order.subject.settings.size), render);
                 const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));
                 writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.picture());

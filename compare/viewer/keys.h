@@ -31,6 +31,7 @@ enum class Action {
     worst_pixel,
     next_camera,
     play,
+    scene_lights,
     rig,
     screenshot,
     reload,

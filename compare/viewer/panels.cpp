@@ -140,7 +140,7 @@ void settingRow(InterfaceState& state, const Field& field) {
                                             accepted = acceptedValues(option);
     const bool usual = value == Settings().valueOf(option);
     std::string unread;
-    for (const Path path : {Path::deferred, Path::forward_plus}) {
+    for (const Path path : drawn_paths) {
         Settings settings = state.edited;
         settings.path = path;
         if (const std::string_view why = ignoredBecause(settings, option); !why.empty())
@@ -212,9 +212,12 @@ void animationRows(InterfaceState& state, const SceneFacts& facts) {
 
 void lightRows(InterfaceState& state, const Contents& contents) {
     ImGui::Separator();
+    bool own = state.subject.settings.scene_lights;
+    if (ImGui::Checkbox("the scene's own lights (L)", &own))
+        setOption(state, "scene-lights", own ? "on" : "off");
     bool rig = !state.subject.settings.lights.empty();
     const std::string named = rig ? state.subject.settings.lights : state.rig;
-    if (!named.empty() && ImGui::Checkbox(fmt::format("lights {} (L)", named).c_str(), &rig)) {
+    if (!named.empty() && ImGui::Checkbox(fmt::format("lights {} (J)", named).c_str(), &rig)) {
         if (!rig) state.rig = named;
         setOption(state, "lights", rig ? named : "none");
     }

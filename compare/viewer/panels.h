@@ -2,7 +2,7 @@
 // The tabs at the side: verdict, settings, scene, pixel, cost.
 #pragma once
 
-#include "compare/viewer/interface.h"
+#include "compare/viewer/interface_state.h"
 
 namespace diptych::viewer {
 

@@ -89,8 +89,7 @@ public:
           imgui_(window_.handle()),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
-        if (state_.subject.settings.path == Path::reference)
-            state_.subject.settings.path = Path::forward_plus;
+        if (state_.subject.settings.path == Path::reference) state_.subject.settings.path = drawn_paths[1];
         state_.look = options.look;
         state_.stored = options.look.file;
         state_.follow = !options.size_given;
@@ -197,6 +196,7 @@ private:
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
+        if (next.idle && !contents_.idle && order_.number != 0) say("still: all is drawn");
         contents_ = std::move(next);
         if (pictures) takePictures();
         if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
@@ -402,9 +402,8 @@ private:
                     state_.look.against == Against::file ? state_.stored : std::filesystem::path();
                 break;
             case Action::swap:
-                change([](Settings& s) {
-                    s.path = s.path == Path::deferred ? Path::forward_plus : Path::deferred;
-                });
+                change(
+                    [](Settings& s) { s.path = s.path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0]; });
                 break;
             case Action::channel:
                 state_.look.mode = pressed.number;
@@ -442,6 +441,9 @@ private:
                     state_.playing = !state_.playing;
                 else
                     tell("this scene has no animation");
+                break;
+            case Action::scene_lights:
+                setOption(state_, "scene-lights", state_.subject.settings.scene_lights ? "off" : "on");
                 break;
             case Action::rig:
                 if (state_.rig.empty() && state_.subject.settings.lights.empty())
@@ -605,7 +607,10 @@ private:
         const std::vector<PanelPlace> places = placesNow(canvas);
         for (const Input::Button& button : input.buttons) {
             if (!button.down) {
-                if (button.button == GLFW_MOUSE_BUTTON_LEFT) drag_ = Drag::none;
+                if (button.button != GLFW_MOUSE_BUTTON_LEFT) continue;
+                // A quick drag begins and ends between two frames.
+                drag(canvas, places, button.x, button.y);
+                drag_ = Drag::none;
                 continue;
             }
             if (taken || !canvas.contains(button.x, button.y)) continue;
@@ -613,6 +618,8 @@ private:
                 if (const auto under = pixelUnder(places, state_.subject.settings.size, button.x, button.y)) {
                     state_.pixel = under->pixel;
                     state_.open = Tab::pixel;
+                    contents_.under = under;
+                    say("pixel " + underWords(contents_));
                 }
             } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
                 const bool wipes = state_.canvas.layout == Layout::wipe &&
@@ -624,14 +631,19 @@ private:
                 cursor_y_ = button.y;
             }
         }
-        const double dx = input.x - cursor_x_, dy = input.y - cursor_y_;
-        cursor_x_ = input.x;
-        cursor_y_ = input.y;
-        if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
+        drag(canvas, places, input.x, input.y);
         if (input.wheel != 0 && !taken && canvas.contains(input.x, input.y)) wheel(input, places);
         contents_.under = canvas.contains(input.x, input.y) && !taken
                               ? pixelUnder(places, state_.subject.settings.size, input.x, input.y)
                               : std::nullopt;
+    }
+
+    // The cursor has come to a place.
+    void drag(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double x, double y) {
+        const double dx = x - cursor_x_, dy = y - cursor_y_;
+        cursor_x_ = x;
+        cursor_y_ = y;
+        if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
     }
 
     void dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double dx, double dy) {

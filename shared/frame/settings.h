@@ -37,9 +37,10 @@ struct Settings {
     Ibl ibl = Ibl::split;
     IblDiffuse ibl_diffuse = IblDiffuse::sh;
     int ibl_samples = 256;
-    float ibl_bias = 0.0f;  // mip levels
-    Rgb ambient;            // W/(sr m^2)
-    std::string lights;     // "" none, "point:64,spot:16", or a file's name
+    float ibl_bias = 0.0f;     // mip levels
+    Rgb ambient;               // W/(sr m^2)
+    bool scene_lights = true;  // the scene's own lights
+    std::string lights;        // "" none, "point:64,spot:16", or a file's name
     std::uint32_t seed = 0;
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
@@ -412,6 +413,11 @@ void Settings::rows(Visit&& visit) {
                           }},
                 .for_surfaces = "0,0,0"},
           &Settings::ambient);
+    visit(Field{.option = "scene-lights",
+                .help =
+                    "the scene's own lights; off: none of them, nor the sun that a scene without lights gets",
+                .off = "off"},
+          &Settings::scene_lights);
     visit(Field{.option = "lights",
                 .help = "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights",
                 .off = ""},

@@ -32,7 +32,7 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
     result.pose = std::move(pose);
     result.view = makeView(scene, result.pose, request.camera, request.width, request.height, defaultView);
     if (request.camera.empty() && result.pose.cameras.empty()) result.default_view = defaultView().inWords();
-    result.lights = result.pose.lights;
+    if (request.scene_lights) result.lights = result.pose.lights;
     if (!request.lights.empty())
         for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))
             result.lights.push_back(std::move(light));
@@ -40,7 +40,7 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
         result.environment = result.background = &*scene.environment;
         if (request.environment_sun) takeSun(scene, request, sun, result);
     }
-    result.default_sun = result.lights.empty() && !scene.environment;
+    result.default_sun = request.scene_lights && result.lights.empty() && !scene.environment;
     // The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
     // lights the sides which face that viewer.
     if (result.default_sun) result.lights.push_back(defaultSun(defaultView().backward));

@@ -25,6 +25,7 @@ struct ViewRequest {
     int width = 0, height = 0;  // pixels
     std::string lights;         // a rig or a file, see makeLights(); empty: only the scene's own
     std::uint32_t seed = 0;     // of the rig
+    bool scene_lights = true;   // whether its own lights shine, or the sun that a scene without lights gets
     std::string animation{};    // INDEX or NAME, see poseAt(); empty: all play
     // Takes the sun out of the environment, as a light (lights/environment_sun.h), of an environment turned
     // by so many degrees and multiplied by the factor; both are read for this alone.

@@ -189,15 +189,23 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
     EXPECT_EQ(parseCommandLine({"--version"}).help.find("diptych "), 0u);
 }
 
-TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
-    const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"view", "a.glb", "--size", "64x64"}, "view"},
-    };
-    for (const auto& [words, name] : later) {
-        const std::string what = whatIsThrown(words);
-        EXPECT_EQ(what.find(name), 0u) << what;
-        EXPECT_NE(what.find("not built yet"), std::string::npos) << what;
-    }
+// A line of compare can be given to view as it is.
+TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
+    const std::vector<std::string> words{
+        "compare", "a.glb",     "--gbuffer", "compact", "--baseline", "reference", "--camera", "1",  "--runs",
+        "0",       "--explain", "--crop",    "0,0,8x8", "--pixel",    "3,4",       "--strict", "-o", "x"};
+    std::vector<std::string> viewed = words;
+    viewed.front() = "view";
+    const Options compared = parseCommandLine(words), seen = parseCommandLine(viewed);
+    EXPECT_EQ(seen.command, "view");
+    EXPECT_EQ(seen.settings, compared.settings);
+    EXPECT_EQ(seen.baseline, Path::reference);
+    EXPECT_EQ(seen.pixel->y, 4);
+    EXPECT_FALSE(seen.view.watch);
+    const Options more = parseCommandLine({"view", "--report", "diptych-report", "--watch"});
+    EXPECT_EQ(more.view.report, "diptych-report");
+    EXPECT_TRUE(more.view.watch);
+    EXPECT_FALSE(more.scene_given);
 }
 
 TEST(CommandLine, WhatIsAudited) {

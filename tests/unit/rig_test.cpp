@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/lights/rig.h"
+#include "shared/scene/load.h"
 #include "shared/scene/motion/bounds.h"
+#include "shared/scene/scene_view.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -173,6 +175,22 @@ TEST(Rig, FilesAreRead) {
     std::filesystem::remove(file);
     ASSERT_EQ(lights.size(), 1u);
     EXPECT_NE(errorOf("/nonexistent/lights.json").find("/nonexistent/lights.json"), std::string::npos);
+}
+
+// Of --scene-lights off: neither its own lights nor the sun that a scene without any gets; those of --lights
+// shine.
+TEST(Rig, TheScenesOwnLightsCanBeSwitchedOff) {
+    for (const char* name : {"builtin:points", "builtin:normals"}) {
+        const Scene scene = loadScene(name);
+        ViewRequest request;
+        request.width = request.height = 8;
+        EXPECT_FALSE(makeSceneView(scene, request).lights.empty());
+        request.scene_lights = false;
+        EXPECT_TRUE(makeSceneView(scene, request).lights.empty());
+        EXPECT_FALSE(makeSceneView(scene, request).default_sun);
+        request.lights = "point:3";
+        EXPECT_EQ(makeSceneView(scene, request).lights.size(), 3u);
+    }
 }
 
 TEST(Rig, TheDefaultSunLightsWhatTheDefaultViewSees) {

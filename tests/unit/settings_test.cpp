@@ -43,6 +43,7 @@ Settings everythingChanged() {
     s.ibl_samples = 31;
     s.ibl_bias = 0.5f;
     s.ambient = {1e-30f, 0.3f, 16777217.0f};
+    s.scene_lights = false;
     s.lights = "point:64,spot:16";
     s.seed = 4294967295u;
     s.light_cutoff = 1e-3f;
@@ -260,6 +261,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.camera = asked.camera;
     expected.time = asked.time;
     expected.animation = asked.animation;
+    expected.scene_lights = asked.scene_lights;
     expected.lights = asked.lights;
     expected.shadows = Shadows::off;
     expected.seed = asked.seed;
@@ -378,6 +380,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"time", "2"},
         {"animation", "walk"},
         {"animation", ""},
+        {"scene-lights", "off"},
         {"lights", "point:3"},
         {"lights", "none"},
         {"seed", "9"},

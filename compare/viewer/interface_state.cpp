@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/interface_state.h"
+
+#include "compare/run/command_text.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::viewer {
+namespace {
+
+void push(std::deque<float>& values, double value) {
+    values.push_back(static_cast<float>(value));
+    if (values.size() > History::longest) values.pop_front();
+}
+
+}  // namespace
+
+void History::add(const PathFacts& facts) {
+    if (facts.ms <= 0) return;
+    push(total, facts.ms);
+    for (const PassTime& pass : facts.passes) push(passes[pass.name], pass.ms);
+}
+
+CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale) {
+    const int top = static_cast<int>(barHeight * scale), bottom = static_cast<int>(footHeight * scale);
+    // A narrow window keeps some of its width for pictures.
+    const int side = state.panels ? std::min(static_cast<int>(sideWidth * scale), width / 2) : 0;
+    return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};
+}
+
+std::string valueWords(const Image& image, int x, int y) {
+    std::string words;
+    if (x < 0 || y < 0 || x >= image.width || y >= image.height) return words;
+    for (int c = 0; c < image.components; ++c)
+        words += fmt::format("{}{}", c > 0 ? " " : "", image.at(x, y, c));
+    return words;
+}
+
+std::string underWords(const Contents& contents) {
+    if (!contents.under || !contents.shown) return "no pixel under the cursor";
+    const Shown& shown = *contents.shown;
+    const Size& full = shown.order.subject.settings.size;
+    const auto [x, y] = contents.under->pixel;
+    std::string words = fmt::format("{},{}", x, y);
+    for (const Panel& panel : shown.panels)
+        if (!panel.values.empty())
+            words += fmt::format("  {}: {}", panel.name,
+                                 valueWords(panel.values, x * panel.values.width / full.width,
+                                            y * panel.values.height / full.height));
+    if (shown.difference && !shown.difference->values.empty()) {
+        const Image& values = shown.difference->values;
+        words += fmt::format("  difference: {}", valueWords(values, x * values.width / full.width,
+                                                            y * values.height / full.height));
+    }
+    return words;
+}
+
+std::string renderCommand(const InterfaceState& state) {
+    std::vector<std::string> words = commandWords("render", state.subject.scene, state.subject.settings);
+    if (state.look.mode != static_cast<int>(gpu::DEBUG_lit))
+        words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.mode).name));
+    if (state.look.exposure)
+        words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));
+    if (state.look.ev100)
+        words = withOption(std::move(words), "--ev100", fmt::format("{}", *state.look.ev100));
+    if (!state.look.tonemap) words = withWords(std::move(words), {"--no-tonemap"});
+    return shellLine(words);
+}
+
+std::string compareCommand(const InterfaceState& state) {
+    std::vector<std::string> words = commandWords("compare", state.subject.scene, state.subject.settings);
+    if (state.look.against == Against::reference)
+        words = withOption(std::move(words), "--baseline", "reference");
+    if (state.look.against == Against::file)
+        words = withOption(std::move(words), "--baseline", state.look.file.string());
+    return shellLine(words);
+}
+
+void setOption(InterfaceState& state, const std::string& option, const std::string& word) {
+    try {
+        state.edited.set(option, word);
+        state.problem.clear();
+    } catch (const std::runtime_error& error) {
+        state.problem = error.what();
+        return;
+    }
+    for (const Path path : drawn_paths) {
+        Settings settings = withoutReference(state.edited);
+        settings.path = path;
+        if (const auto problem = settings.problem()) {
+            state.problem = *problem;
+            return;
+        }
+    }
+    if (option == "size") state.follow = false;
+    state.subject.settings = state.edited;
+}
+
+}  // namespace diptych::viewer

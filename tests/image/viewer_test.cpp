@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// What the window's drawing thread hands out is what the other commands draw, and it outlives what goes
+// wrong.
+#include "compare/explain/pixel_words.h"
+#include "compare/picture/picture.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/renderer.h"
+#include "compare/viewer/drawing_thread.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/scene/load.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace diptych::viewer {
+namespace {
+
+constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
+
+DrawingOptions validated() {
+    DrawingOptions options;
+    options.device.validate = true;
+    options.wake = [] {};
+    return options;
+}
+
+Order orderOf(const std::string& scene, int width = 64, int height = 36) {
+    Order order;
+    order.subject.scene = scene;
+    order.subject.settings.size.width = width;
+    order.subject.settings.size.height = height;
+    return order;
+}
+
+// Waits for it; the limit is only exceeded by a thread that hangs.
+template <class Condition>
+bool soon(const Condition& condition) {
+    for (const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+         std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+        if (condition()) return true;
+    return false;
+}
+
+// Asks, and waits until all that was asked for is there.
+bool isDrawn(DrawingThread& drawing, const Order& order) {
+    const std::uint64_t number = drawing.ask(order);
+    return soon([&] {
+        const auto shown = drawing.shown();
+        return drawing.idle() && shown && shown->order.number == number;
+    });
+}
+
+Frame drawn(Device& device, const Scene& scene, const Settings& settings, const std::vector<int>& channels) {
+    RenderOptions options;
+    options.channels = channels;
+    options.runs = 0;
+    return Renderer(device, scene).draw(settings, options);
+}
+
+TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    const auto shown = drawing.shown();
+    const Scene scene = loadScene("builtin:points");
+    Device device({});
+    std::array<Frame, 2> frames;
+    for (std::size_t i = 0; i < 2; ++i) {
+        Settings settings = order.subject.settings;
+        settings.path = drawn_paths.at(i);
+        frames.at(i) = drawn(device, scene, settings, {lit, ids});
+    }
+    const Exposure exposure = exposureFor({}, &frames[0].channels.at(lit), coverage(frames[0], frames[0]));
+    const Frame* both[] = {&frames[0], &frames[1]};
+    const PictureScale scale = scaleFor(debugMode(lit), exposure, both);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(shown->panels.at(i).name, nameOf(drawn_paths.at(i)));
+        EXPECT_EQ(shown->panels.at(i).values.data, frames.at(i).channels.at(lit).data);
+        EXPECT_EQ(shown->panels.at(i).picture.data, channelPicture(debugMode(lit), frames.at(i), scale).data);
+        EXPECT_FALSE(shown->paths.at(i).passes.empty());
+        EXPECT_GT(shown->paths.at(i).ms, 0);
+    }
+    // The verdict is there too, on every channel, and says that both agree.
+    const auto judged = drawing.judged();
+    ASSERT_TRUE(judged);
+    EXPECT_TRUE(judged->report.passed());
+    EXPECT_EQ(judged->report.comparisons.at(0).channels.size(), debugModes().size());
+    EXPECT_FALSE(judged->plan.empty());
+    EXPECT_EQ(drawing.validationMessages(), 0u) << drawing.firstValidationMessage();
+}
+
+TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points");
+    order.look.against = Against::reference;
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    ASSERT_TRUE(soon([&] { return drawing.shown()->reference_done >= 1 && drawing.idle(); }));
+    const auto shown = drawing.shown();
+    EXPECT_EQ(shown->panels[0].name, "reference");
+    const Scene scene = loadScene("builtin:points");
+    Device device({});
+    const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {lit});
+    EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(lit).data);
+    // Both paths are judged against it, and against each other.
+    ASSERT_TRUE(soon([&] { return drawing.judged() && drawing.judged()->report.comparisons.size() == 3; }));
+    EXPECT_TRUE(drawing.judged()->report.passed());
+}
+
+TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points");
+    order.pixel = PixelPlace{30, 20};
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    const auto story = drawing.story();
+    ASSERT_TRUE(story);
+    const Scene scene = loadScene("builtin:points");
+    Device device({});
+    SceneViews views(scene);
+    Renderer renderer(device, views);
+    Settings deferred = order.subject.settings, forward = order.subject.settings;
+    deferred.path = Path::deferred;
+    forward.path = Path::forward_plus;
+    const PixelStory same = pixelStory(renderer, views,
+                                       {.x = 30,
+                                        .y = 20,
+                                        .baseline = deferred,
+                                        .test = forward,
+                                        .reference = referenceSettings(order.subject.settings),
+                                        .device = reportDevice(device)});
+    EXPECT_EQ(story->words, inWords(same));
+}
+
+TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points", 320, 180);
+    order.moving = true;
+    for (int i = 0; i < 20; ++i) {
+        order.subject.settings.camera = "eye=0," + std::to_string(1 + 0.1 * i) + ",8 target=0,0,0";
+        drawing.ask(order);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    // Orders that come faster than pictures do not starve them.
+    ASSERT_TRUE(soon([&] { return drawing.shown() != nullptr; }));
+    order.moving = false;
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    EXPECT_EQ(drawing.shown()->size, order.subject.settings.size);
+    EXPECT_EQ(drawing.shown()->camera.eye[2], 8);
+    EXPECT_EQ(drawing.validationMessages(), 0u) << drawing.firstValidationMessage();
+}
+
+TEST(DrawingThread, ASceneThatCannotBeReadLeavesTheOldOne) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, order));
+    const auto before = drawing.shown();
+    Order broken = order;
+    broken.subject.scene = "nowhere.glb";
+    drawing.ask(broken);
+    ASSERT_TRUE(soon([&] { return !drawing.status().error.empty(); }));
+    EXPECT_NE(drawing.status().error.find("nowhere.glb"), std::string::npos);
+    EXPECT_EQ(drawing.shown()->panels[0].values.data, before->panels[0].values.data);
+    ASSERT_TRUE(isDrawn(drawing, order));
+    EXPECT_TRUE(drawing.status().error.empty()) << drawing.status().error;
+}
+
+// A device that is lost is made anew, and the picture drawn after all; one that is lost again and again is
+// given up, and the next order tries anew.
+TEST(DrawingThread, ALostDeviceIsMadeAnew) {
+    std::atomic<int> losses{1};
+    DrawingOptions options = validated();
+    options.before_picture = [&losses] {
+        if (losses > 0) {
+            --losses;
+            throw std::runtime_error("Vulkan: vkQueueSubmit: the device was lost");
+        }
+    };
+    DrawingThread drawing(std::move(options));
+    Order order = orderOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    EXPECT_EQ(losses, 0);
+    EXPECT_TRUE(drawing.status().error.empty());
+    losses = 1000;
+    order.subject.settings.gbuffer = GBufferEncoding::compact;
+    drawing.ask(order);
+    ASSERT_TRUE(soon([&] { return losses <= 996 && drawing.idle(); }));
+    EXPECT_NE(drawing.status().error.find("lost"), std::string::npos);
+    losses = 0;
+    order.subject.settings.gbuffer = GBufferEncoding::full;
+    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+}
+
+TEST(DrawingThread, EveryChannelOfBothPathsIsThereOrSaysWhyNot) {
+    DrawingThread drawing(validated());
+    Order order = orderOf("builtin:points", 32, 18);
+    for (const DebugMode& mode : debugModes()) {
+        order.look.mode = mode.number;
+        order.look.difference = Difference::absolute;
+        ASSERT_TRUE(isDrawn(drawing, order)) << mode.name << drawing.status().error;
+        for (const Panel& panel : drawing.shown()->panels) {
+            EXPECT_EQ(panel.picture.data.empty(), !panel.missing.empty()) << mode.name;
+        }
+        EXPECT_TRUE(drawing.shown()->difference) << mode.name;
+    }
+}
+
+}  // namespace
+}  // namespace diptych::viewer

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: MIT
+// The window on a screen in memory, driven by real events: what is on the screen is what other commands
+// write.
+#include "compare/files/frame_exr.h"
+#include "compare/viewer/canvas.h"
+#include "compare/viewer/interface.h"
+#include "compare/viewer/keys.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/image/png.h"
+#include "tests/campaign.h"
+#include "tests/tool/display.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <regex>
+#include <span>
+
+namespace diptych {
+namespace {
+
+constexpr int windowWidth = 1280, windowHeight = 760;  // as view opens it, without a window manager at 0,0
+
+// A window that has drawn all that was asked for.
+class ViewTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!Display::isThere())
+            GTEST_SKIP() << "Xvfb and xdotool are not installed: nothing is proved here of the window";
+        display_.emplace(folder_);
+    }
+
+    // Starts `view` with --size 320x180, which fits the canvas twice, and waits until it is still. The first
+    // panel is the deferred path's.
+    void open(std::vector<std::string> words, const std::string& size = "320x180") {
+        words.insert(words.begin(), {"view", "-v", "--size", size});
+        view_.emplace(folder_, words);
+        settle();
+        display_->events("mousemove 60 500");
+        key("i");  // the information would lie over the pictures
+    }
+
+    std::size_t times(const std::string& what) const {
+        const std::string said = view_->err();
+        std::size_t count = 0;
+        for (std::size_t at = 0; (at = said.find(what, at)) != said.npos; ++at) ++count;
+        return count;
+    }
+    // Waits until it has said `what` once more than `before` times.
+    void await(const std::string& what, std::size_t before) {
+        EXPECT_TRUE(soon([&] { return times(what) > before || view_->ended(); })) << what << "\n"
+                                                                                  << view_->err();
+        ASSERT_FALSE(view_->ended()) << view_->err();
+    }
+    // Waits until nothing more is drawn.
+    void settle() {
+        await("view: still", stills_);
+        // What comes after an order that has just been asked for says it again.
+        for (std::size_t now = 0; now != times("view: still");) {
+            now = stills_ = times("view: still");
+            std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        }
+    }
+    // Presses a key and waits until what it does is seen.
+    void key(const std::string& name) {
+        const std::size_t before = times("view: key ");
+        display_->events("key " + name);
+        await("view: key ", before);
+    }
+    // And until all of it is drawn.
+    void keyAndSettle(const std::string& name) {
+        stills_ = times("view: still");
+        key(name);
+        settle();
+    }
+    std::string lastLine(const std::string& with) const {
+        const std::string said = view_->err();
+        const std::size_t at = said.rfind(with);
+        return at == said.npos ? "" : said.substr(at, said.find('\n', at) - at);
+    }
+    void close() {
+        display_->events("key ctrl+q");
+        EXPECT_TRUE(soon([&] { return view_->ended(); }));
+        const int status = view_->wait();
+        EXPECT_TRUE(WIFEXITED(status)) << status << view_->err();
+        EXPECT_EQ(WEXITSTATUS(status), 0) << view_->err();
+    }
+
+    // The picture that `words` of render write.
+    PngPicture rendered(const std::string& words) {
+        const Ran ran = runTool(folder_, "render " + words + " --runs 0 --force -o rendered.png");
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        const std::string bytes = contentsOf(folder_ / "rendered.png");
+        return readPngPicture(std::as_bytes(std::span(bytes)), "rendered.png");
+    }
+
+    // How many pixels of the picture are elsewhere than one display level from what the panel shows.
+    // `picture` may have a strip below.
+    int differing(const PngPicture& picture, std::size_t panel, const viewer::CanvasView& view,
+                  bool difference = false) {
+        const Screen screen = display_->screen();
+        viewer::InterfaceState state;
+        const viewer::CanvasRect canvas = viewer::canvasOf(state, windowWidth, windowHeight, 1);
+        Size size;
+        size.width = 320;
+        size.height = 180;
+        const double line = canvas.x + view.wipe * canvas.width;
+        int count = 0, seen = 0;
+        for (const viewer::PanelPlace& place : viewer::placesOf(canvas, size, view, difference)) {
+            if (place.panel != panel) continue;
+            for (int y = 0; y < size.height; ++y)
+                for (int x = 0; x < size.width; ++x) {
+                    const double px = place.placement.left + (x + 0.5) * place.placement.scale,
+                                 py = place.placement.top + (y + 0.5) * place.placement.scale;
+                    // The wipe's line and its handle.
+                    if (!place.rect.contains(px, py) ||
+                        (view.layout == viewer::Layout::wipe && std::abs(px - line) < 14))
+                        continue;
+                    ++seen;
+                    const auto& shown = screen.at(static_cast<int>(px), static_cast<int>(py));
+                    for (int c = 0; c < 3; ++c)
+                        if (std::abs(shown[static_cast<std::size_t>(c)] - 255 * picture.image.at(x, y, c)) >
+                            1.01) {
+                            ++count;
+                            break;
+                        }
+                }
+        }
+        EXPECT_GT(seen, 1000);
+        return count;
+    }
+
+    Folder folder_;
+    std::optional<Display> display_;
+    std::optional<Running> view_;
+    std::size_t stills_ = 0;
+};
+
+using View = ViewTest;
+
+viewer::CanvasView wipe() {
+    return {};
+}
+viewer::CanvasView single() {
+    viewer::CanvasView view;
+    view.layout = viewer::Layout::single;
+    return view;
+}
+
+TEST(ViewWithoutDisplay, EndsWithTwoAndSaysHowToDoWithout) {
+    const Folder folder;
+    EXPECT_TRUE(
+        runShell(folder, "env -u DISPLAY -u WAYLAND_DISPLAY '" DIPTYCH_PROGRAM "' view", folder.path())
+            .failedOver("diptych render SCENE -o picture.png"));
+}
+
+TEST(ViewWithoutDisplay, WhatCannotBeShownIsSaidBeforeAnyWindow) {
+    const Folder folder;
+    EXPECT_TRUE(runTool(folder, "view a.glb b.glb").failedOver("one scene"));
+    EXPECT_TRUE(runTool(folder, "view --pixel 640,0").failedOver("--pixel"));
+    EXPECT_TRUE(runTool(folder, "view --report nowhere").failedOver("--report nowhere"));
+    EXPECT_TRUE(runTool(folder, "view --evsm-exponent 3").failedOver("evsm"));
+}
+
+TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
+    // Coarse bits, so that the two pictures are told apart.
+    open({"builtin:spots", "--exposure", "1", "--gbuffer", "compact"});
+    const std::string scene = "builtin:spots --size 320x180 --exposure 1 --gbuffer compact";
+    const PngPicture deferred = rendered(scene + " --path deferred"),
+                     forward = rendered(scene + " --path forward_plus");
+    EXPECT_EQ(differing(deferred, 0, wipe()), 0);
+    EXPECT_EQ(differing(forward, 1, wipe()), 0);
+    EXPECT_GT(differing(forward, 0, wipe()), 100);
+    EXPECT_GT(differing(deferred, 1, wipe()), 100);
+    // Tab swaps them.
+    keyAndSettle("Tab");
+    EXPECT_EQ(differing(forward, 0, wipe()), 0);
+    EXPECT_EQ(differing(deferred, 1, wipe()), 0);
+    // The line is dragged to the left edge: all is the right panel's.
+    const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
+    display_->events(fmt::format("mousemove {} 400 mousedown 1 mousemove {} 400 mousemove 0 400 mouseup 1",
+                                 canvas.width / 2, canvas.width / 4));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    viewer::CanvasView view = wipe();
+    view.wipe = 0;
+    EXPECT_EQ(differing(deferred, 1, view), 0);
+    close();
+}
+
+TEST_F(View, EveryChannelIsWhatRenderWrites) {
+    open({"builtin:spots", "--exposure", "1"});
+    key("v");
+    key("v");  // one panel
+    const std::string scene = "builtin:spots --size 320x180 --exposure 1 --debug ";
+    for (int digit : {1, 2, 3, 4, 5, 6, 7, 8, 9, 0}) {  // it begins with 0
+        keyAndSettle(std::to_string(digit));
+        EXPECT_EQ(differing(rendered(scene + std::to_string(digit)), 1, single()), 0) << digit;
+    }
+    keyAndSettle("e");
+    EXPECT_EQ(differing(rendered(scene + "light_count"), 1, single()), 0);
+    keyAndSettle("e");
+    EXPECT_EQ(differing(rendered(scene + "lit"), 1, single()), 0) << "E goes back to lit";
+    // C goes through those beyond 9.
+    std::vector<std::string> beyond;
+    for (const DebugMode& mode : debugModes())
+        if (mode.number > 9) beyond.emplace_back(mode.name);
+    keyAndSettle("c");
+    EXPECT_EQ(differing(rendered(scene + beyond[0]), 1, single()), 0);
+    keyAndSettle("c");
+    EXPECT_EQ(differing(rendered(scene + beyond[1]), 1, single()), 0);
+    keyAndSettle("shift+c");
+    EXPECT_EQ(differing(rendered(scene + beyond[0]), 1, single()), 0);
+    close();
+}
+
+// The camera of the command that Y copies, and the command itself.
+struct Copied {
+    std::string command;
+    std::array<double, 3> eye{};
+};
+
+class ViewCamera : public ViewTest {
+protected:
+    Copied copied() {
+        key("y");
+        Copied result;
+        const std::string line = lastLine("copied: diptych render");
+        result.command = line.substr(line.find("render"));
+        std::smatch found;
+        if (std::regex_search(line, found, std::regex("eye=([^,]+),([^,]+),([^ ]+)")))
+            for (std::size_t i = 0; i < 3; ++i) result.eye[i] = std::stod(found[i + 1]);
+        return result;
+    }
+    // Holds a key for a moment; the view moves and comes to rest.
+    void hold(const std::string& name) {
+        stills_ = times("view: still");
+        display_->events("keydown " + name + " sleep 0.3 keyup " + name);
+        settle();
+    }
+};
+
+TEST_F(ViewCamera, KeysMoveItAndTheCopiedCommandDrawsWhatIsOnTheScreen) {
+    open({"builtin:spots", "--exposure", "1", "--camera", "eye=0,1,6 target=0,1,0 fov=45"});
+    key("v");
+    key("v");
+    // Along -Z, so that forward, right and up are axes.
+    const struct {
+        const char* key;
+        std::size_t axis;
+        double sign;
+    } moves[] = {{"w", 2, -1}, {"s", 2, 1}, {"d", 0, 1}, {"a", 0, -1}, {"space", 1, 1}, {"Control_L", 1, -1}};
+    Copied before = copied();
+    before.eye = {0, 1, 6};
+    for (const auto& [name, axis, sign] : moves) {
+        hold(name);
+        const Copied after = copied();
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (i == axis)
+                EXPECT_GT(sign * (after.eye[i] - before.eye[i]), 0.05) << name;
+            else
+                EXPECT_NEAR(after.eye[i], before.eye[i], 1e-6) << name;
+        }
+        before = after;
+    }
+    // The mouse looks around: what is copied then draws what is on the screen.
+    stills_ = times("view: still");
+    display_->events("mousemove 400 400 mousedown 1 mousemove 440 410 mousemove 460 420 mouseup 1");
+    settle();
+    const std::string command = copied().command;
+    EXPECT_EQ(differing(rendered(command.substr(command.find(' ') + 1)), 1, single()), 0) << command;
+    close();
+}
+
+TEST_F(View, APixelsValuesAreThoseOfTheExr) {
+    open({"builtin:spots"});
+    const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
+    Size size;
+    size.width = 320;
+    size.height = 180;
+    const viewer::PanelPlace place = viewer::placesOf(canvas, size, wipe(), false).front();
+    ASSERT_EQ(runTool(folder_, "render builtin:spots --size 320x180 --runs 0 --path deferred -o d.exr").code,
+              0);
+    ASSERT_EQ(
+        runTool(folder_, "render builtin:spots --size 320x180 --runs 0 --path forward_plus -o f.exr").code,
+        0);
+    const Frame deferred = frameFromExr(folder_ / "d.exr"), forward = frameFromExr(folder_ / "f.exr");
+    for (const auto& [x, y] : {std::pair{100, 90}, {150, 120}}) {
+        const std::size_t before = times("view: pixel ");
+        display_->events(
+            fmt::format("mousemove {} {} click 3",
+                        static_cast<int>(place.placement.left + (x + 0.5) * place.placement.scale),
+                        static_cast<int>(place.placement.top + (y + 0.5) * place.placement.scale)));
+        await("view: pixel ", before);
+        const auto words = [&, x = x, y = y](const Frame& frame) {
+            return viewer::valueWords(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)), x, y);
+        };
+        EXPECT_EQ(lastLine("pixel "), fmt::format("pixel {},{}  deferred: {}  forward_plus: {}", x, y,
+                                                  words(deferred), words(forward)));
+    }
+    close();
+}
+
+TEST_F(View, DifferencesAndTheReferenceStandInThePanels) {
+    open({"builtin:points"});
+    const Screen both = display_->screen();
+    keyAndSettle("x");  // signed
+    EXPECT_NE(both.pixels, display_->screen().pixels);
+    for (int i = 0; i < 3; ++i) keyAndSettle("x");  // FLIP
+    keyAndSettle("x");
+    EXPECT_EQ(differing(rendered("builtin:points --size 320x180 --path deferred"), 0, wipe()), 0);
+    keyAndSettle("t");
+    EXPECT_EQ(differing(rendered("builtin:points --size 320x180 --path reference"), 0, wipe()), 0);
+    close();
+}
+
+TEST_F(View, AScreenshotIsWhatRenderWrites) {
+    open({"builtin:points"});
+    key("p");
+    await("view: written:", 0);
+    for (const char* path : {"deferred", "forward_plus"}) {
+        const std::string stem = std::string("diptych-view-0001.") + path;
+        ASSERT_EQ(
+            runTool(folder_,
+                    fmt::format("render builtin:points --size 320x180 --runs 0 --path {} -o r.exr", path))
+                .code,
+            0);
+        EXPECT_EQ(runTool(folder_, "diff r.exr " + stem + ".exr --metric max --tolerance 0").code, 0);
+        EXPECT_EQ(
+            runTool(folder_,
+                    fmt::format("render builtin:points --size 320x180 --runs 0 --path {} -o r.png", path))
+                .code,
+            0);
+        EXPECT_EQ(contentsOf(folder_ / "r.png"), contentsOf(folder_ / (stem + ".png")));
+    }
+    key("p");  // writes over nothing
+    await("view: written:", 1);
+    EXPECT_TRUE(fs::exists(folder_ / "diptych-view-0002.deferred.exr"));
+    close();
+}
+
+TEST_F(View, ABrokenSceneOnReadingAgainKeepsTheOldOne) {
+    // One triangle, its vertices in the file.
+    const std::string scene =
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    folder_.write("a.gltf", scene);
+    open({"a.gltf", "--watch", "--exposure", "1"});
+    const PngPicture picture = rendered("a.gltf --size 320x180 --exposure 1");
+    EXPECT_EQ(differing(picture, 1, wipe()), 0);
+    folder_.write("a.gltf", "{");
+    key("r");
+    EXPECT_TRUE(soon([&] { return times("a.gltf: ") > 0; })) << view_->err();
+    EXPECT_EQ(differing(picture, 1, wipe()), 0) << "the old scene stays";
+    stills_ = times("view: still");
+    folder_.write("a.gltf", scene);  // --watch reads it by itself
+    EXPECT_TRUE(soon([&] { return times("a file has changed") > 0; })) << view_->err();
+    settle();
+    EXPECT_EQ(differing(picture, 1, wipe()), 0);
+    close();
+}
+
+TEST_F(View, AReportOpensAtItsFailingChannelsWorstPixel) {
+    folder_.write("strict.json",
+                  R"({"rules": [{"channel": "albedo", "max": 0, "because": "no bit may change"}]})");
+    const Ran compared =
+        runTool(folder_, "compare builtin:spots --size 320x180 --tolerances strict.json -o report");
+    ASSERT_EQ(compared.code, 1) << compared.out << compared.err;
+    EXPECT_NE(contentsOf(folder_ / "report/index.html").find("diptych view --report report --debug albedo"),
+              std::string::npos);
+    view_.emplace(folder_, std::vector<std::string>{"view", "-v", "--report", "report"});
+    settle();
+    key("y");
+    const std::string line = lastLine("copied: ");
+    EXPECT_NE(line.find("--debug albedo"), std::string::npos) << line;
+    EXPECT_NE(line.find("--size 320x180"), std::string::npos) << line;
+    close();
+}
+
+// Keys, clicks, drags, wheels and sizes at random, under the validation layers: nothing crashes or hangs, and
+// the layers say nothing.
+TEST_F(View, SurvivesWhateverIsDoneToIt) {
+    std::mt19937 random(static_cast<unsigned>(campaignSeed()));
+    const auto upTo = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    view_.emplace(folder_, std::vector<std::string>{"view", "-v", "--validate", "builtin:points", "--lights",
+                                                    "point:3"});
+    await("first picture", 0);
+    std::vector<std::string> keys;
+    for (const viewer::KeyBinding& binding : viewer::keyBindings()) {
+        if (binding.action == viewer::Action::quit) continue;
+        const std::string name(binding.name);
+        keys.push_back(name == "Space"    ? "space"
+                       : name == "Ctrl"   ? "Control_L"
+                       : name == "Esc"    ? "Escape"
+                       : name == "?"      ? "question"
+                       : name == "0 to 9" ? std::to_string(upTo(10))
+                       : name.size() == 1 ? std::string(1, static_cast<char>(std::tolower(name[0])))
+                                          : name);
+    }
+    for (int i = 0; i < 200 && !view_->ended(); ++i) {
+        const int x = upTo(windowWidth), y = upTo(windowHeight);
+        switch (upTo(8)) {
+            case 0:
+            case 1:
+            case 2:
+                display_->events("key " +
+                                 keys[static_cast<std::size_t>(upTo(static_cast<int>(keys.size())))]);
+                break;
+            case 3:
+                display_->events(fmt::format("mousemove {} {} click {}", x, y, 1 + upTo(5)));
+                break;
+            case 4:
+                display_->events(fmt::format("mousemove {} {} mousedown 1 mousemove {} {} mouseup 1", x, y,
+                                             upTo(windowWidth), upTo(windowHeight)));
+                break;
+            case 5:
+                display_->events(
+                    fmt::format("mousemove {} {} click {} click {}", x, y, 4 + upTo(2), 4 + upTo(2)));
+                break;
+            case 6:
+                display_->events(
+                    fmt::format("search --name Diptych windowsize {} {}", 64 + upTo(1400), 64 + upTo(900)));
+                break;
+            default:
+                display_->events(fmt::format("keydown w sleep 0.05 keyup w"));
+        }
+    }
+    ASSERT_FALSE(view_->ended()) << view_->err();
+    display_->events("search --name Diptych windowsize 1280 760");
+    close();
+}
+
+}  // namespace
+}  // namespace diptych
