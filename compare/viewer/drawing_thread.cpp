@@ -175,7 +175,8 @@ struct DrawingThread::State {
     std::optional<Subject> loaded;  // scene, reading and environment of what is loaded, or could not be
     std::unique_ptr<SceneViews> views;
     std::unique_ptr<Renderer> renderer;
-    std::array<Frame, 2> frames;   // deferred, forward+, of `drawn`
+    // Deferred, forward+, of `drawn`; those of a verdict are its report's.
+    std::array<std::shared_ptr<const Frame>, 2> frames;
     std::optional<Subject> drawn;  // still and whole
     std::vector<int> drawn_channels;
     std::optional<std::uint64_t> shown_order, failed_order;
@@ -191,6 +192,7 @@ struct DrawingThread::State {
     Clock::time_point reference_shown{};
     int recoveries = 0;
     bool loading = false;
+    std::shared_ptr<const Scene> reference_scene;  // that the reference is of
     ReferenceThread reference;
     Progress progress;   // throws Superseded where nobody wants the work any more
     Progress comparing;  // of parallel work, which is seen to its end
@@ -458,10 +460,10 @@ struct DrawingThread::State {
         return result;
     }
 
-    void takeFacts(const std::array<Frame, 2>& of, bool timed_too) {
+    void takeFacts(const std::array<const Frame*, 2>& of, bool timed_too) {
         for (std::size_t i = 0; i < 2; ++i) {
             PathFacts& facts_of = paths.at(i);
-            const Frame& frame = of.at(i);
+            const Frame& frame = *of.at(i);
             facts_of.name = frame.name;
             if (timed_too) {
                 facts_of.ms = frame.time.median;
@@ -513,11 +515,14 @@ struct DrawingThread::State {
         if (passing)
             passed = mode == lit ? drawLit(size) : drawChannels(size, {mode}, true);
         else if (!known) {
-            frames = drawChannels(size, {mode}, false);
+            std::array<Frame, 2> whole = drawChannels(size, {mode}, false);
+            for (std::size_t i = 0; i < 2; ++i)
+                frames.at(i) = std::make_shared<const Frame>(std::move(whole.at(i)));
             drawn = order.subject;
             drawn_channels = {mode, lit, ids};
         }
-        const std::array<Frame, 2>& now = passing ? passed : frames;
+        const std::array<const Frame*, 2> now{passing ? &passed[0] : frames[0].get(),
+                                              passing ? &passed[1] : frames[1].get()};
         if (!known) {
             const double took = msSince(start);
             // The first frame of each pipeline compiles it, and says little of the next.
@@ -535,7 +540,8 @@ struct DrawingThread::State {
         if (order.look.against != Against::reference || passing) return nullptr;
         Settings wanted_settings = referenceSettings(order.subject.settings);
         if (const auto problem = wanted_settings.problem()) throw std::runtime_error(*problem);
-        if (reference.settings() != wanted_settings) {
+        if (reference.settings() != wanted_settings || reference_scene != scene) {
+            reference_scene = scene;
             std::optional<Frame> surfaces;
             if (wanted_settings.reference_mode == ReferenceMode::surface) {
                 RenderOptions capture;
@@ -559,23 +565,24 @@ struct DrawingThread::State {
         return stored->second;
     }
 
-    void show(const std::array<Frame, 2>& now, const Size& size, bool passing, Clock::time_point start) {
+    void show(const std::array<const Frame*, 2>& now, const Size& size, bool passing,
+              Clock::time_point start) {
         auto next = std::make_shared<Shown>();
         next->order = order;
         next->size = size;
         const std::size_t right = order.subject.settings.path == drawn_paths[0] ? 0 : 1;
         const std::shared_ptr<const Frame> left = leftFrame(passing, *next);
-        const Frame& baseline = left ? *left : now.at(1 - right);
+        const Frame& baseline = left ? *left : *now.at(1 - right);
         // An exposure that is found anew for every smaller picture would flicker.
         if (!passing || !exposure || exposure_of.picture().exposure != order.look.exposure ||
             exposure_of.ev100 != order.look.ev100 || exposure_of.tonemap != order.look.tonemap) {
-            exposure = exposureOf(now.at(1 - right), now.at(right), order.look);
+            exposure = exposureOf(*now.at(1 - right), *now.at(right), order.look);
             exposure_of = order.look;
         }
-        makePictures(baseline, now.at(right), order.look, *exposure, *next);
+        makePictures(baseline, *now.at(right), order.look, *exposure, *next);
         if (left && next->reference_done < 1 && order.look.against == Against::reference)
             next->panels[0].name = fmt::format("reference, {:.0f} % drawn", 100 * next->reference_done);
-        const SceneView& view = views->at(viewRequest(now.at(right).settings));
+        const SceneView& view = views->at(viewRequest(now.at(right)->settings));
         next->camera = cameraOf(view.view);
         next->view = view.view;
         next->lights = view.lights;
@@ -590,8 +597,7 @@ struct DrawingThread::State {
         options.wake();
     }
 
-    // ---- what a still picture has besides
-    // ------------------------------------------------------------------
+    // ---- what a still picture has besides --------------------------------------------------------
 
     void time() {
         const std::array settings{settingsOf(drawn_paths[0], order.subject.settings.size),
@@ -619,20 +625,16 @@ struct DrawingThread::State {
         render.requested = everyChannel();
         render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene);
         render.twice = false;
-        if (judged_of != order.subject || !has(everyChannel())) {
-            std::array<Frame, 2> judged_frames;
-            for (std::size_t i = 0; i < 2; ++i) {
-                render.progress =
-                    stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-                judged_frames.at(i) = renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render);
+        std::vector<Frame> both;
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (judged_of == order.subject && drawn == order.subject && has(everyChannel())) {
+                both.push_back(*frames.at(i));  // against something else this time
+                continue;
             }
-            // Every channel is there from now on.
-            frames = std::move(judged_frames);
-            drawn = order.subject;
-            drawn_channels = everyChannel();
-            takeFacts(frames, false);
+            render.progress =
+                stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
+            both.push_back(renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render));
         }
-        std::vector<Frame> both(frames.begin(), frames.end());
         auto next = std::make_shared<Judged>();
         next->subject = order.subject;
         const SceneView& view = views->at(viewRequest(both[0].settings));
@@ -657,6 +659,14 @@ struct DrawingThread::State {
         }
         judged_of = order.subject;
         judged_against = against;
+        // Every channel is there from now on.
+        for (std::size_t i = 0; i < 2; ++i)
+            for (const Frame& frame : next->report.frames)
+                if (frame.settings.path == drawn_paths.at(i))
+                    frames.at(i) = std::shared_ptr<const Frame>(next, &frame);
+        drawn = order.subject;
+        drawn_channels = everyChannel();
+        takeFacts({frames[0].get(), frames[1].get()}, false);
         auto again = std::make_shared<Shown>(*shown);
         again->paths = paths;
         {
@@ -725,7 +735,7 @@ struct DrawingThread::State {
                 if (frame.channels.contains(mode.number))
                     writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.picture());
             }
-            line = fmt::format("written: {}.deferred and .forward_plus, .exr and .png", stem.string());
+            line = fmt::format("written: {}.*, .exr and .png of both paths", stem.string());
         } catch (const Superseded&) {
             // A newer order comes first.
             const std::lock_guard lock(mutex);

@@ -259,7 +259,7 @@ void values(const Contents& contents, const std::vector<PanelPlace>& places) {
     const Size& full = shown.order.subject.settings.size;
     for (const PanelPlace& place : places) {
         const auto [left, top, size] = place.placement;
-        if (size < valuesFrom) continue;
+        if (size < valuesFrom || (place.panel == 2 && !shown.difference)) continue;
         const Image& image =
             place.panel == 2 ? shown.difference->values : shown.panels.at(place.panel).values;
         if (image.empty() || image.width != full.width || image.height != full.height) continue;

@@ -589,10 +589,6 @@ void Presenter::beginFrame() {
     ImGui_ImplVulkan_NewFrame();
 }
 
-void Presenter::takeFonts() {
-    state_->makeFontTexture();
-}
-
 bool Presenter::show(const WindowPixels& pixels, ImDrawData* drawing) {
     try {
         state_->show(pixels, drawing);

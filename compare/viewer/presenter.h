@@ -33,10 +33,8 @@ public:
 
     // Whether pixels are stored blue, green, red, alpha; else red first.
     bool isBgr() const;
-    // Begins a frame of Dear ImGui's renderer.
+    // Begins a frame of Dear ImGui's renderer. The text is that of the atlas when this was made.
     void beginFrame();
-    // Makes the font's texture anew after the atlas has changed.
-    void takeFonts();
     // Shows the pixels and, over them, Dear ImGui's drawing. In a window without area it does nothing. False
     // where the device is lost: this must be made anew.
     bool show(const WindowPixels& pixels, ImDrawData* drawing);

@@ -314,7 +314,7 @@ private:
         if (const double scale = window_.contentScale(); scale != scale_) {
             scale_ = scale;
             setScale(scale);
-            presenter_->takeFonts();
+            makePresenter();  // with the text of that size
         }
     }
 
