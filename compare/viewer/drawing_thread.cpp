@@ -646,8 +646,10 @@ struct DrawingThread::State {
         if (against == Against::reference) {
             std::vector<Frame> three{*reference.frame()};
             std::ranges::move(both, std::back_inserter(three));
+            std::vector<std::string> materials;
+            for (const Material& material : scene->materials) materials.push_back(material.name);
             next->report = makeReferenceReport(std::move(three), {view.needs, view.needs, view.needs},
-                                               reportDevice(*device), compare, {}, {});
+                                               reportDevice(*device), compare, {{}}, {materials});
         } else if (against == Against::file) {
             Frame baseline = *storedFrame();
             baseline.requested = both[0].requested;
