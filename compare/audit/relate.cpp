@@ -115,18 +115,13 @@ Blame RelationHeld::blame(bool cpu) const {
     return cpu ? Blame::ours_likely : Blame::driver_or_ours;
 }
 
-std::vector<Series> relatedSeries(const Subject& subject) {
-    std::vector<Series> all;
-    std::vector<Settings> known;
+ChosenSeries relatedSeries(const Subject& subject) {
+    ChosenSeries all;
     for (Series series : {Series{Path::deferred, {}}, Series{Path::forward_plus, {}},
                           Series{Path::deferred, {{"gbuffer", "full"}}},
                           Series{Path::reference, {{"reference-mode", "scene"}}}}) {
-        Settings settings = settingsOfSeries(series, subject.given.settings);
-        if (settings.problem()) continue;
-        settings = effectiveSettings(settings);
-        if (std::ranges::count(known, settings) > 0) continue;
-        known.push_back(settings);
-        all.push_back(std::move(series));
+        const Settings settings = settingsOfSeries(series, subject.given.settings);
+        all.add(std::move(series), settings);
     }
     return all;
 }
@@ -138,7 +133,7 @@ RelationMeasurer::RelationMeasurer(Device& device, const Subject& subject,
       subject_(subject),
       on_step_(std::move(onStep)),
       pipelines_(pipelines ? std::move(pipelines) : makePipelineSet(device)),
-      series_(relatedSeries(subject)) {}
+      chosen_(relatedSeries(subject)) {}
 
 RelationMeasurer::Drawn RelationMeasurer::draw(const Case& of, std::span<const Settings> settings) {
     Drawn drawn;

@@ -28,6 +28,8 @@ struct RenderOptions {
     // light and of ambient light geometry hides (Frame::hidden_light).
     bool environment_errors = false;
     bool twice = false;                               // draw every channel twice, for Frame::noise
+    // Whether what makes the other channels draws lit, too, and counts where it is not the timed frame's.
+    bool recheck = true;
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
     // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:

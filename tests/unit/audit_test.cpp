@@ -159,6 +159,49 @@ TEST(Audit, WhatADeviceRefusesIsNoFailure) {
     }
 }
 
+// What draws the same picture, or none, is no series of its own, and that is said.
+TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
+    const ChosenSeries offset = seriesOf(quantityOf("offset"), gallery());
+    ASSERT_EQ(offset.series.size(), 3u);
+    ASSERT_EQ(offset.left_out.size(), 1u);
+    EXPECT_EQ(offset.left_out[0], "forward_plus, gbuffer full: is drawn as forward_plus");
+    ChosenSeries refused;
+    Settings settings;
+    settings.shadows = Shadows::evsm;
+    settings.evsm_exponent = 1000;
+    ASSERT_TRUE(settings.problem());
+    refused.add({Path::deferred, {{"shadows", "evsm"}}}, settings);
+    EXPECT_TRUE(refused.series.empty());
+    EXPECT_EQ(refused.left_out.at(0), "deferred, shadows evsm: " + *settings.problem());
+    QuantityAudit audit;
+    audit.quantity = &quantityOf("offset");
+    audit.steps.emplace_back();
+    audit.left_out = offset.left_out;
+    EXPECT_NE(inWords(audit).find(offset.left_out[0]), std::string::npos);
+}
+
+// A bound is no prediction of where something breaks: what breaks before agrees with it as little as it
+// disagrees, and what holds beyond it refutes it.
+TEST(Audit, ABoundIsRefutedByWhatHoldsBeyondIt) {
+    QuantityAudit audit;
+    for (const double magnitude : {1.0, 1e6}) audit.steps.emplace_back().magnitude = magnitude;
+    for (std::vector<Hold>& holds : audit.holds) holds.resize(1);
+    Hold& hold = audit.holds[0][0];
+    hold = {true, {100, 1000, true}, {1, 0, false}};
+    audit.predicted[0] = {{.up = 1e4, .because = "it ends there", .at_most = true}};
+    EXPECT_EQ(agrees(audit, 0, 0), std::nullopt) << "something else broke it";
+    EXPECT_EQ(rangeInWords(audit.predicted[0][0], audit), "at most up to 1e+04");
+    audit.predicted[0][0].at_most = false;
+    EXPECT_EQ(agrees(audit, 0, 0), false);
+    audit.predicted[0][0].at_most = true;
+    hold.up = {1e5, 2e5, true};
+    EXPECT_EQ(agrees(audit, 0, 0), false) << "it held ten times as far";
+    hold.up = {1e6, 0, false};
+    EXPECT_EQ(agrees(audit, 0, 0), false);
+    audit.predicted[0][0].up = 1e7;
+    EXPECT_EQ(agrees(audit, 0, 0), true);
+}
+
 TEST(Audit, WhatIsRequiredIsMeasuredItself) {
     const Subject subject = gallery();
     const std::array beside{5e9};
@@ -206,7 +249,7 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
             quantity.name != "roughness" && quantity.name != "normal_map" &&
             quantity.name != "texel";  // which that file does not hold
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
-        EXPECT_FALSE(seriesOf(quantity, subject).empty()) << quantity.name;
+        EXPECT_FALSE(seriesOf(quantity, subject).series.empty()) << quantity.name;
     }
     // What it lacks is said.
     EXPECT_NE(quantityOf("environment").lacks(subject), "");
