@@ -59,7 +59,10 @@ private:
         std::vector<std::optional<Frame>> frames;
         std::vector<std::string> failed;
     };
-    Drawn draw(const Case& of, std::span<const Settings> settings);
+    // `reference`: also what needs no device.
+    Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
+    // What draw() left out.
+    static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
     // What the bits of the given G-buffer may change of lit, by forward+, of a case; empty without bits.
     const Image* packedLight(const Case& of, bool own);
     Grant grantOf(const Relation& relation, const Related& related, const Settings& settings) const;
