@@ -84,7 +84,8 @@ private:
         frame_.bytes = bytesOf(prepared_, shared_);
     }
 
-    // lit, to be compared with the timed frame's unless that is not asked for, and every requested channel that this path can make.
+    // lit, to be compared with the timed frame's unless that is not asked for, and every requested channel
+    // that this path can make.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
         if (options_.recheck) request.modes = {lit};
