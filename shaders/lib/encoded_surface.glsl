@@ -18,10 +18,10 @@ float roughnessBound(float x) {
 }
 float normalBound() { return octahedralAngle(compactBits() ? COMPACT_NORMAL_BITS : STANDARD_NORMAL_BITS); }
 
-// Floats of 16 bits round to 2^-11 of a number. A picture's normal is turned by one rounding of its parts, and
-// its products with a direction are off by three more, those of their terms and two sums, which a turn by as
-// much explains. Three pictures of 16 bits are in what the moved surfaces bound: deferred's, that of forward+,
-// and the latter again, from which the first moved surface is held apart.
+// Floats of 16 bits round to 2^-11 of a number. A picture's normal is turned by one rounding of its parts,
+// and its products with a direction are off by three more, those of their terms and two sums, which a turn by
+// as much explains. Three pictures of 16 bits are in what the moved surfaces bound: deferred's, that of
+// forward+, and the latter again, from which the first moved surface is held apart.
 const float HALF_TURN = 3.0 * 4.0 / 2048.0;
 
 // A unit vector perpendicular to n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
