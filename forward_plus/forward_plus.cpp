@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace diptych {
 
@@ -91,16 +92,20 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
     std::vector<CapturedImage> images;
     const auto capture = [&](const std::vector<int>& modes, std::optional<gpu::uint> surface) {
         const bool encoded = surface.has_value();
-        const gpu::uint shaded = surface.value_or(gpu::SURFACE_DECODED);
+        gpu::uint shaded = surface.value_or(gpu::SURFACE_DECODED);
         if (modes.empty()) return;
+        const bool whole =
+            shaded != gpu::SURFACE_DECODED && inputs.variant.get(gpu::FEATURE_half_shading) != 0;
+        if (whole) shaded += gpu::SURFACE_OF_HALF;
+        const auto keyOf = [&](PipelineKey key) {
+            if (whole) key.variant.set(gpu::FEATURE_half_shading, 0);
+            return quantised(std::move(key), inputs, encoded);
+        };
         const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
             pass.depthTest(frame.depth);
             addShadedDraws(
                 pass, passes, inputs, frame, batch,
-                [&](const DrawItem& item) {
-                    return quantised(forwardBatchKey(inputs, item, batch), inputs, encoded);
-                },
-                shaded);
+                [&](const DrawItem& item) { return keyOf(forwardBatchKey(inputs, item, batch)); }, shaded);
         });
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
@@ -111,9 +116,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
             }
             addShadedDraws(
                 pass, passes, inputs, frame, last,
-                [&](const DrawItem& item) {
-                    return quantised(forwardCaptureKey(inputs, item, group, last), inputs, encoded);
-                },
+                [&](const DrawItem& item) { return keyOf(forwardCaptureKey(inputs, item, group, last)); },
                 shaded);
             addTransparentCapture(passes, inputs, frame.depth, images);
         }

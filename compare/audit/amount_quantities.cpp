@@ -12,9 +12,26 @@ namespace diptych::audit {
 
 namespace {
 
+constexpr double mostCopies = 3000;
+// Lights times pixels of a picture: a second of lavapipe where every light is met at every pixel.
+constexpr double mostLit = 1e8;
+
+// A picture of the same shape in which so many lights meet few enough pixels; as large at every magnitude.
+Size sizeForLights(const Subject& subject) {
+    const Size size = subject.given.settings.size;
+    const double pixels = static_cast<double>(size.width) * size.height;
+    const auto local = std::ranges::count_if(
+        subject.given.scene.lights, [](const Light& light) { return light.kind != LightKind::directional; });
+    const double part =
+        std::sqrt(std::min(1.0, mostLit / (mostCopies * static_cast<double>(local) * pixels)));
+    const auto side = [&](int whole) { return std::max(1, static_cast<int>(std::lround(whole * part))); };
+    return {side(size.width), side(size.height)};
+}
+
 // So many copies of every local light, which share its intensity: the picture stays the same.
-void pushLights(Case& pushed, const Subject&, double copies) {
+void pushLights(Case& pushed, const Subject& subject, double copies) {
     const auto count = static_cast<std::size_t>(copies);
+    pushed.settings.size = sizeForLights(subject);
     std::vector<Light> lights;
     for (Light light : pushed.scene.lights) {
         if (light.kind == LightKind::directional) {
@@ -151,7 +168,7 @@ std::vector<Quantity> amountQuantities() {
     return {{.name = "lights",
              .unit = "",
              .what = "copies of every local light, which share its intensity",
-             .magnitudes = {1, 10, 100, 1000, 3000},
+             .magnitudes = {1, 10, 100, 1000, mostCopies},
              .usual = usualOne,
              .lacks = lacksLocalLight,
              .push = pushLights,

@@ -117,7 +117,9 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     audit.lacks = subject.bounds.empty() ? "the scene has nothing to draw" : quantity.lacks(subject);
     if (!audit.lacks.empty()) return audit;
     audit.usual = quantity.usual(subject);
-    audit.series = seriesOf(quantity, subject);
+    ChosenSeries chosen = seriesOf(quantity, subject);
+    audit.series = std::move(chosen.series);
+    audit.left_out = std::move(chosen.left_out);
     std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
     magnitudes.insert(audit.usual);
     magnitudes.insert(beside.begin(), beside.end());

@@ -54,7 +54,8 @@ struct QuantityAudit {
     std::string lacks;  // why it is not pushed; empty where it is
     double usual = 0;
     std::vector<Series> series;
-    std::vector<Step> steps;  // ascending
+    std::vector<std::string> left_out;  // ChosenSeries::left_out
+    std::vector<Step> steps;            // ascending
     // By criterion and series.
     std::array<std::vector<Hold>, criterionCount> holds;
     // By criterion (the two of errors) and series.
@@ -89,13 +90,10 @@ struct Requirement {
 };
 Requirement judge(const QuantityAudit& audit, double magnitude);
 
-struct Audit {
-    std::string scene, camera;
-    Settings settings;
-    ReportDevice device;
+struct Audit : Audited {
     std::vector<QuantityAudit> quantities;
+    std::vector<std::string> to_come;  // quantities that are not measured yet; none when it is complete
     std::vector<Requirement> requirements;
-    std::vector<std::string> notes;
     std::map<std::string, std::string> scenes;  // reduced ones: name of the file, and its text
     std::size_t kept = 0;                       // steps that an earlier command had measured
 };

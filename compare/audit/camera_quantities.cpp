@@ -137,6 +137,7 @@ std::vector<Quantity> cameraQuantities() {
          .usual = usualOne,
          .lacks = lacksNothing,
          .push = pushExposure,
+         .of_pictures = true,
          .predict = predictExposure},
         {.name = "near",
          .unit = "",

@@ -3,6 +3,7 @@
 // when a part of it is changed.
 #pragma once
 
+#include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/bounds.h"
@@ -11,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <vector>
 
 namespace diptych::audit {
 
@@ -35,6 +37,14 @@ struct Subject {
     double nearest = 0;                    // m, from the eye to the nearest surface that was found
     Bounds bounds;                         // of the posed scene
     bool moves = false;                    // an animation plays in it
+};
+
+// What was audited, as its report says.
+struct Audited {
+    std::string scene, camera;
+    Settings settings;
+    ReportDevice device;
+    std::vector<std::string> notes;
 };
 
 // The lights are those of the Settings' rig, the scene's own or the default sun.

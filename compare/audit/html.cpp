@@ -7,6 +7,7 @@
 #include "compare/page/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -89,6 +90,8 @@ std::string sectionOf(const QuantityAudit& of) {
                 reasons.push_back(one.because);
     for (const std::string& reason : reasons)
         out += fmt::format("<p class=\"soft small\">Predicted: {}</p>", markup(reason));
+    for (const std::string& left : of.left_out)
+        out += fmt::format("<p class=\"soft small\">Not a series of its own: {}</p>", markup(left));
     for (const Failure& failure : of.failures)
         out += fmt::format(
             "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy"
@@ -132,6 +135,8 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
         if (of.lacks.empty()) out += sectionOf(of);
     out += "</div>\n";
     std::vector<std::string> notes = audit.notes;
+    if (!audit.to_come.empty())
+        notes.push_back(fmt::format("being measured: still to come: {}", fmt::join(audit.to_come, ", ")));
     for (const QuantityAudit& of : audit.quantities)
         if (!of.lacks.empty())
             notes.push_back(fmt::format("{} was not pushed: {}", of.quantity->name, of.lacks));

@@ -57,7 +57,23 @@ Predicted predictRange(const Subject&, const Settings&, double) {
                 "the window is of the squared ratio of distance and range, which is formed in one step"};
 }
 
+// Whether something else than local lights shines on surfaces.
+bool hasOtherLight(const Subject& subject) {
+    const Scene& scene = subject.given.scene;
+    const Rgb& ambient = subject.given.settings.ambient;
+    return scene.environment || std::max({ambient.r, ambient.g, ambient.b}) > 0 ||
+           std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return !isLocal(light) && light.intensity > 0; });
+}
+
+// As bright in the middle as it was, a light at a height h is as h^3 elsewhere, where what is not local
+// outshines it: its height then decides over a place as large as h alone, which is less than the hundredth of
+// the picture that a 99th percentile leaves out before h is so small that its rounding matters.
 Predicted predictDistance(const Subject& subject, const Settings&, double error) {
+    if (hasOtherLight(subject))
+        return {.because =
+                    "a light near a surface shines on a place of its height alone, less than a hundredth of "
+                    "the picture; elsewhere what is not local outshines it"};
     return {.down = 0x1p-25 * glm::distance(subject.point, subject.view.eye()) / error,
             .because =
                 "a light's place is float32 from the camera: its height over a surface is off by 2^-25 of "
@@ -157,6 +173,24 @@ std::string lacksCone(const Subject& subject) {
     return any ? lacksSurface(subject) : "the scene has no point or spot light";
 }
 
+float sumOf(const float* pixel) {
+    return pixel[0] + pixel[1] + pixel[2];
+}
+
+// Radiance, its maps and their sums are float32; a path's estimate of it has a factor of at most some
+// thousand beside it. Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
+Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
+    const Image& radiance = subject.given.scene.environment->radiance;
+    float most = 0;
+    for (std::size_t i = 0; i < radiance.pixels(); ++i) most = std::max(most, sumOf(radiance.pixel(i)));
+    return {
+        .up = most > 0 ? 0x1p118 / most : Predicted::never,
+        .because =
+            "radiance is float32 from the environment to the picture, which ends at 3e38; maps and samples "
+            "approximate a single bright pixel, and how far they may depends on all others",
+        .at_most = true};
+}
+
 // Its brightest pixel alone.
 void pushEnvironment(Case& pushed, const Subject&, double factor) {
     Image& radiance = pushed.scene.environment->radiance;
@@ -164,7 +198,7 @@ void pushEnvironment(Case& pushed, const Subject&, double factor) {
     float most = -1;
     for (std::size_t i = 0; i < radiance.pixels(); ++i) {
         const float* pixel = std::as_const(radiance).pixel(i);
-        if (const float sum = pixel[0] + pixel[1] + pixel[2]; sum > most) {
+        if (const float sum = sumOf(pixel); sum > most) {
             most = sum;
             brightest = i;
         }
@@ -234,7 +268,8 @@ std::vector<Quantity> lightQuantities() {
          .usual = usualOne,
          .lacks = lacksEnvironment,
          .push = pushEnvironment,
-         .variants = {{"ibl", "sampled"}}}};
+         .variants = {{"ibl", "sampled"}},
+         .predict = predictEnvironment}};
 }
 
 }  // namespace diptych::audit

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <future>
 #include <stdexcept>
 #include <utility>
 
@@ -99,6 +100,7 @@ RenderOptions drawing(std::vector<int> channels) {
     RenderOptions options;
     options.channels = std::move(channels);
     options.requested = options.channels;
+    options.recheck = false;
     options.runs = 0;
     return options;
 }
@@ -111,7 +113,7 @@ Outcome failedOutcome(const std::string& why) {
 }
 
 // The scene that a planted fault makes of another, and what draws it.
-struct Drawn {
+struct Spoilt {
     std::optional<Case> spoilt;
     std::optional<SceneViews> views;
     std::optional<Renderer> renderer;
@@ -139,18 +141,29 @@ std::string Series::words() const {
     return words;
 }
 
-std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject) {
+void ChosenSeries::add(Series one, const Settings& settings) {
+    if (const auto problem = settings.problem()) {
+        left_out.push_back(one.words() + ": " + *problem);
+        return;
+    }
+    Settings effective = effectiveSettings(settings);
+    const auto same = std::ranges::find(known_, effective);
+    if (same != known_.end()) {
+        const Series& as = series[static_cast<std::size_t>(same - known_.begin())];
+        left_out.push_back(fmt::format("{}: is drawn as {}", one.words(), as.words()));
+        return;
+    }
+    known_.push_back(std::move(effective));
+    series.push_back(std::move(one));
+}
+
+ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject) {
     Case usual = subject.given;
     quantity.push(usual, subject, quantity.usual(subject));
-    std::vector<Series> all;
-    std::vector<Settings> known;
+    ChosenSeries all;
     const auto add = [&](Series series) {
-        Settings settings = series.applied(usual.settings);
-        if (settings.problem()) return;
-        settings = effectiveSettings(settings);
-        if (std::ranges::count(known, settings) > 0) return;
-        known.push_back(settings);
-        all.push_back(std::move(series));
+        const Settings settings = series.applied(usual.settings);
+        all.add(std::move(series), settings);
     };
     for (const Path path : drawn_paths) add({path, {}});
     for (const Path path : drawn_paths) add({path, {{"gbuffer", "full"}}});
@@ -168,7 +181,7 @@ Frame Measurer::litOfSurfaces(Renderer& renderer, Settings settings) {
     return renderer.draw(referenceSettings(settings), drawing({litOf, idsOf}));
 }
 
-Frame Measurer::tracedRays(Scene& scene, Settings settings) {
+Frame Measurer::tracedRays(Scene scene, Settings settings) {
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     settings.shadows = Shadows::off;
@@ -183,17 +196,15 @@ Frame Measurer::tracedRays(Scene& scene, Settings settings) {
         drawWithoutDevice(views, {referenceSettings(settings)}, drawing({idsOf, depthOf})).front());
 }
 
-const Measurer::Truth& Measurer::usual() {
-    if (!usual_) {
-        Scene scene = subject_.given.scene;
-        std::optional<SceneViews> views(std::in_place, scene);
-        std::optional<Renderer> renderer(std::in_place, device_, *views, pipelines_);
-        Frame lit = litOfSurfaces(*renderer, subject_.given.settings);
-        renderer.reset();
-        views.reset();
-        usual_ = Truth{std::move(lit), tracedRays(scene, subject_.given.settings)};
-    }
-    return *usual_;
+const Measurer::Truth& Measurer::usual(const Size& size) {
+    const auto known = usual_.find({size.width, size.height});
+    if (known != usual_.end()) return known->second;
+    Settings settings = subject_.given.settings;
+    settings.size = size;
+    SceneViews views(subject_.given.scene);
+    Renderer renderer(device_, views, pipelines_);
+    Truth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.given.scene, settings)};
+    return usual_.emplace(std::pair(size.width, size.height), std::move(truth)).first->second;
 }
 
 Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure) {
@@ -224,7 +235,8 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 
 std::string Measurer::fingerprint() {
     reference::Key key;
-    for (const Frame* frame : {&usual().lit, &usual().rays})
+    const Truth& truth = usual(subject_.given.settings.size);
+    for (const Frame* frame : {&truth.lit, &truth.rays})
         for (const auto& [mode, image] : frame->channels) key.addAll(image.data);
     return fmt::format("{:016x}", key.value());
 }
@@ -233,53 +245,68 @@ Step Measurer::measure(const Quantity& quantity, std::span<const Series> series,
     Case pushed = subject_.given;
     quantity.push(pushed, subject_, magnitude);
     if (on_step_) on_step_(fmt::format("{} {:.4g} {}", quantity.name, magnitude, quantity.unit));
-    return measure(std::move(pushed), series, &quantity, magnitude);
+    return measure(pushed, series, &quantity, magnitude);
 }
 
-Step Measurer::measure(Case pushed, std::span<const Series> series) {
-    return measure(std::move(pushed), series, nullptr, 0);
+Step Measurer::measure(const Case& pushed, std::span<const Series> series) {
+    return measure(pushed, series, nullptr, 0);
 }
 
-Step Measurer::measure(Case pushed, std::span<const Series> series, const Quantity* quantity,
+Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> series) {
+    Drawn drawn;
+    // One core traces while the device draws, and shades what was drawn.
+    std::future<Frame> rays =
+        std::async(std::launch::async, [&pushed] { return tracedRays(pushed.scene, pushed.settings); });
+    {
+        SceneViews views(pushed.scene);
+        Renderer renderer(device_, views, pipelines_);
+        drawn.truth.lit = litOfSurfaces(renderer, pushed.settings);
+        Spoilt other;
+        if (fault_.scene) other.make(device_, pushed, fault_, pipelines_);
+        std::vector<int> channels{litOf, idsOf, depthOf};
+        channels.insert(channels.end(), fault_.channels.begin(), fault_.channels.end());
+        for (const Series& one : series) {
+            Frame& frame = drawn.frames.emplace_back();
+            std::string& failed = drawn.failed.emplace_back();
+            try {
+                Renderer& drawer = other.renderer ? *other.renderer : renderer;
+                frame = drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
+                if (fault_.picture) fault_.picture(pushed, frame);
+            } catch (const std::exception& error) {
+                failed = error.what();
+            }
+        }
+    }
+    drawn.truth.rays = rays.get();
+    return drawn;
+}
+
+Step Measurer::measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity,
                        double magnitude) {
     Step step;
     step.magnitude = magnitude;
     try {
-        std::vector<Frame> frames;
-        Frame lit;
-        {
-            SceneViews views(pushed.scene);
-            Renderer renderer(device_, views, pipelines_);
-            lit = litOfSurfaces(renderer, pushed.settings);
-            Drawn other;
-            if (fault_.scene) other.make(device_, pushed, fault_, pipelines_);
-            std::vector<int> channels{litOf, idsOf, depthOf};
-            channels.insert(channels.end(), fault_.channels.begin(), fault_.channels.end());
-            for (const Series& one : series) {
-                Outcome& outcome = step.outcomes.emplace_back();
-                frames.emplace_back();
-                try {
-                    Renderer& drawer = other.renderer ? *other.renderer : renderer;
-                    frames.back() =
-                        drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
-                    if (fault_.picture) fault_.picture(pushed, frames.back());
-                } catch (const std::exception& error) {
-                    outcome = failedOutcome(error.what());
-                }
-            }
-        }
-        Truth truth{std::move(lit), tracedRays(pushed.scene, pushed.settings)};
+        // What changes pictures alone is drawn once.
+        const bool again = quantity && quantity->of_pictures;
+        std::optional<Drawn> own;
+        if (!again || fault_.scene || fault_.picture)
+            own = draw(pushed, series);
+        else if (!pictures_ || pictures_->frames.size() != series.size())
+            pictures_ = draw(pushed, series);
+        const Drawn& drawn = own ? *own : *pictures_;
+        std::optional<Truth> same;
         if (quantity && quantity->same_picture) {
-            Truth same = usual();
-            if (quantity->light) multiply(same.lit.channels.at(litOf), magnitude);
-            if (quantity->lengths) multiply(same.rays.channels.at(depthOf), magnitude);
-            step.truth_moved = outcomeOf(same, truth.lit, truth.rays).error();
-            truth = std::move(same);
+            same = usual(pushed.settings.size);
+            if (quantity->light) multiply(same->lit.channels.at(litOf), magnitude);
+            if (quantity->lengths) multiply(same->rays.channels.at(depthOf), magnitude);
+            step.truth_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
+        const Truth& truth = same ? *same : drawn.truth;
         step.covered = coverage(truth.rays, truth.rays).count;
-        for (std::size_t i = 0; i < frames.size(); ++i)
-            if (step.outcomes[i].failed.empty())
-                step.outcomes[i] = outcomeOf(truth, frames[i], frames[i], pushed.exposure);
+        for (std::size_t i = 0; i < series.size(); ++i)
+            step.outcomes.push_back(drawn.failed[i].empty()
+                                        ? outcomeOf(truth, drawn.frames[i], drawn.frames[i], pushed.exposure)
+                                        : failedOutcome(drawn.failed[i]));
     } catch (const std::exception& error) {
         step.failed = error.what();
         step.outcomes.assign(series.size(), failedOutcome(error.what()));

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,10 +28,22 @@ struct Series {
     std::string words() const;  // "deferred, gbuffer full"
 };
 
+// Series that each draw another picture, and in words what was left out of them because it does not.
+struct ChosenSeries {
+    std::vector<Series> series;
+    std::vector<std::string> left_out;  // "forward_plus, gbuffer full: is drawn as forward_plus"
+
+    // `settings`: the whole of them, as the series is drawn. Leaves out what has no meaning, and what draws
+    // the same picture as a series that is there.
+    void add(Series series, const Settings& settings);
+
+private:
+    std::vector<Settings> known_;
+};
+
 // The series of a quantity: both paths as they are given; deferred with a G-buffer of float32, which rounds
-// no more than arithmetic does; and what the quantity names. What a path ignores, or what has no meaning with
-// the given Settings, is left out.
-std::vector<Series> seriesOf(const Quantity& quantity, const Subject& subject);
+// no more than arithmetic does; and what the quantity names.
+ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject);
 
 struct Outcome {
     // 99th percentiles, by nearest rank, of the relative errors (PixelError) of the pixels that show a
@@ -80,7 +93,7 @@ public:
     std::string fingerprint();
     Step measure(const Quantity& quantity, std::span<const Series> series, double magnitude);
     // The same of a case that is pushed already.
-    Step measure(Case pushed, std::span<const Series> series);
+    Step measure(const Case& pushed, std::span<const Series> series);
 
 private:
     // What a path is held against: lit of captured surfaces; depth and materials of traced rays.
@@ -89,17 +102,27 @@ private:
     };
     static Frame litOfSurfaces(Renderer& renderer, Settings settings);
     // Takes from the scene what does not decide where a surface is.
-    static Frame tracedRays(Scene& scene, Settings settings);
-    const Truth& usual();
+    static Frame tracedRays(Scene scene, Settings settings);
+    // Of the subject as it is, in a picture of this size.
+    const Truth& usual(const Size& size);
     // `exposure`: Case::exposure.
     static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
-    Step measure(Case pushed, std::span<const Series> series, const Quantity* quantity, double magnitude);
+    // What is drawn of a case: the truth of it, and a Frame of each series or why there is none.
+    struct Drawn {
+        Truth truth;
+        std::vector<Frame> frames;
+        std::vector<std::string> failed;
+    };
+    Drawn draw(const Case& pushed, std::span<const Series> series);
+    Step measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity,
+                 double magnitude);
 
     Device& device_;
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    std::optional<Truth> usual_;  // of the subject as it is
+    std::map<std::pair<int, int>, Truth> usual_;  // by the picture's width and height
+    std::optional<Drawn> pictures_;               // of the quantity that changes pictures alone
     Fault fault_{};
 };
 

@@ -21,6 +21,8 @@ struct Predicted {
     static constexpr double never = std::numeric_limits<double>::infinity();
     double up = never, down = 0;  // of those above and below the usual one
     std::string because{};        // "float32 has 24 bits: ..."; empty: nothing is predicted
+    // Arithmetic alone ends there; what approximates light may err before, by how much nothing predicts.
+    bool at_most = false;
 };
 
 struct Quantity {
@@ -38,7 +40,8 @@ struct Quantity {
     // Whether the picture is that of the scene as it is at every magnitude, which is the truth then; but that
     // its light is multiplied by the magnitude, or its lengths are.
     bool same_picture = false, light = false, lengths = false;
-    bool whole = false;  // magnitudes are whole numbers
+    bool of_pictures = false;  // Case::exposure alone is pushed, so that frames stay the same
+    bool whole = false;        // magnitudes are whole numbers
     // At which magnitude the relative error of a path with these Settings reaches `error`.
     Predicted (*predict)(const Subject&, const Settings&, double error) = nullptr;
     bool predicts_formats = false;  // also with other formats of depth than reversed floats

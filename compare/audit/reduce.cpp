@@ -21,6 +21,9 @@ public:
 
     std::optional<Reduced> run() {
         if (!accept(Case(now_))) return {};
+        // First, so that all that follows is drawn in no time; again at the end where it needs more pixels
+        // now.
+        onePixel();
         dropNodes();
         dropLights();
         dropTriangles();
@@ -106,6 +109,7 @@ private:
     void onePixel() {
         const Camera& camera = now_.camera();
         if (camera.orthographic || shown_.x < 0) return;
+        if (now_.settings.size.width == 1 && now_.settings.size.height == 1) return;
         Case candidate = now_;
         Camera& closer = candidate.camera();
         const double height = now_.settings.size.height, width = now_.settings.size.width;

@@ -57,6 +57,10 @@ bool hasTexture(const Material& material) {
         [](const TextureSlot* slot) { return slot->texture >= 0; });
 }
 
+bool anyBlends(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const Material& m) { return blends(m); });
+}
+
 // By how much a component of a channel may be off, decoded from a G-buffer; emission: a part of the largest.
 std::map<int, double> packedBounds(const Settings& settings) {
     if (settings.gbuffer == GBufferEncoding::full || settings.path == Path::reference) return {};
@@ -115,18 +119,13 @@ Blame RelationHeld::blame(bool cpu) const {
     return cpu ? Blame::ours_likely : Blame::driver_or_ours;
 }
 
-std::vector<Series> relatedSeries(const Subject& subject) {
-    std::vector<Series> all;
-    std::vector<Settings> known;
+ChosenSeries relatedSeries(const Subject& subject) {
+    ChosenSeries all;
     for (Series series : {Series{Path::deferred, {}}, Series{Path::forward_plus, {}},
                           Series{Path::deferred, {{"gbuffer", "full"}}},
                           Series{Path::reference, {{"reference-mode", "scene"}}}}) {
-        Settings settings = settingsOfSeries(series, subject.given.settings);
-        if (settings.problem()) continue;
-        settings = effectiveSettings(settings);
-        if (std::ranges::count(known, settings) > 0) continue;
-        known.push_back(settings);
-        all.push_back(std::move(series));
+        const Settings settings = settingsOfSeries(series, subject.given.settings);
+        all.add(std::move(series), settings);
     }
     return all;
 }
@@ -138,25 +137,37 @@ RelationMeasurer::RelationMeasurer(Device& device, const Subject& subject,
       subject_(subject),
       on_step_(std::move(onStep)),
       pipelines_(pipelines ? std::move(pipelines) : makePipelineSet(device)),
-      series_(relatedSeries(subject)) {}
+      chosen_(relatedSeries(subject)) {}
 
-RelationMeasurer::Drawn RelationMeasurer::draw(const Case& of, std::span<const Settings> settings) {
+RelationMeasurer::Drawn RelationMeasurer::draw(const Case& of, std::span<const Settings> settings,
+                                               bool reference) {
     Drawn drawn;
     drawn.frames.resize(settings.size());
     drawn.failed.resize(settings.size());
     SceneViews views(of.scene);
     Renderer renderer(device_, views, pipelines_);
     for (std::size_t i = 0; i < settings.size(); ++i) {
+        if (!needsDevice(settings[i])) continue;
         try {
-            drawn.frames[i] =
-                needsDevice(settings[i])
-                    ? renderer.draw(settings[i], drawingRelated())
-                    : std::move(drawWithoutDevice(views, {settings[i]}, drawingRelated()).front());
+            drawn.frames[i] = renderer.draw(settings[i], drawingRelated());
         } catch (const std::exception& error) {
             drawn.failed[i] = error.what();
         }
     }
+    if (reference) addReference(drawn, of, settings);
     return drawn;
+}
+
+void RelationMeasurer::addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings) {
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        if (needsDevice(settings[i]) || drawn.frames[i]) continue;
+        try {
+            SceneViews views(of.scene);
+            drawn.frames[i] = std::move(drawWithoutDevice(views, {settings[i]}, drawingRelated()).front());
+        } catch (const std::exception& error) {
+            drawn.failed[i] = error.what();
+        }
+    }
 }
 
 const Image* RelationMeasurer::packedLight(const Case& of, bool own) {
@@ -236,10 +247,13 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
     // The given pictures are drawn once, unless a relation has others.
     const bool own = related.own_base;
     std::optional<Drawn> others;
-    if (own) others = draw(related.base, before);
-    if (!own && !given_) given_ = draw(related.base, before);
-    const Drawn& given = own ? *others : *given_;
-    Drawn changed = draw(related.changed, after);
+    // The reference integrates an environment for a minute where a path looks up its maps. It decides
+    // nothing: it says whose fault it is that a path breaks a relation, and what blends.
+    const bool dear = related.base.scene.environment.has_value();
+    if (own) others = draw(related.base, before, !dear || anyBlends(related.base.scene));
+    if (!own && !given_) given_ = draw(related.base, before, !dear || anyBlends(related.base.scene));
+    Drawn& given = own ? *others : *given_;
+    Drawn changed = draw(related.changed, after, !dear);
     for (std::size_t i = 0; i < series_.size(); ++i) {
         SeriesHeld of;
         of.series = series_[i];
@@ -247,6 +261,15 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
             of.lacks = fmt::format("{} does not read what is changed", nameOf(series_[i].path));
             result.series.push_back(std::move(of));
             continue;
+        }
+        if (dear && isReferenceSeries(of.series)) {
+            if (result.holds()) {
+                of.lacks = "not drawn: the paths hold it, and of an environment the reference is dear";
+                result.series.push_back(std::move(of));
+                continue;
+            }
+            addReference(given, related.base, before);
+            addReference(changed, related.changed, after);
         }
         of.grant = grantOf(relation, related, after[i]);
         if (series_[i].path == Path::deferred && !of.grant.packed.empty())

@@ -40,7 +40,7 @@ struct RelationHeld {
 
 // The renderers that are asked: both paths as given, deferred with a G-buffer of float32, and last the
 // reference.
-std::vector<Series> relatedSeries(const Subject& subject);
+ChosenSeries relatedSeries(const Subject& subject);
 
 class RelationMeasurer {
 public:
@@ -50,6 +50,8 @@ public:
 
     // `spoil`: a fault that is planted in the changed case, for tests of this room; without one as it is.
     RelationHeld measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
+    // Of the series, in words.
+    const std::vector<std::string>& leftOut() const { return chosen_.left_out; }
 
 private:
     // A case's pictures, as the series; without what a path refuses, whose words are in `failed`.
@@ -57,7 +59,10 @@ private:
         std::vector<std::optional<Frame>> frames;
         std::vector<std::string> failed;
     };
-    Drawn draw(const Case& of, std::span<const Settings> settings);
+    // `reference`: also what needs no device.
+    Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
+    // What draw() left out.
+    static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
     // What the bits of the given G-buffer may change of lit, by forward+, of a case; empty without bits.
     const Image* packedLight(const Case& of, bool own);
     Grant grantOf(const Relation& relation, const Related& related, const Settings& settings) const;
@@ -70,7 +75,8 @@ private:
     // drawn in another order.
     std::uint64_t tied();
 
-    const std::vector<Series> series_;
+    const ChosenSeries chosen_;
+    const std::vector<Series>& series_ = chosen_.series;
     std::optional<std::uint64_t> tied_;
     std::optional<Drawn> given_;  // the subject as it is
     Image packed_light_;          // of the subject as it is

@@ -58,6 +58,12 @@ double apart(const float* a, const float* b, int components) {
     return most;
 }
 
+// Of what is allowed; what is no number is beyond all of it, also where that is infinite.
+double shareOf(double error, double allowed) {
+    if (error == 0) return 0;
+    return allowed > 0 && error < unbounded ? error / allowed : unbounded;
+}
+
 // In units in the last place of the largest component.
 double ulpsApart(const float* a, const float* b, int components) {
     const double difference = apart(a, b, components);
@@ -264,8 +270,8 @@ private:
             const double may = grant_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
                                std::numeric_limits<float>::min();
             const double is = apart(p + c, q + c, 1);
-            if (c > 0 && is / may <= worst) continue;
-            worst = is / may;
+            if (c > 0 && shareOf(is, may) <= worst) continue;
+            worst = shareOf(is, may);
             error = is;
             allowed = may;
         }
@@ -281,7 +287,7 @@ private:
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
-            const double part = allowed > 0 && error < unbounded ? error / allowed : unbounded;
+            const double part = shareOf(error, allowed);
             used.data[i] = static_cast<float>(part);
             held.beyond += part > 1;
             if (part <= held.used && held.x >= 0) continue;

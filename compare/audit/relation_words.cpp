@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/relation_words.h"
 
+#include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace diptych::audit {
 
@@ -15,14 +15,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json finiteOrWord(double value) {
-    return std::isfinite(value) ? Json(value) : Json("infinite");
-}
-
 Json jsonOfChannel(const ChannelHeld& of) {
-    return {{"name", debugMode(of.mode).name},     {"error", finiteOrWord(of.error)},
-            {"allowed", finiteOrWord(of.allowed)}, {"used", finiteOrWord(of.used)},
-            {"worst_pixel", {of.x, of.y}},         {"pixels_beyond", of.beyond}};
+    return {{"name", debugMode(of.mode).name}, {"error", numberOf(of.error)},
+            {"allowed", numberOf(of.allowed)}, {"used", numberOf(of.used)},
+            {"worst_pixel", {of.x, of.y}},     {"pixels_beyond", of.beyond}};
 }
 
 Json jsonOfSeries(const SeriesHeld& of, const Relation& relation) {

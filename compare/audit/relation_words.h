@@ -15,12 +15,8 @@ namespace diptych::audit {
 
 inline constexpr const char* relationsManifest = "relations.json";
 
-struct RelationAudit {
-    std::string scene, camera;
-    Settings settings;
-    ReportDevice device;
+struct RelationAudit : Audited {
     std::vector<RelationHeld> relations;
-    std::vector<std::string> notes;
 
     bool holds() const;
 };

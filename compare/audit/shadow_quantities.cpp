@@ -47,6 +47,23 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
     scene.meshes.push_back({.name = "caster", .primitives = {std::move(triangle)}});
 }
 
+// Depth of a map is reversed: 0 where the scene ends, so that its steps there are of the scene's size,
+// however far away the nearest caster is. Moments have one exponent for the whole range, and lose what is
+// near.
+Predicted predictCaster(const Subject& subject, const Settings& settings, double) {
+    const Shadows kind = settings.shadows;
+    if (kind == Shadows::evsm || kind == Shadows::evsm4 || kind == Shadows::msm4)
+        return {
+            .up = 0x1p24 * std::max(subject.bounds.radius(), 1e-6),
+            .because =
+                "moments are of depths from 0 to 1, of which float32 resolves 2^-24: over that many radii "
+                "the scene is one depth; a filter of moments may err before",
+            .at_most = true};
+    return {.because =
+                "a map's depth is reversed: float32 is finest where the scene ends, by steps of the scene's "
+                "size wherever the range begins"};
+}
+
 double usualCaster(const Subject& subject) {
     return std::max(subject.bounds.radius(), 1e-6);
 }
@@ -93,7 +110,8 @@ std::vector<Quantity> shadowQuantities() {
              .usual = usualCaster,
              .lacks = lacksSun,
              .push = pushCaster,
-             .variants = {{"shadows", "evsm"}, {"shadows", "msm4"}}},
+             .variants = {{"shadows", "evsm"}, {"shadows", "msm4"}},
+             .predict = predictCaster},
             {.name = "evsm_exponent",
              .unit = "",
              .what = "the positive exponent of exponential variance shadow maps of 32 bits",

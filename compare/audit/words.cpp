@@ -15,10 +15,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// JSON has no infinity.
-Json numberOf(double value) {
-    return std::isfinite(value) ? Json(value) : Json("infinite");
-}
 double numberFrom(const Json& json) {
     return json.is_number() ? json.get<double>() : std::numeric_limits<double>::infinity();
 }
@@ -64,10 +60,12 @@ Json jsonOf(const QuantityAudit& audit) {
             series["predicted"][std::string(criteria[c].name)] = {{"down", predicted.down},
                                                                   {"up", numberOf(predicted.up)},
                                                                   {"because", predicted.because},
+                                                                  {"at_most", predicted.at_most},
                                                                   {"agrees", agreement(audit, c, s)}};
         }
         json["series"].push_back(std::move(series));
     }
+    json["left_out"] = audit.left_out;
     json["failures"] = Json::array();
     for (const Failure& failure : audit.failures)
         json["failures"].push_back(
@@ -86,6 +84,10 @@ std::string rangeOf(std::optional<double> from, std::optional<double> to) {
 
 }  // namespace
 
+Json numberOf(double value) {
+    return std::isfinite(value) ? Json(value) : Json("infinite");
+}
+
 std::string magnitudeInWords(double magnitude) {
     return fmt::format("{:.3g}", magnitude);
 }
@@ -99,8 +101,9 @@ std::string rangeInWords(const Hold& hold) {
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit) {
     if (predicted.because.empty()) return "";
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    return rangeOf(predicted.down > first ? std::optional(predicted.down) : std::nullopt,
-                   predicted.up < last ? std::optional(predicted.up) : std::nullopt);
+    const std::string range = rangeOf(predicted.down > first ? std::optional(predicted.down) : std::nullopt,
+                                      predicted.up < last ? std::optional(predicted.up) : std::nullopt);
+    return predicted.at_most ? "at most " + range : range;
 }
 
 std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
@@ -109,6 +112,8 @@ std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, st
     if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
     if (!hold.usual) return {};  // something else errs by more
+    // A bound is refuted by what holds beyond it alone.
+    if (predicted.at_most && hold.up.broken && hold.up.last <= predicted.up) return {};
     return agrees(hold.up, predicted.up, true, last) && agrees(hold.down, predicted.down, false, first);
 }
 
@@ -149,6 +154,8 @@ std::string inWords(const QuantityAudit& audit) {
                                    magnitudeInWords(step.magnitude), unit, outcome.failed);
                 break;
             }
+    for (const std::string& left : audit.left_out)
+        out += fmt::format("    not a series of its own: {}\n", left);
     for (const Failure& failure : audit.failures) {
         out += "    " + failure.words + "\n";
         if (!failure.command.empty()) out += "        " + failure.command + "\n";
@@ -211,6 +218,7 @@ Json toJson(const Audit& audit) {
                {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
               {"notes", audit.notes},
               {"steps_kept", audit.kept},
+              {"to_come", audit.to_come},
               {"quantities", Json::array()},
               {"requirements", Json::array()}};
     for (const QuantityAudit& quantity : audit.quantities) json["quantities"].push_back(jsonOf(quantity));

@@ -12,6 +12,9 @@
 
 namespace diptych::audit {
 
+// A number, or "infinite", which JSON has no number for.
+nlohmann::ordered_json numberOf(double value);
+
 // "0.03", "1e7".
 std::string magnitudeInWords(double magnitude);
 

@@ -5,6 +5,7 @@
 #include "compare/audit/small_scene.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
+#include "compare/cli/audit_opening.h"
 #include "compare/cli/commands.h"
 #include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -61,27 +61,18 @@ public:
     explicit Auditor(const Options& options)
         : options_(options),
           settings_(auditedSettings(options)),
-          folder_(outputFolder(options, "diptych-audit", "audit", audit::auditManifest)),
-          progress_(progressOutput(options)),
-          device_(deviceOptions(options)) {
-        say(options, "on " + device_.info().name);
-    }
+          opened_(options, settings_, "diptych-audit", "audit", audit::auditManifest),
+          audit_{opened_.audited(), {}, {}, {}, {}, 0} {}
 
     int run() {
-        const std::string& where = options_.scenes.front();
-        const Stage stage(progress_, where);
-        const Scene scene = loadShown(where, settings_, stage.part(0, 0.02));
-        const audit::Subject subject = audit::makeSubject(scene, settings_);
-        audit_.scene = where;
-        audit_.settings = settings_;
-        audit_.camera = settings_.camera.empty() ? subject.view_name : settings_.camera;
-        audit_.device = reportDevice(device_);
-        audit_.notes = scene.notes;
+        const audit::Subject& subject = opened_.subject();
+        const Stage& stage = opened_.stage();
         if (!options_.shadows_given)
             audit_.notes.emplace_back(
                 "--shadows off, but for quantities of shadows: a filter's own error would hide others");
-        audit::Measurer measurer(device_, subject, [&](const std::string& step) { say(options_, step); });
-        KeptFolder kept(folder_, "audit", keyOf(measurer, subject));
+        audit::Measurer measurer(opened_.device(), subject,
+                                 [&](const std::string& step) { say(options_, step); });
+        KeptFolder kept(opened_.folder(), "audit", keyOf(measurer, subject));
         if (kept.isRenewed())
             note(options_,
                  "what an audit that was cut short left is of another scene, device or Settings: anew");
@@ -91,41 +82,39 @@ public:
         for (const auto& [name, magnitude] : options_.audit.required)
             if (!names.empty()) names.push_back(name);
         const std::vector<const audit::Quantity*> all = audit::quantitiesOf(names);
+        for (const audit::Quantity* quantity : all) audit_.to_come.emplace_back(quantity->name);
         for (std::size_t q = 0; q < all.size(); ++q) {
             const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
+            audit_.to_come.erase(audit_.to_come.begin());
             measure(*all[q], subject, measurer, kept,
                     stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
+            // Plots can be looked at while others are measured.
+            const bool shown = audit_.quantities.back().lacks.empty();
+            if (shown && q + 1 < all.size()) audit::writeAudit(audit_, opened_.folder(), options_.force);
         }
         for (const auto& [name, magnitude] : options_.audit.required)
             for (const audit::QuantityAudit& quantity : audit_.quantities)
                 if (quantity.quantity->name == name)
                     audit_.requirements.push_back(audit::judge(quantity, magnitude));
-        checkValidation(device_);
+        checkValidation(opened_.device());
         stage.at(0.98, "write");
         if (audit_.kept > 0)
             note(options_,
                  fmt::format("{} steps had been measured by a command that was cut short", audit_.kept));
-        const std::string json = audit::writeAudit(audit_, folder_, options_.force);
+        const std::string json = audit::writeAudit(audit_, opened_.folder(), options_.force);
         kept.remove();
-        progress_.wipe();
+        opened_.progress().wipe();
         bool met = true;
         for (const audit::Requirement& requirement : audit_.requirements) {
             met = met && requirement.met;
-            print(audit::inWords(requirement));
+            opened_.print(audit::inWords(requirement));
         }
         if (options_.json) fmt::print("{}", json);
-        print((folder_ / "index.html").string() + "\n");
+        opened_.print((opened_.folder() / "index.html").string() + "\n");
         return met ? 0 : 1;
     }
 
 private:
-    void print(const std::string& words) {
-        if (options_.json || options_.quiet || std::ferror(stdout)) return;
-        progress_.wipe();
-        printColored(options_, words);
-        std::fflush(stdout);
-    }
-
     // All that a step depends on beside its magnitude and series: the truth's pixels stand for the scene.
     Json keyOf(audit::Measurer& measurer, const audit::Subject& subject) const {
         return {{"schema", 1},
@@ -164,8 +153,8 @@ private:
             },
             required));
         stage.at(1, fmt::format("{}: reduce what fails", quantity.name));
-        audit::addFailures(audit_.quantities.back(), subject, measurer, folder_, audit_.scenes);
-        print(audit::inWords(audit_.quantities.back()));
+        audit::addFailures(audit_.quantities.back(), subject, measurer, opened_.folder(), audit_.scenes);
+        opened_.print(audit::inWords(audit_.quantities.back()));
     }
 
     static std::optional<audit::Step> keptStep(const KeptFolder& kept, const std::string& name,
@@ -182,9 +171,7 @@ private:
 
     const Options& options_;
     const Settings settings_;
-    const std::filesystem::path folder_;
-    Progress progress_;
-    Device device_;
+    AuditOpening opened_;
     audit::Audit audit_;
 };
 

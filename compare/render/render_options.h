@@ -29,7 +29,9 @@ struct RenderOptions {
     // reference: also what approximations of an environment cost (Frame::environment_costs), and what of its
     // light and of ambient light geometry hides (Frame::hidden_light).
     bool environment_errors = false;
-    bool twice = false;                               // draw every channel twice, for Frame::noise
+    bool twice = false;  // draw every channel twice, for Frame::noise
+    // Whether what makes the other channels draws lit, too, and counts where it is not the timed frame's.
+    bool recheck = true;
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
     // Of a reference: called from any thread with each tile once it is drawn: all channels, of which only the

@@ -56,6 +56,7 @@ public:
             if (isRequested(lit)) frame_.repaired[lit] = std::move(repaired);
         }
         if (!options_.channels.empty()) capture();
+        if (!options_.recheck && isRequested(lit)) frame_.channels[lit] = std::move(lit_);
         frame_.requested = options_.requested;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -88,10 +89,11 @@ private:
         frame_.bytes = bytesOf(prepared_, shared_);
     }
 
-    // lit, to be compared with the timed frame's, and every requested channel that this path can make.
+    // lit, to be compared with the timed frame's unless that is not asked for, and every requested channel
+    // that this path can make.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
-        request.modes = {lit};
+        if (options_.recheck) request.modes = {lit};
         for (const int mode : options_.channels)
             if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
                 request.modes.push_back(mode);
@@ -281,6 +283,7 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
 Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
     capture.channels = reference::surfaceChannels();
+    capture.recheck = options.recheck;
     capture.runs = 0;
     capture.on_step = options.on_step;
     return FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture)

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace diptych {
 
@@ -21,10 +22,14 @@ struct EncodingUse {
     int x = -1, y = -1;         // its pixel
     std::uint64_t beyond = 0;   // pixels that use more than is allowed
     double most = 0, mean = 0;  // of what is allowed, in the channel's metric
+    // What is allowed beside the bits, by formats of fewer bits than float32: "; and 9 steps of ..."; or
+    // nothing.
+    std::string beside;
 };
 
 // Deferred against forward+ at a packed encoding: at each pixel the bound that forward+ has from its own
-// surfaces and the bits (Frame::encoding_bound), and float32's rounding. Empty for other pairs and channels,
+// surfaces and the bits (Frame::encoding_bound), and the rounding of float32, of the format of lit and of
+// shading in floats of 16 bits. Empty for other pairs and channels,
 // and where forward+ has no bounds.
 std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& pair);
 

@@ -100,10 +100,10 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     return {
         use->most,
         fmt::format("what the bits of the {} G-buffer allow at each pixel, up to {:.3g} (mean {:.3g}), by "
-                    "forward+ shading its own surfaces moved by them{}; deferred must equal what forward+ "
+                    "forward+ shading its own surfaces moved by them{}{}; deferred must equal what forward+ "
                     "shades from the decoded surfaces {}",
-                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, used,
-                    pair.cpu ? "bit for bit" : "within 16 ULP")};
+                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, use->beside,
+                    used, pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {

@@ -102,7 +102,8 @@ float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
     float16_t lambda = n_dot_l * float16_t(b.smith_v) +
                        n_dot_v * sqrt(n_dot_l * n_dot_l * (float16_t(1.0) - alpha2) + alpha2);
     float16_t visibility = float16_t(0.5) / max(lambda, float16_t(1e-5));
-    float lobe = float(k * k * float16_t(INVERSE_PI)) * float(visibility);
+    // In this order: k^2 by itself may be beyond 65504.
+    float lobe = float(k * float16_t(INVERSE_PI) * k) * float(visibility);
     return dot(n, h) > float16_t(0.0) ? lobe : 0.0;
 }
 

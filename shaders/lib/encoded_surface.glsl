@@ -18,14 +18,23 @@ float roughnessBound(float x) {
 }
 float normalBound() { return octahedralAngle(compactBits() ? COMPACT_NORMAL_BITS : STANDARD_NORMAL_BITS); }
 
+// Floats of 16 bits round to 2^-11 of a number. A picture's normal is turned by one rounding of its parts,
+// and its products with a direction are off by three more, those of their terms and two sums, which a turn by
+// as much explains. Three pictures of 16 bits are in what the moved surfaces bound: deferred's, that of
+// forward+, and the latter again, from which the first moved surface is held apart.
+const float HALF_TURN = 3.0 * 4.0 / 2048.0;
+
 // A unit vector perpendicular to n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 vec3 perpendicular(vec3 n) {
     float side = n.z >= 0.0 ? 1.0 : -1.0;
     return vec3(1.0 - n.x * n.x / (1.0 + abs(n.z)), -n.x * n.y / (1.0 + abs(n.z)), -n.x * side);
 }
 
-// s moved as SURFACE_RAISED or one after it says, but for what raisedBrdf() raises.
-Surface movedSurface(Surface s, uint surface) {
+// s moved as SURFACE_RAISED or one after it says, with SURFACE_OF_HALF or without, but for what raisedBrdf()
+// raises.
+Surface movedSurface(Surface s, uint moved) {
+    uint surface = moved & ~SURFACE_OF_HALF;
+    float turn = normalBound() + (surface != moved ? HALF_TURN : 0.0);
     s.occlusion += unormBound(s.occlusion, OCCLUSION_BITS);
     s.emission += radianceBound(s.emission, on(feature_gbuffer_wide_emission));
     s.lightmap += radianceBound(s.lightmap, on(feature_gbuffer_wide_lightmap));
@@ -35,7 +44,7 @@ Surface movedSurface(Surface s, uint surface) {
         vec3 t = perpendicular(s.normal), b = crossProduct(s.normal, t);
         uint corner = surface - SURFACE_NORMAL;
         vec3 side = (corner & 2u) == 0u ? t : b;
-        float reach = ((corner & 1u) == 0u ? 1.0 : -1.0) * sqrt(2.0) * normalBound();
+        float reach = ((corner & 1u) == 0u ? 1.0 : -1.0) * sqrt(2.0) * turn;
         s.normal = normalized(s.normal + side * reach);
     }
     if (surface >= SURFACE_ROUGHNESS) {

@@ -18,6 +18,10 @@ CONTRACT_CONST(uint, SURFACE_NORMAL, 2);
 // From here on two: with the roughness at each end of what the bits allow.
 CONTRACT_CONST(uint, SURFACE_ROUGHNESS, 6);
 CONTRACT_CONST(uint, SURFACE_END, 8);
+// Added to one of the moved surfaces: it is held against pictures that are shaded in floats of 16 bits, and
+// so its normals are turned by what these round, too. It is itself shaded in float32, because 16 bits would
+// hide what is less than their step.
+CONTRACT_CONST(uint, SURFACE_OF_HALF, 16);
 
 CONTRACT_END
 

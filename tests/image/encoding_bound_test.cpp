@@ -8,6 +8,8 @@
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -190,15 +192,13 @@ float* pixelOf(Frame& frame, gpu::uint mode, std::size_t i) {
     return frame.channels.at(static_cast<int>(mode)).pixel(i);
 }
 
-class DecodingFaults : public testing::TestWithParam<DecodingFault> {};
-
-// The reference shades the faulty surfaces for both, so that they agree as they would on a device.
-TEST_P(DecodingFaults, AreBeyondTheBits) {
+// lit of both paths, whose decoded surfaces have a fault. The reference shades them for both, so that they
+// agree as they would on a device.
+ChannelDiff litWithFault(const Settings& settings, const std::function<void(Frame&)>& plant) {
     UploadedScene& scene = uploaded("builtin:gallery");
-    const Settings settings = smallPicture(GBufferEncoding::standard);
     std::vector<Frame> frames = scene.bothPaths(settings);
     Frame surfaces = frames[1];
-    GetParam().plant(surfaces);
+    plant(surfaces);
     SceneViews views(scene.scene);
     Settings asReference = settings;
     asReference.path = Path::reference;
@@ -212,15 +212,24 @@ TEST_P(DecodingFaults, AreBeyondTheBits) {
     }
     const Requirements needs = requirements(scene.scene, poseAt(scene.scene, 0));
     const DeviceInfo& info = device().info();
-    const Report report = makeReport(frames, {needs, needs}, {info.name, info.driver, info.type});
-    for (const ChannelDiff& channel : report.comparisons.at(0).channels)
-        if (channel.mode->number == 0) {
-            EXPECT_EQ(channel.unexplained_pixels, 0u) << "deferred equals the decoded surfaces' light";
-            EXPECT_EQ(channel.verdict, Verdict::fail);
-            EXPECT_NE(channel.reason.find("times what the bits"), std::string::npos) << channel.reason;
-            ASSERT_TRUE(channel.encoding_use.has_value());
-            EXPECT_GT(channel.encoding_use->used, 1.5);
-        }
+    Report report = makeReport(frames, {needs, needs}, {info.name, info.driver, info.type});
+    for (ChannelDiff& channel : report.comparisons.at(0).channels)
+        if (channel.mode->number == 0) return std::move(channel);
+    throw std::logic_error("no lit");
+}
+
+void expectBeyondTheBits(const ChannelDiff& channel, const char* what = "") {
+    EXPECT_EQ(channel.unexplained_pixels, 0u) << "deferred equals the decoded surfaces' light";
+    EXPECT_EQ(channel.verdict, Verdict::fail) << what;
+    EXPECT_NE(channel.reason.find("times what the bits"), std::string::npos) << what << channel.reason;
+    ASSERT_TRUE(channel.encoding_use.has_value());
+    EXPECT_GT(channel.encoding_use->used, 1.5) << what;
+}
+
+class DecodingFaults : public testing::TestWithParam<DecodingFault> {};
+
+TEST_P(DecodingFaults, AreBeyondTheBits) {
+    expectBeyondTheBits(litWithFault(smallPicture(GBufferEncoding::standard), GetParam().plant));
 }
 
 void eachSurface(Frame& frame, const std::function<void(std::size_t)>& visit) {
@@ -258,6 +267,45 @@ const DecodingFault decodingFaults[] = {
          });
      }},
 };
+// With formats of fewer bits than float32 more is granted, and both paths stay within it; a fault that is as
+// coarse as they are does not.
+TEST(EncodingBoundFormats, HoldBothPathsAndStillFindFaults) {
+    const auto each = [](const std::function<void(Frame&, std::size_t)>& spoil) {
+        return [spoil](Frame& f) { eachSurface(f, [&](std::size_t i) { spoil(f, i); }); };
+    };
+    const DecodingFault coarse[] = {{"normals of five bits", each([](Frame& f, std::size_t i) {
+                                         float* n = pixelOf(f, gpu::DEBUG_normals, i);
+                                         for (int c = 0; c < 3; ++c) n[c] = std::floor(n[c] * 15 + 0.5f) / 15;
+                                     })},
+                                    {"roughness of four bits", each([](Frame& f, std::size_t i) {
+                                         float& r = *pixelOf(f, gpu::DEBUG_roughness, i);
+                                         r = std::floor(r * 15 + 0.5f) / 15;
+                                     })},
+                                    {"albedo without its root", each([](Frame& f, std::size_t i) {
+                                         float* a = pixelOf(f, gpu::DEBUG_albedo, i);
+                                         for (int c = 0; c < 3; ++c) a[c] = std::sqrt(a[c]);
+                                     })}};
+    for (const auto& [option, value] :
+         {std::pair("lit-format", "fp16"), {"lit-format", "b10g11r11"}, {"shading-precision", "fp16"}}) {
+        Settings settings = smallPicture(GBufferEncoding::standard);
+        settings.set(option, value);
+        for (const char* name : {"builtin:gallery", "builtin:spheres"}) {
+            const std::vector<Frame> frames = uploaded(name).bothPaths(settings);
+            const Requirements needs = requirements(uploaded(name).scene, poseAt(uploaded(name).scene, 0));
+            const DeviceInfo& info = device().info();
+            const Report report = makeReport(frames, {needs, needs}, {info.name, info.driver, info.type});
+            for (const ChannelDiff& channel : report.comparisons.at(0).channels)
+                if (channel.encoding_use) {
+                    EXPECT_EQ(channel.verdict, Verdict::pass)
+                        << name << " --" << option << " " << value << ": " << channel.mode->name << ": "
+                        << channel.reason;
+                }
+        }
+        for (const DecodingFault& fault : coarse)
+            expectBeyondTheBits(litWithFault(settings, fault.plant),
+                                fmt::format("--{} {}, {}: ", option, value, fault.name).c_str());
+    }
+}
 INSTANTIATE_TEST_SUITE_P(Faults, DecodingFaults, testing::ValuesIn(decodingFaults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 

@@ -89,6 +89,32 @@ TEST(AuditTool, RelationsThatHold) {
     EXPECT_EQ(readJson(folder / "none/relations.json")["relations"][0]["verdict"], "does not apply");
 }
 
+// Plots of what is measured can be looked at while the rest is; the page says what is still to come.
+TEST(AuditTool, TheFirstPlotIsThereBeforeTheLast) {
+    const Folder folder;
+    const std::vector<std::string> words{"audit",      "builtin:triangle",      "--size", "64x36", "-o", "t",
+                                         "--quantity", "offset,scale,intensity"};
+    {
+        Running tool(folder, words);
+        EXPECT_TRUE(soon([&] { return tool.ended() || fs::exists(folder / "t/offset.svg"); }));
+        ::kill(tool.process(), SIGKILL);
+        EXPECT_TRUE(soon([&] { return tool.ended(); }));
+    }
+    const Json sofar = readJson(folder / "t/audit.json");
+    ASSERT_FALSE(sofar["to_come"].empty()) << "it ended first";
+    EXPECT_EQ(sofar["to_come"].back(), "intensity");
+    EXPECT_EQ(sofar["quantities"].size() + sofar["to_come"].size(), 3u);
+    EXPECT_NE(contentsOf(folder / "t/index.html").find("still to come"), std::string::npos);
+    const Ran ran = runTool(folder, shellWords(words) + "-q");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json whole = readJson(folder / "t/audit.json");
+    EXPECT_TRUE(whole["to_come"].empty());
+    EXPECT_EQ(whole["quantities"].size(), 3u);
+    EXPECT_GT(whole["steps_kept"], 0);
+    EXPECT_TRUE(fs::exists(folder / "t/intensity.svg"));
+    EXPECT_FALSE(fs::exists(folder / ".t.audit"));
+}
+
 TEST(AuditTool, OneThatWasKilledGoesOn) {
     const Folder folder;
     const std::vector<std::string> words{"audit", "builtin:triangle", "--size",   "64x36", "-o",

@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -112,6 +114,88 @@ TEST(EncodingUse, OnlyAreaLightsRoundAsBrighterLight) {
     EXPECT_EQ(beyond(0, 3e-6f), 1u);
     EXPECT_EQ(beyond(1, 3e-6f), 0u);
     EXPECT_EQ(beyond(1, 8e-6f), 1u);
+}
+
+// Of two pixels, of radiance 1 and of 1e-6, whose surfaces no bits move.
+struct TwoPixels {
+    Frame deferred, forward;
+
+    explicit TwoPixels(const std::function<void(Settings&)>& set) {
+        for (Frame* frame : {&deferred, &forward}) set(frame->settings);
+        deferred.settings.path = Path::deferred;
+        forward.settings.path = Path::forward_plus;
+        for (const int mode : litModes) {
+            forward.encoding_bound[mode] = Image(2, 1, 1, 0.0f);
+            forward.channels[mode] = deferred.channels[mode] = Image(2, 1, 3, 1.0f);
+            for (Frame* frame : {&deferred, &forward})
+                for (int c = 0; c < 3; ++c) frame->channels[mode].at(1, 0, c) = 1e-6f;
+        }
+    }
+    // What is used where deferred is off by so much at one of them.
+    double used(int pixel, float apart, int mode = 0) {
+        Frame& off = deferred;
+        const float before = off.channels[mode].at(pixel, 0, 0);
+        off.channels[mode].at(pixel, 0, 0) += apart;
+        const double used = use(mode).used;
+        off.channels[mode].at(pixel, 0, 0) = before;
+        return used;
+    }
+    EncodingUse use(int mode = 0) const {
+        const Requirements needs;
+        const Coverage both = everyPixel(2);
+        return encodingUse(debugMode(mode), FramePair{deferred, forward, needs, both}).value();
+    }
+};
+
+// Two pictures and seven moved ones, each rounded by a step of lit's format: of 10 bits of mantissa in 16
+// bits, of 5 in the blue of 11.11.10; below 2^-14 steps are no smaller. Where something was blended over
+// them, of up to eight layers, nine times that.
+TEST(EncodingUse, AFormatOfFewerBitsGrantsItsStepsAndNoMore) {
+    for (const auto& [format, step] :
+         {std::pair(LitFormat::fp32, 0.0), {LitFormat::fp16, 0x1p-10}, {LitFormat::b10g11r11, 0x1p-5}}) {
+        TwoPixels pixels([&](Settings& settings) { settings.lit_format = format; });
+        const auto granted = [&](double at) { return 9 * step * at + 1e-4 * at; };
+        EXPECT_LE(pixels.used(0, static_cast<float>(0.99 * granted(1))), 1) << nameOf(format);
+        EXPECT_GT(pixels.used(0, static_cast<float>(1.4 * granted(1))), 1) << nameOf(format);
+        if (step > 0) {
+            EXPECT_LE(pixels.used(1, static_cast<float>(0.99 * 9 * step * 0x1p-14)), 1) << nameOf(format);
+            EXPECT_GT(pixels.used(1, static_cast<float>(1.4 * 9 * step * 0x1p-14)), 1) << nameOf(format);
+            EXPECT_NE(pixels.use().beside.find("9 steps"), std::string::npos) << pixels.use().beside;
+        } else {
+            EXPECT_EQ(pixels.use().beside, "");
+        }
+        const int diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse);
+        EXPECT_GT(pixels.used(0, 2e-4f, diffuse), 1) << "only lit is drawn to that format";
+        pixels.forward.unblended = pixels.forward.channels[0];
+        EXPECT_GT(pixels.used(0, static_cast<float>(1.4 * granted(1))), 1) << "nothing is blended there";
+        pixels.forward.unblended.at(0, 0, 1) = 0.5f;
+        if (step > 0) {
+            EXPECT_LE(pixels.used(0, static_cast<float>(0.99 * 9 * granted(1))), 1) << nameOf(format);
+        }
+        // Of the blue of 11.11.10 81 steps are more than the pixel itself: of what is blended to it the bound
+        // says nothing, and what deferred reads back must be forward+'s bit for bit all the more.
+        if (step == 0x1p-10) {
+            EXPECT_GT(pixels.used(0, static_cast<float>(1.4 * 9 * granted(1))), 1) << nameOf(format);
+        }
+    }
+}
+
+// Three pictures of floats of 16 bits, which round to 2^-11: of a lobe in 52 roundings, of diffuse light
+// in 21. Ambient light is no part of that, and what is dark is granted little.
+TEST(EncodingUse, FloatsOf16BitsGrantTheirRoundingsAndNoMore) {
+    TwoPixels half([](Settings& settings) { settings.shading_precision = ShadingPrecision::fp16; });
+    const int diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              specular = static_cast<int>(gpu::DEBUG_lit_specular),
+              ambient = static_cast<int>(gpu::DEBUG_lit_ambient);
+    for (const auto& [mode, roundings] :
+         {std::pair(0, 52.0), {specular, 52.0}, {diffuse, 21.0}, {ambient, 0.0}}) {
+        const double granted = 3 * roundings * 0x1p-11 + 1e-4;
+        EXPECT_LE(half.used(0, static_cast<float>(0.99 * granted), mode), 1) << debugMode(mode).name;
+        EXPECT_GT(half.used(0, static_cast<float>(1.2 * granted), mode), 1) << debugMode(mode).name;
+    }
+    EXPECT_GT(half.used(1, 1e-6f), 1) << "a dark pixel twice as bright";
+    EXPECT_NE(half.use().beside.find("16 bits"), std::string::npos) << half.use().beside;
+    EXPECT_EQ(half.use(ambient).beside, "");
 }
 
 // NaN is infinitely far from a number, further than any bits move it.

@@ -230,6 +230,11 @@ TEST(Relations, WhatIsNoNumberIsBroken) {
         changed.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
         EXPECT_FALSE(hold(given, changed, granted(alike)).holds()) << nameOf(alike);
     }
+    // Of infinite light any share is infinite, and allows nothing.
+    Frame endless = given;
+    endless.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::infinity();
+    for (const Alike alike : {Alike::bits, Alike::sums, Alike::rounding})
+        EXPECT_FALSE(hold(endless, given, granted(alike)).holds()) << nameOf(alike);
 }
 
 TEST(Relations, PicturesAreMappedBack) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/audit_opening.h"
+
+#include "compare/cli/commands.h"
+
+#include <cstdio>
+
+namespace diptych::cli {
+
+AuditOpening::AuditOpening(const Options& options, const Settings& settings, const char* folder,
+                           const char* what, const char* manifest)
+    : options_(options),
+      folder_(outputFolder(options, folder, what, manifest)),
+      progress_(progressOutput(options)),
+      device_(deviceOptions(options)),
+      stage_(progress_, options.scenes.front()),
+      scene_(loadShown(options.scenes.front(), settings, stage_.part(0, 0.02))),
+      subject_(audit::makeSubject(scene_, settings)),
+      audited_{options.scenes.front(), settings.camera.empty() ? subject_.view_name : settings.camera,
+               settings, reportDevice(device_), scene_.notes} {
+    say(options, "on " + device_.info().name);
+}
+
+void AuditOpening::print(const std::string& words) {
+    if (options_.json || options_.quiet || std::ferror(stdout)) return;
+    progress_.wipe();
+    printColored(options_, words);
+    std::fflush(stdout);
+}
+
+}  // namespace diptych::cli
