@@ -5,6 +5,7 @@
 #include "compare/audit/relations.h"
 #include "compare/cli/command_options.h"
 #include "compare/run/version.h"
+#include "compare/viewer/keys.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/did_you_mean.h"
 
@@ -348,7 +349,8 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         "Exit codes: 0 parity, 1 a difference beyond tolerance, 2 could not do it.");
     for (const Command& command : allCommands()) {
         CLI::App& sub = *app.add_subcommand(command.name, command.does);
-        sub.footer("Example: " + command.example);
+        sub.footer("Example: " + command.example +
+                   (command.name == "view" ? "\n\nKeys:\n" + viewer::keyColumns() : ""));
         describe(sub, command.name, options, parsed);
     }
 

@@ -78,4 +78,11 @@ std::string keyTable() {
     return table;
 }
 
+std::string keyColumns() {
+    std::string columns;
+    for (const KeyBinding& binding : keyBindings())
+        columns += fmt::format("  {:<8}{}\n", binding.name, binding.does);
+    return columns;
+}
+
 }  // namespace diptych::viewer

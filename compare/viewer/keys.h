@@ -64,7 +64,8 @@ std::optional<KeyPress> actionOf(int key, bool control);
 // Whether one of the keys of an action that is held is down, by a function that tells of each key.
 bool isHeld(Action action, bool (*isDown)(int key, void* of), void* of);
 
-// The table in Markdown, as the README has it. Ends in a newline.
+// The table in Markdown, as the README has it, and in columns, as --help prints it. Ends in a newline.
 std::string keyTable();
+std::string keyColumns();
 
 }  // namespace diptych::viewer

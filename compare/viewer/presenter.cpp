@@ -578,7 +578,15 @@ struct Presenter::State {
     }
 };
 
-Presenter::Presenter(GLFWwindow* window, ValidationLog* log) : state_(std::make_unique<State>(window, log)) {}
+Presenter::Presenter(GLFWwindow* window, ValidationLog* log) {
+    try {
+        state_ = std::make_unique<State>(window, log);
+    } catch (const Lost&) {
+        throw std::runtime_error(
+            "view: the device that shows the window was lost as it was started; run it again, or render "
+            "without a window");
+    }
+}
 Presenter::~Presenter() = default;
 
 bool Presenter::isBgr() const {

@@ -39,7 +39,8 @@ constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.2
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
 constexpr double flightTime = 0.3;  // s, of a zoom that flies to a pixel
-constexpr double zoomed = 24;       // window pixels a pixel, of Z
+// Window pixels a pixel: of Z, which shows values, and of a pixel in its surroundings.
+constexpr double zoomed = 72, flown = 32;
 constexpr double least_zoom = 1, most_zoom = 128;
 constexpr double wipeReach = 7;    // window pixels around the wipe's line that take hold of it
 constexpr int mostPresenters = 3;  // made anew one after the other where devices are lost
@@ -98,7 +99,7 @@ public:
         if (options.pixel) {
             state_.pixel = options.pixel;
             state_.open = Tab::pixel;
-            state_.canvas.zoom = zoomed;
+            state_.canvas.zoom = flown;
             state_.canvas.centre_x = options.pixel->x + 0.5;
             state_.canvas.centre_y = options.pixel->y + 0.5;
         }
@@ -428,7 +429,8 @@ private:
                 else
                     flyTo(contents_.under ? contents_.under->pixel
                                           : PixelPlace{state_.subject.settings.size.width / 2,
-                                                       state_.subject.settings.size.height / 2});
+                                                       state_.subject.settings.size.height / 2},
+                          zoomed);
                 break;
             case Action::worst_pixel:
                 worstPixel();
@@ -568,9 +570,9 @@ private:
 
     // A zoom that is on its way to a pixel.
     struct Flight {
-        double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = zoomed, to_x = 0, to_y = 0;
+        double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = flown, to_x = 0, to_y = 0;
     };
-    void flyTo(const PixelPlace& pixel) {
+    void flyTo(const PixelPlace& pixel, double zoom = flown) {
         const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
         const Size& size = state_.subject.settings.size;
         const double fits = std::min(double(canvas.width) / size.width, double(canvas.height) / size.height);
@@ -579,7 +581,7 @@ private:
                          is ? state_.canvas.zoom : fits,
                          is ? state_.canvas.centre_x : 0.5 * size.width,
                          is ? state_.canvas.centre_y : 0.5 * size.height,
-                         std::max(zoomed, state_.canvas.zoom),
+                         std::max(zoom, state_.canvas.zoom),
                          pixel.x + 0.5,
                          pixel.y + 0.5};
     }

@@ -69,11 +69,10 @@ void Window::listen() {
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
         ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
-        double x = 0, y = 0;
-        glfwGetCursorPos(w, &x, &y);
+        // Where the cursor was then: of a quick drag it is elsewhere by now.
         Input& input = inputOf(w);
         input.any = true;
-        input.buttons.push_back({button, action == GLFW_PRESS, x, y});
+        input.buttons.push_back({button, action == GLFW_PRESS, input.x, input.y});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
         ImGui_ImplGlfw_ScrollCallback(w, x, y);
@@ -81,7 +80,12 @@ void Window::listen() {
         input.any = true;
         input.wheel += y;
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { inputOf(w).any = true; });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+        Input& input = inputOf(w);
+        input.any = true;
+        input.x = x;
+        input.y = y;
+    });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
         ImGui_ImplGlfw_CursorEnterCallback(w, entered);
         inputOf(w).any = true;
@@ -114,16 +118,17 @@ Input Window::poll(double seconds) {
     else
         glfwPollEvents();
     const double scale = pixelsPerUnit();
-    double x = 0, y = 0;
-    glfwGetCursorPos(window_, &x, &y);
-    input_.x = x * scale;
-    input_.y = y * scale;
-    for (Input::Button& button : input_.buttons) {
+    input_.closed = glfwWindowShouldClose(window_) == GLFW_TRUE;
+    Input input = std::exchange(input_, {});
+    input_.x = input.x;  // in window coordinates, until the cursor moves
+    input_.y = input.y;
+    input.x *= scale;
+    input.y *= scale;
+    for (Input::Button& button : input.buttons) {
         button.x *= scale;
         button.y *= scale;
     }
-    input_.closed = glfwWindowShouldClose(window_) == GLFW_TRUE;
-    return std::exchange(input_, {});
+    return input;
 }
 
 bool Window::isDown(int key) const {

@@ -167,8 +167,8 @@ TEST(ViewWithoutDisplay, WhatCannotBeShownIsSaidBeforeAnyWindow) {
 
 TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
     // Coarse bits, so that the two pictures are told apart.
-    open({"builtin:spots", "--exposure", "1", "--gbuffer", "compact"});
-    const std::string scene = "builtin:spots --size 320x180 --exposure 1 --gbuffer compact";
+    open({"builtin:normals", "--exposure", "1", "--gbuffer", "compact"});
+    const std::string scene = "builtin:normals --size 320x180 --exposure 1 --gbuffer compact";
     const PngPicture deferred = rendered(scene + " --path deferred"),
                      forward = rendered(scene + " --path forward_plus");
     EXPECT_EQ(differing(deferred, 0, wipe()), 0);
@@ -271,6 +271,110 @@ TEST_F(ViewCamera, KeysMoveItAndTheCopiedCommandDrawsWhatIsOnTheScreen) {
     settle();
     const std::string command = copied().command;
     EXPECT_EQ(differing(rendered(command.substr(command.find(' ') + 1)), 1, single()), 0) << command;
+    close();
+}
+
+// The part of the screen that has pictures, and what lies over them.
+std::vector<std::array<std::uint8_t, 3>> canvasOf(const Screen& screen) {
+    const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
+    std::vector<std::array<std::uint8_t, 3>> pixels;
+    for (int y = canvas.y; y < canvas.y + canvas.height; ++y)
+        for (int x = 0; x < canvas.width; ++x) pixels.push_back(screen.at(x, y));
+    return pixels;
+}
+
+// Each shows something over the pictures, and the second time takes it away.
+TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
+    open({"builtin:points", "--exposure", "1"});
+    const auto look = [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return canvasOf(display_->screen());
+    };
+    const auto plain = look();
+    for (const char* name : {"q", "h", "question"}) {
+        key(name);
+        EXPECT_NE(look(), plain) << name;
+        key(name);
+        EXPECT_EQ(look(), plain) << name;
+    }
+    key("h");
+    key("Escape");
+    EXPECT_EQ(look(), plain) << "Esc closes the help";
+    key("i");
+    EXPECT_NE(look(), plain) << "the information";
+    key("i");
+    // Held, the panels change places.
+    const PngPicture deferred = rendered("builtin:points --size 320x180 --exposure 1 --path deferred");
+    display_->events("keydown b");
+    viewer::CanvasView other;
+    other.other = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_EQ(differing(deferred, 0, other), 0);
+    display_->events("keyup b");
+    EXPECT_EQ(look(), plain);
+    // The panels at the side give their room to the pictures.
+    stills_ = times("view: still");
+    key("u");
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const Screen wide = display_->screen();
+    key("u");
+    EXPECT_EQ(look(), plain);
+    EXPECT_NE(canvasOf(wide), plain);
+    // One pixel under the cursor becomes a large one, with a line around it.
+    display_->events("mousemove 405 383");
+    key("z");
+    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    const Screen zoomed = display_->screen();
+    std::size_t lines = 0;
+    for (int x = 0; x < 810; ++x) lines += zoomed.at(x, 200) == std::array<std::uint8_t, 3>{70, 70, 70};
+    EXPECT_GT(lines, 5u);
+    EXPECT_LT(lines, 40u);
+    key("Escape");
+    EXPECT_EQ(look(), plain);
+    close();
+}
+
+TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
+    open({"builtin:motion", "--exposure", "1", "--lights", "point:2"});
+    EXPECT_EQ(copied().command.find("--scene-lights"), std::string::npos);
+    keyAndSettle("l");
+    EXPECT_NE(copied().command.find("--scene-lights off"), std::string::npos);
+    EXPECT_EQ(
+        differing(rendered("builtin:motion --size 320x180 --exposure 1 --lights point:2 --scene-lights off"),
+                  1, wipe()),
+        0);
+    keyAndSettle("j");
+    EXPECT_EQ(copied().command.find("--lights"), std::string::npos);
+    keyAndSettle("j");
+    EXPECT_NE(copied().command.find("--lights point:2"), std::string::npos);
+    keyAndSettle("l");
+    EXPECT_EQ(copied().command.find("--scene-lights"), std::string::npos);
+    // K plays, and stops.
+    EXPECT_EQ(copied().command.find("--time"), std::string::npos);
+    key("k");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    keyAndSettle("k");
+    EXPECT_NE(copied().command.find("--time"), std::string::npos);
+    // N goes to the scene's cameras.
+    display_->events("key n");
+    EXPECT_TRUE(soon([&] { return times("view: camera 0") > 0; })) << view_->err();
+    // O changes what dragging does: around a point ahead, the eye moves.
+    const std::array<double, 3> still = [&] {
+        hold("w");
+        return copied().eye;
+    }();
+    stills_ = times("view: still");
+    display_->events("mousemove 400 400 mousedown 1 mousemove 440 400 mouseup 1");
+    settle();
+    EXPECT_EQ(copied().eye, still) << "looking around leaves the eye where it is";
+    key("o");
+    stills_ = times("view: still");
+    display_->events("mousemove 400 400 mousedown 1 mousemove 440 400 mouseup 1");
+    settle();
+    EXPECT_NE(copied().eye, still);
+    // G finds no pixel that differs, or goes to it; F fills the screen.
+    key("g");
+    key("f");
     close();
 }
 
@@ -381,6 +485,34 @@ TEST_F(View, AReportOpensAtItsFailingChannelsWorstPixel) {
     EXPECT_NE(line.find("--size 320x180"), std::string::npos) << line;
     close();
 }
+
+#ifdef DIPTYCH_FAULTS
+// The device that shows the window, which alone submits by vkQueueSubmit.
+TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {
+    const auto lose = [&](const char* calls) {
+        for (const auto& [name, value] : {std::pair{"LD_PRELOAD", DIPTYCH_FAULTS},
+                                          {"FAULT_IN", "vkQueueSubmit"},
+                                          {"FAULT_AT", "8"},
+                                          {"FAULT_DO", "-4"},
+                                          {"FAULT_FOR", calls}})
+            ::setenv(name, value, 1);  // -4: VK_ERROR_DEVICE_LOST
+        view_.emplace(folder_, std::vector<std::string>{"view", "-v", "--size", "320x180", "--exposure", "1",
+                                                        "builtin:points"});
+        for (const char* name : {"LD_PRELOAD", "FAULT_IN", "FAULT_AT", "FAULT_DO", "FAULT_FOR"})
+            ::unsetenv(name);
+    };
+    lose("1");
+    settle();
+    EXPECT_EQ(times("was lost and is started again"), 1u) << view_->err();
+    EXPECT_EQ(differing(rendered("builtin:points --size 320x180 --exposure 1"), 1, wipe()), 0);
+    close();
+    // Lost again and again, it says so and ends.
+    lose("100000");
+    EXPECT_TRUE(soon([&] { return view_->ended(); }));
+    EXPECT_EQ(WEXITSTATUS(view_->wait()), 2) << view_->err();
+    EXPECT_NE(view_->err().find("was lost as it was started"), std::string::npos) << view_->err();
+}
+#endif
 
 // Keys, clicks, drags, wheels and sizes at random, under the validation layers: nothing crashes or hangs, and
 // the layers say nothing.

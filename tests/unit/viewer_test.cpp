@@ -61,6 +61,12 @@ TEST(ViewerKeys, WithControlOnlyWhatNamesItActs) {
     EXPECT_FALSE(actionOf(GLFW_KEY_P, true));
 }
 
+TEST(ViewerKeys, TheHelpHasThemAll) {
+    for (const KeyBinding& binding : keyBindings())
+        EXPECT_NE(keyColumns().find(fmt::format("  {:<8}{}\n", binding.name, binding.does)),
+                  std::string::npos);
+}
+
 TEST(ViewerKeys, TheReadmeHasTheTable) {
     const Files files = sources();
     EXPECT_NE(files.at("compare/viewer/README.md").find(keyTable()), std::string::npos) << keyTable();

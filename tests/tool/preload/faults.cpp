@@ -4,6 +4,7 @@
 //   "lock", a comma between; or
 //                "memory", "vkAllocateMemory", another function of Vulkan below, "features"
 //   FAULT_AT     n, from 1; of Vulkan's functions every later call fails too, as a lost device stays lost
+//   FAULT_FOR    set: only so many calls of Vulkan's functions fail, as where a device comes back
 //   FAULT_DO     "kill", an errno as a number, or a VkResult
 //   FAULT_FROM   set: every later call fails too, as on a full disk
 //   FAULT_UNDER  the folder that is meant: drivers keep caches elsewhere
@@ -60,6 +61,7 @@ int faultIn(const char* kind, const char* where = "", bool stays = false) {
     if (!isMeant(kind)) return 0;
     const int call = ++calls, at = std::atoi(setting("FAULT_AT"));
     if (call < at || (call > at && !stays && !*setting("FAULT_FROM"))) return 0;
+    if (*setting("FAULT_FOR") && call >= at + std::atoi(setting("FAULT_FOR"))) return 0;
     sayItHappened(kind, where);
     if (std::strcmp(setting("FAULT_DO"), "kill") == 0) ::kill(::getpid(), SIGKILL);
     return std::atoi(setting("FAULT_DO"));
@@ -213,6 +215,7 @@ FAILS_IN_VULKAN(vkCreateGraphicsPipelines,
                 (d, c, n, i, a, o))
 FAILS_IN_VULKAN(vkAllocateDescriptorSets,
                 (VkDevice d, const VkDescriptorSetAllocateInfo* i, VkDescriptorSet* o), (d, i, o))
+FAILS_IN_VULKAN(vkQueueSubmit, (VkQueue q, uint32_t n, const VkSubmitInfo* i, VkFence f), (q, n, i, f))
 FAILS_IN_VULKAN(vkQueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2* i, VkFence f), (q, n, i, f))
 FAILS_IN_VULKAN(vkWaitForFences, (VkDevice d, uint32_t n, const VkFence* f, VkBool32 w, uint64_t t),
                 (d, n, f, w, t))
