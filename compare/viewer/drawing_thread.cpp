@@ -228,7 +228,8 @@ struct DrawingThread::State {
                 waiting = false;
                 return true;
             }
-            waiting = true;
+            // What the reference still draws is part of what was asked for.
+            waiting = !drawsReference();
             status.doing.clear();
             if (more_of_reference && order.look.against == Against::reference && !order.moving) {
                 // What is done of a reference is shown now and then.
@@ -240,6 +241,10 @@ struct DrawingThread::State {
         }
     }
 
+    bool drawsReference() const {
+        return order.look.against == Against::reference && !order.moving && shown_order == order.number &&
+               failed_order != order.number && reference.done() < 1;
+    }
     bool hasWork() const {
         if (failed_order == order.number) return false;
         if (shown_order != order.number) return true;

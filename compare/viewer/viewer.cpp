@@ -197,7 +197,10 @@ private:
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
-        if (next.idle && !contents_.idle && order_.number != 0) say("still: all is drawn");
+        if (next.idle && order_.number != said_still_) {
+            said_still_ = order_.number;
+            say("still: all is drawn");
+        }
         contents_ = std::move(next);
         if (pictures) takePictures();
         if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
@@ -829,6 +832,7 @@ private:
     std::string own_camera_ = "none taken yet";  // the words that camera_ stands for
     SceneWatch watch_;
     Order order_;                                                 // asked for last
+    std::uint64_t said_still_ = 0;                                // of which it was said that all is drawn
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
     double scale_ = 1;
     int width_ = 0, height_ = 0, frames_left_ = 3;
