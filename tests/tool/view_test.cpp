@@ -369,12 +369,12 @@ TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
         return copied().eye;
     }();
     stills_ = times("view: still");
-    display_->events("mousemove 400 400 mousedown 1 mousemove 440 400 mouseup 1");
+    display_->events("mousemove 250 400 mousedown 1 mousemove 290 400 mouseup 1");
     settle();
     EXPECT_EQ(copied().eye, still) << "looking around leaves the eye where it is";
     key("o");
     stills_ = times("view: still");
-    display_->events("mousemove 400 400 mousedown 1 mousemove 440 400 mouseup 1");
+    display_->events("mousemove 250 400 mousedown 1 mousemove 290 400 mouseup 1");
     settle();
     EXPECT_NE(copied().eye, still);
     // G finds no pixel that differs, or goes to it; F fills the screen.
