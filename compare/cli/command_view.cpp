@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
+#include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/scene/load.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace diptych::cli {
 
@@ -24,9 +28,9 @@ using Json = nlohmann::ordered_json;
 
 // What a report says of one comparison and one of its channels.
 struct ReportedView {
-    std::string scene, baseline, channel;
-    Settings settings;
-    std::optional<viewer::PixelPlace> pixel;
+    std::vector<std::string> command;  // that made the comparison
+    std::string channel;
+    std::optional<Options::Pixel> pixel;
 };
 
 [[noreturn]] void failReport(const std::filesystem::path& file, const std::string& what) {
@@ -83,32 +87,34 @@ ReportedView readReport(const Options& options) {
         const Json report = Json::parse(text);
         const Json& comparison = chosenComparison(report.at("comparisons"), options, file);
         const Json& channel = chosenChannel(comparison.at("channels"), options, file);
-        ReportedView view{.scene = comparison.at("scene").get<std::string>(),
-                          .baseline = comparison.at("baseline").get<std::string>(),
+        ReportedView view{.command = comparison.at("command").get<std::vector<std::string>>(),
                           .channel = channel.at("name").get<std::string>(),
-                          .settings = {},
                           .pixel = {}};
-        for (const Json& frame : report.at("frames"))
-            if (frame.at("scene") == view.scene && frame.at("name") == comparison.at("test") &&
-                frame.at("camera") == comparison.at("camera"))
-                view.settings = settingsFromJson(frame.at("settings").dump());
+        if (view.command.empty() || view.command.front() != "compare")
+            failReport(file, "is not of two paths: view shows those of compare");
         if (const Json& worst = channel.at("worst_pixel"); worst.is_array() && worst.at(0).get<int>() >= 0)
-            view.pixel = viewer::PixelPlace{worst.at(0).get<int>(), worst.at(1).get<int>()};
+            view.pixel = Options::Pixel{worst.at(0).get<int>(), worst.at(1).get<int>()};
         return view;
     } catch (const Json::exception& error) {
         failReport(file, oneLine(error.what()));
     }
 }
 
-void takeReport(const Options& options, viewer::ViewerOptions& view) {
-    const ReportedView reported = readReport(options);
-    view.subject.scene = reported.scene;
-    view.subject.settings = reported.settings;
-    view.size_given = true;
-    view.look.mode = findDebugMode(reported.channel)->number;
-    view.look.difference = viewer::Difference::absolute;
-    view.pixel = reported.pixel;
-    if (reported.baseline == nameOf(Path::reference)) view.look.against = viewer::Against::reference;
+// The options that the report's comparison was made with, and what of this command line goes beyond them.
+Options reported(const Options& given) {
+    ReportedView of = readReport(given);
+    of.command.front() = "view";
+    Options options = parseCommandLine(of.command);
+    options.shown = findDebugMode(of.channel)->number;
+    options.pixel = given.pixel ? given.pixel : of.pixel;
+    options.size_given = true;
+    options.view = given.view;
+    options.device = given.device;
+    options.validate = given.validate;
+    options.quiet = given.quiet;
+    options.verbose = given.verbose;
+    options.out = given.out;
+    return options;
 }
 
 void checkOneWindow(const Options& options) {
@@ -122,19 +128,26 @@ void checkOneWindow(const Options& options) {
 
 }  // namespace
 
-int runView(const Options& options) {
-    checkOneWindow(options);
+int runView(const Options& given) {
+    checkOneWindow(given);
+    const bool isReport = !given.view.report.empty();
+    const Options options = isReport ? reported(given) : given;
     viewer::ViewerOptions view;
     view.subject.scene = options.scenes.front();
     view.subject.settings = options.settings;
-    view.size_given = options.size_given;
+    // Places in the picture, and pictures beside it, are of the size that compare would draw.
+    view.size_given =
+        options.size_given || options.pixel || options.selection.any() || !options.baseline_file.empty();
     view.look.mode = options.shown;
+    if (isReport) view.look.difference = viewer::Difference::absolute;
     if (options.baseline == Path::reference) view.look.against = viewer::Against::reference;
     if (!options.baseline_file.empty()) {
         view.look.against = viewer::Against::file;
         view.look.file = options.baseline_file;
+        if (!std::filesystem::exists(options.baseline_file))
+            throw std::runtime_error(
+                fmt::format("--baseline {}: is not there", options.baseline_file.string()));
     }
-    if (!options.view.report.empty()) takeReport(options, view);
     const PictureChoice picture = pictureChoice(options);
     view.look.exposure = picture.exposure;
     view.look.ev100 = picture.ev100;
@@ -149,6 +162,12 @@ int runView(const Options& options) {
         settings.path = path;
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
     }
+    // What is wrong with the command is said before a window opens; what goes wrong later, in it.
+    if (std::filesystem::is_directory(view.subject.scene))
+        throw std::runtime_error(fmt::format(
+            "{}: is a folder; view shows one scene, a .gltf or .glb file of it", view.subject.scene));
+    checkScene(view.subject.scene);
+    say(options, "on " + Device(deviceOptions(options)).info().name);
     view.watch = options.view.watch;
     view.out = options.out;
     view.device = deviceOptions(options);

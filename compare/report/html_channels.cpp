@@ -166,10 +166,10 @@ private:
                 what, markup(shellLine(words)));
         };
         std::string text = line("again", withOption(command_, "--channels", name));
-        if (!layout_.report.empty())
-            text += line("in a window",
-                         {"view", "--report", layout_.report, "--debug", name, "--", right_.scene});
-        return text;
+        std::vector<std::string> view = withOption(command_, "--debug", name);
+        if (view.front() != "compare") return text;
+        view.front() = "view";
+        return text + line("in a window", view);
     }
 
     std::string pair() const {

@@ -143,6 +143,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"test", report.test(comparison).name},
         {"verdict", comparison.passed() ? "pass" : "fail"},
         {"covered_pixels", comparison.coverage.count},
+        {"command", comparison.command},
         {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
         {"after_blending", comparison.after_blending ? jsonOf(*comparison.after_blending) : Json(nullptr)},
         {"failures", comparison.failures},

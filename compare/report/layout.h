@@ -43,7 +43,6 @@ struct ReportLayout {
     std::vector<std::string> cause_maps;  // per comparison: of Comparison::explained; empty: it has none
     // A picture's name per Report::closer_paths and channel of it.
     std::vector<std::vector<std::string>> closer_paths;
-    std::string report;                           // the folder that holds it, as it was given; empty: unknown
     std::string folder;                           // of all scenes: names in the page leave it out
     std::vector<std::size_t> order;               // the comparisons as the page shows them
     std::vector<std::string> sections;            // per comparison: its file, where it has one

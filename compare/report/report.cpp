@@ -162,7 +162,6 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     OutputFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
     ReportLayout layout = layoutOf(report, options);
-    layout.report = path.string();
     folder.makeFolders(layout.files());
     Encoder(report, layout, folder, options.progress).run();
     layout.encode_ms =

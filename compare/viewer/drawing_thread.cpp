@@ -168,11 +168,13 @@ struct DrawingThread::State {
 
     // ---- of the drawing thread alone -------------------------------------------------------------------
 
-    Order order;  // that is being worked on
+    Order order;   // that is being worked on
+    Subject both;  // of it, whichever path is the right panel's
     std::atomic<bool> more_of_reference{false};
     std::optional<Device> device;
     std::shared_ptr<PipelineSet> pipelines;
     std::shared_ptr<const Scene> scene;
+    std::string scene_error;        // why the scene that was asked for last is not the one that is shown
     std::optional<Subject> loaded;  // scene, reading and environment of what is loaded, or could not be
     std::unique_ptr<SceneViews> views;
     std::unique_ptr<Renderer> renderer;
@@ -196,7 +198,7 @@ struct DrawingThread::State {
     std::shared_ptr<const Scene> reference_scene;  // that the reference is of
     ReferenceThread reference;
     Progress progress;   // throws Superseded where nobody wants the work any more
-    Progress comparing;  // of parallel work, which is seen to its end
+    Progress comparing;  // of parallel work, and of reading a scene, which are seen to their end
     std::thread thread;
 
     // ---- the loop --------------------------------------------------------------------------------------
@@ -224,7 +226,10 @@ struct DrawingThread::State {
         std::unique_lock lock(mutex);
         for (;;) {
             if (stopping) return false;
-            if (wanted && wanted->number != order.number) order = *wanted;
+            if (wanted && wanted->number != order.number) {
+                order = *wanted;
+                both = ofBothPaths(order.subject);
+            }
             if (save_to || (order.number != 0 && hasWork())) {
                 waiting = false;
                 return true;
@@ -256,18 +261,25 @@ struct DrawingThread::State {
         return order.look.against == Against::reference && more_of_reference &&
                (reference.done() >= 1 || Clock::now() >= reference_shown + referencePause);
     }
-    bool wantsTimes() const { return timed != order.subject; }
+    // Whether the picture that is being drawn is that of this view.
+    bool wantsReference() const {
+        return order.look.against == Against::reference && !order.moving &&
+               reference.settings() == referenceSettings(order.subject.settings);
+    }
+    // Not while the reference takes the processors.
+    bool wantsTimes() const { return timed != both && !drawsReference(); }
     // What the verdict is against: the reference once it is there.
     Against judgedAgainst() const {
         return order.look.against == Against::reference && reference.done() < 1 ? Against::paths
                                                                                 : order.look.against;
     }
-    bool wantsVerdict() const { return judged_of != order.subject || judged_against != judgedAgainst(); }
-    bool wantsStory() const { return order.pixel && told != std::pair(order.subject, *order.pixel); }
+    bool wantsVerdict() const { return judged_of != both || judged_against != judgedAgainst(); }
+    bool wantsStory() const { return order.pixel && told != std::pair(both, *order.pixel); }
 
     // One piece; the most urgent first.
     void work() {
         if (const auto folder = takeSave()) return write(*folder);
+        if (reference.done() < 1 && !wantsReference()) reference.stop();
         readScene();
         needRenderer();
         if (shown_order != order.number) {
@@ -366,7 +378,7 @@ struct DrawingThread::State {
     // A scene that cannot be read leaves the one before it where it is.
     void readScene() {
         if (isLoaded(order.subject)) {
-            if (!scene) throw std::runtime_error(status.error);
+            if (!scene) throw std::runtime_error(scene_error);
             return;
         }
         {
@@ -376,13 +388,15 @@ struct DrawingThread::State {
         const Subject asked = order.subject;
         std::shared_ptr<const Scene> read;
         try {
-            read = std::make_shared<const Scene>(loadShown(asked.scene, asked.settings, stage("load")));
-        } catch (const std::runtime_error&) {
+            read = std::make_shared<const Scene>(
+                loadShown(asked.scene, asked.settings, Stage(comparing, "load")));
+        } catch (const std::runtime_error& error) {
             loaded = asked;
+            scene_error = error.what();
             throw;
         }
+        scene_error.clear();
         reference.stop();
-        const bool first = !scene;
         dropRenderer();
         scene = std::move(read);
         loaded = asked;
@@ -398,10 +412,11 @@ struct DrawingThread::State {
             const std::lock_guard lock(mutex);
             facts = std::move(known);
             status.loading = false;
-            if (!first) status.error.clear();
+            status.error.clear();
         }
         drawn.reset();
         judged_of.reset();
+        paths = {};
     }
 
     // ---- pictures ----------------------------------------------------------------------------------------
@@ -474,10 +489,13 @@ struct DrawingThread::State {
             if (timed_too) {
                 facts_of.ms = frame.time.median;
                 facts_of.passes = frame.passes;
+                ++facts_of.measurement;
             }
             facts_of.bytes = frame.bytes;
             facts_of.counters = frame.counters;
             facts_of.notes = frame.notes;
+            facts_of.mean_lights.reset();
+            facts_of.most_lights.reset();
             if (const auto found = frame.channels.find(counts); found != frame.channels.end()) {
                 const Coverage covered = coverage(frame, frame);
                 double sum = 0, most = 0;
@@ -495,7 +513,7 @@ struct DrawingThread::State {
     // A still picture that takes long is shown smaller first.
     void drawSmallerFirst() {
         const Size full = order.subject.settings.size;
-        if (drawn == order.subject || order.look.mode != lit) return;
+        if (drawn == both) return;
         if (cost.known() && cost.of(double(full.width) * full.height) < patienceMs) return;
         const Size small = movingSize(full, movingMs, cost);
         drawAt(small, true);
@@ -517,14 +535,14 @@ struct DrawingThread::State {
         forgetViews();
         const int mode = order.look.mode;
         std::array<Frame, 2> passed;
-        const bool known = !passing && drawn == order.subject && has({mode});
+        const bool known = !passing && drawn == both && has({mode});
         if (passing)
             passed = mode == lit ? drawLit(size) : drawChannels(size, {mode}, true);
         else if (!known) {
             std::array<Frame, 2> whole = drawChannels(size, {mode}, false);
             for (std::size_t i = 0; i < 2; ++i)
                 frames.at(i) = std::make_shared<const Frame>(std::move(whole.at(i)));
-            drawn = order.subject;
+            drawn = both;
             drawn_channels = {mode, lit, ids};
         }
         const std::array<const Frame*, 2> now{passing ? &passed[0] : frames[0].get(),
@@ -542,7 +560,7 @@ struct DrawingThread::State {
     }
 
     // The Frame that stands left; nothing where it is another path's.
-    std::shared_ptr<const Frame> leftFrame(bool passing, Shown& into) {
+    std::shared_ptr<const Frame> leftFrame(bool passing, const Frame& under, Shown& into) {
         if (order.look.against == Against::file) return storedFrame();
         if (order.look.against != Against::reference || passing) return nullptr;
         Settings wanted_settings = referenceSettings(order.subject.settings);
@@ -563,7 +581,7 @@ struct DrawingThread::State {
         reference_shown = Clock::now();
         if (const std::string error = reference.error(); !error.empty()) throw std::runtime_error(error);
         into.reference_done = reference.done();
-        return reference.frame();
+        return reference.frame({lit, ids, depthMode, order.look.mode}, &under.channels.at(lit));
     }
 
     std::shared_ptr<const Frame> storedFrame() {
@@ -578,7 +596,7 @@ struct DrawingThread::State {
         next->order = order;
         next->size = size;
         const std::size_t right = order.subject.settings.path == drawn_paths[0] ? 0 : 1;
-        const std::shared_ptr<const Frame> left = leftFrame(passing, *next);
+        const std::shared_ptr<const Frame> left = leftFrame(passing, *now.at(right), *next);
         const Frame& baseline = left ? *left : *now.at(1 - right);
         // An exposure that is found anew for every smaller picture would flicker.
         if (!passing || !exposure || exposure_of.picture().exposure != order.look.exposure ||
@@ -588,7 +606,8 @@ struct DrawingThread::State {
         }
         makePictures(baseline, *now.at(right), order.look, *exposure, *next);
         if (left && next->reference_done < 1 && order.look.against == Against::reference)
-            next->panels[0].name = fmt::format("reference, {:.0f} % drawn", 100 * next->reference_done);
+            next->panels[0].name = fmt::format("reference, {:.0f} % drawn over {}",
+                                               100 * next->reference_done, next->panels[1].name);
         const SceneView& view = views->at(viewRequest(now.at(right)->settings));
         next->camera = cameraOf(view.view);
         next->view = view.view;
@@ -598,7 +617,7 @@ struct DrawingThread::State {
         {
             const std::lock_guard lock(mutex);
             shown = std::move(next);
-            status.error.clear();
+            status.error = scene_error;  // until a scene is read
         }
         if (!passing || order.moving) shown_order = order.number;
         options.wake();
@@ -616,9 +635,10 @@ struct DrawingThread::State {
         for (std::size_t i = 0; i < 2; ++i) {
             paths.at(i).ms = times.at(i).time.median;
             paths.at(i).passes = times.at(i).passes;
+            ++paths.at(i).measurement;
         }
         cost.add(double(settings[0].size.width) * settings[0].size.height, paths[0].ms + paths[1].ms);
-        timed = order.subject;
+        timed = both;
         auto next = std::make_shared<Shown>(*shown);
         next->paths = paths;
         const std::lock_guard lock(mutex);
@@ -631,48 +651,48 @@ struct DrawingThread::State {
         render.requested = everyChannel();
         render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene);
         render.twice = false;
-        std::vector<Frame> both;
+        std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
-            if (judged_of == order.subject && drawn == order.subject && has(everyChannel())) {
-                both.push_back(*frames.at(i));  // against something else this time
+            if (judged_of == both && drawn == both && has(everyChannel())) {
+                pair.push_back(*frames.at(i));  // against something else this time
                 continue;
             }
             render.progress =
                 stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-            both.push_back(renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render));
+            pair.push_back(renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render));
         }
         auto next = std::make_shared<Judged>();
-        next->subject = order.subject;
-        const SceneView& view = views->at(viewRequest(both[0].settings));
+        next->subject = both;
+        const SceneView& view = views->at(viewRequest(pair[0].settings));
         next->plan = planLines(view, settings.skinning);
         CompareOptions compare = options.compare;
         compare.progress = Stage(comparing, "verdict").part(0.8, 1);
         heed();
         const Against against = judgedAgainst();
         if (against == Against::reference) {
-            std::vector<Frame> three{*reference.frame()};
-            std::ranges::move(both, std::back_inserter(three));
+            std::vector<Frame> three{*reference.frame({}, nullptr)};
+            std::ranges::move(pair, std::back_inserter(three));
             std::vector<std::string> materials;
             for (const Material& material : scene->materials) materials.push_back(material.name);
             next->report = makeReferenceReport(std::move(three), {view.needs, view.needs, view.needs},
                                                reportDevice(*device), compare, {{}}, {materials});
         } else if (against == Against::file) {
             Frame baseline = *storedFrame();
-            baseline.requested = both[0].requested;
-            next->report = makeBaselineReport(std::move(baseline), std::move(both), view.needs,
+            baseline.requested = pair[0].requested;
+            next->report = makeBaselineReport(std::move(baseline), std::move(pair), view.needs,
                                               reportDevice(*device), compare, {});
         } else {
             next->report =
-                makeReport(std::move(both), {view.needs, view.needs}, reportDevice(*device), compare, {});
+                makeReport(std::move(pair), {view.needs, view.needs}, reportDevice(*device), compare, {});
         }
-        judged_of = order.subject;
+        judged_of = both;
         judged_against = against;
         // Every channel is there from now on.
         for (std::size_t i = 0; i < 2; ++i)
             for (const Frame& frame : next->report.frames)
                 if (frame.settings.path == drawn_paths.at(i))
                     frames.at(i) = std::shared_ptr<const Frame>(next, &frame);
-        drawn = order.subject;
+        drawn = both;
         drawn_channels = everyChannel();
         takeFacts({frames[0].get(), frames[1].get()}, false);
         auto again = std::make_shared<Shown>(*shown);
@@ -696,10 +716,10 @@ struct DrawingThread::State {
                                .device = reportDevice(*device),
                                .rules = options.compare.rules,
                                .progress = stage("this pixel")};
-        auto next = std::make_shared<Story>(
-            Story{order.subject, *order.pixel, pixelStory(*renderer, *views, question), {}});
+        auto next =
+            std::make_shared<Story>(Story{both, *order.pixel, pixelStory(*renderer, *views, question), {}});
         next->words = inWords(next->story);
-        told = std::pair(order.subject, *order.pixel);
+        told = std::pair(both, *order.pixel);
         const std::lock_guard lock(mutex);
         story = std::move(next);
     }

@@ -132,19 +132,27 @@ void foot(InterfaceState& state, const Contents& contents, int width, int height
     ImGui::Begin("foot", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
-    if (!contents.status.error.empty()) {
-        ImGui::TextColored({1, 0.45f, 0.4f, 1}, "%s", contents.status.error.c_str());
-    } else if (ImGui::GetTime() < state.message_until) {
-        ImGui::TextColored({0.6f, 0.9f, 0.6f, 1}, "%s", state.message.c_str());
-    } else {
-        ImGui::TextUnformatted(underWords(contents).c_str());
-    }
     const std::string doing =
         contents.status.doing.empty()
             ? (contents.idle ? "still" : "drawing")
             : fmt::format("{} {:.0f} %", contents.status.doing, 100 * contents.status.fraction);
-    const float room = ImGui::CalcTextSize(doing.c_str()).x;
-    ImGui::SameLine(std::max(0.0f, static_cast<float>(width) - room - 12 * scale));
+    const float room = ImGui::CalcTextSize(doing.c_str()).x + 24 * scale;
+    const bool is_error = !contents.status.error.empty(), is_message = ImGui::GetTime() < state.message_until;
+    const std::string words = is_error     ? contents.status.error
+                              : is_message ? state.message
+                                           : underWords(contents);
+    const ImVec4 color = is_error     ? ImVec4{1, 0.45f, 0.4f, 1}
+                         : is_message ? ImVec4{0.6f, 0.9f, 0.6f, 1}
+                                      : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    // A long line is cut off before what is being done; all of it is under the cursor.
+    ImGui::BeginChild("words", {std::max(1.0f, static_cast<float>(width) - room), ImGui::GetTextLineHeight()},
+                      false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(words.c_str());
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
+    ImGui::EndChild();
+    ImGui::SameLine(std::max(0.0f, static_cast<float>(width) - room + 12 * scale));
     ImGui::TextUnformatted(doing.c_str());
     ImGui::End();
     ImGui::PopStyleVar();
@@ -166,8 +174,8 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
              static_cast<float>(place.rect.y + place.rect.height)});
         if (place.panel == 2) {
             const std::string kind = fmt::format(
-                "{} difference of {}: {} (left) against {} (right)", viewer::nameOf(state.look.difference),
-                debugMode(shown.order.look.mode).name, shown.panels[0].name, shown.panels[1].name);
+                "{} difference of {}: {} (right) from {} (left)", viewer::nameOf(state.look.difference),
+                debugMode(shown.order.look.mode).name, shown.panels[1].name, shown.panels[0].name);
             drawOutlined(x, y, white, kind);
             if (shown.difference && !shown.difference->missing.empty())
                 drawOutlined(x, y + 18 * scale, grey, shown.difference->missing);
@@ -254,12 +262,12 @@ void legends(const Contents& contents, const CanvasRect& canvas, float scale) {
 }
 
 // The values of large pixels, written into them.
-void values(const Contents& contents, const std::vector<PanelPlace>& places) {
+void values(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     for (const PanelPlace& place : places) {
         const auto [left, top, size] = place.placement;
-        if (size < valuesFrom || (place.panel == 2 && !shown.difference)) continue;
+        if (size < valuesFrom * double{scale} || (place.panel == 2 && !shown.difference)) continue;
         const Image& image =
             place.panel == 2 ? shown.difference->values : shown.panels.at(place.panel).values;
         if (image.empty() || image.width != full.width || image.height != full.height) continue;
@@ -415,7 +423,7 @@ std::string plural(double count, const char* what) {
 
 void information(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                  float scale) {
-    if (!state.information || !contents.shown) return;
+    if (!state.information || !contents.shown || static_cast<float>(canvas.width) < 340 * scale) return;
     const Shown& shown = *contents.shown;
     ImGui::SetNextWindowPos(
         {static_cast<float>(canvas.x + canvas.width) - 8 * scale, static_cast<float>(canvas.y) + 28 * scale},
@@ -426,7 +434,7 @@ void information(const InterfaceState& state, const Contents& contents, const Ca
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         const bool small = shown.size.width != shown.order.subject.settings.size.width;
-        ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller while it moves" : "");
+        ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller for now" : "");
         for (std::size_t i = 0; i < 2; ++i) {
             const PathFacts& facts = shown.paths.at(i);
             if (facts.name.empty()) continue;
@@ -436,8 +444,11 @@ void information(const InterfaceState& state, const Contents& contents, const Ca
                 const std::deque<float>& total = contents.history->at(i).total;
                 const std::vector<float> flat(total.begin(), total.end());
                 const std::string label = fmt::format("##total{}", i);
+                const float most = 1.2f * *std::ranges::max_element(flat);
                 ImGui::PlotLines(label.c_str(), flat.data(), static_cast<int>(flat.size()), 0, nullptr, 0,
-                                 1.2f * *std::ranges::max_element(flat), {230 * scale, 34 * scale});
+                                 most, {230 * scale, 34 * scale});
+                ImGui::SameLine();
+                ImGui::Text("0 to\n%.3g ms", double{most});
             }
         }
         const PathFacts& facts = shown.paths[1];
@@ -451,7 +462,8 @@ void information(const InterfaceState& state, const Contents& contents, const Ca
         if (facts.counters.nonfinite_pixels > 0)
             ImGui::TextColored({1, 0.4f, 1, 1}, "%s were NaN or infinite",
                                plural(static_cast<double>(facts.counters.nonfinite_pixels), "pixel").c_str());
-        ImGui::Text("interface: 99 %% of its frames within %.1f ms", contents.interface_ms);
+        if (contents.interface_ms > 0)
+            ImGui::Text("interface: 99 %% of its frames within %.1f ms", contents.interface_ms);
     }
     ImGui::End();
 }
@@ -471,11 +483,11 @@ void drawInterface(InterfaceState& state, const Contents& contents, const Canvas
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const int width = static_cast<int>(display.x), height = static_cast<int>(display.y);
     if (contents.shown) {
-        legends(contents, canvas, s);
         if (state.light_debug) lights(contents, places, s);
         chosenPixel(state, places, s);
         wipeLine(state, canvas, places, s);
-        values(contents, places);
+        values(contents, places, s);
+        legends(contents, canvas, s);
         titles(state, contents, places, s);
     }
     bar(state, contents, width, s);

@@ -21,7 +21,8 @@ void push(std::deque<float>& values, double value) {
 }  // namespace
 
 void History::add(const PathFacts& facts) {
-    if (facts.ms <= 0) return;
+    if (facts.ms <= 0 || facts.measurement == measurement) return;
+    measurement = facts.measurement;
     push(total, facts.ms);
     for (const PassTime& pass : facts.passes) push(passes[pass.name], pass.ms);
 }
@@ -78,7 +79,7 @@ std::string compareCommand(const InterfaceState& state) {
         words = withOption(std::move(words), "--baseline", "reference");
     if (state.look.against == Against::file)
         words = withOption(std::move(words), "--baseline", state.look.file.string());
-    return shellLine(words);
+    return shellLine(withWords(std::move(words), state.counted));
 }
 
 void setOption(InterfaceState& state, const std::string& option, const std::string& word) {
@@ -87,6 +88,11 @@ void setOption(InterfaceState& state, const std::string& option, const std::stri
         state.problem.clear();
     } catch (const std::runtime_error& error) {
         state.problem = error.what();
+        return;
+    }
+    if (std::ranges::count(drawn_paths, state.edited.path) == 0) {
+        state.problem = "the right panel is a path's; T puts the reference into the left one";
+        state.edited.path = state.subject.settings.path;
         return;
     }
     for (const Path path : drawn_paths) {

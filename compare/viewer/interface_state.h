@@ -22,6 +22,7 @@ namespace diptych::viewer {
 // Of the last pictures, the newest last; times in ms.
 struct History {
     static constexpr std::size_t longest = 120;
+    std::uint64_t measurement = 0;  // that was added last
     std::deque<float> total;
     std::map<std::string, std::deque<float>> passes;
     void add(const PathFacts& facts);
@@ -42,7 +43,8 @@ struct InterfaceState {
     double speed = 1;                 // m/s as a share of the distance to the camera's first target
     Settings edited;  // as the settings' panel shows them: of no meaning where `problem` is not empty
     std::string problem;
-    std::array<char, 64> filter{};             // of settings' names
+    std::vector<std::string> counted;  // options of the command line that decide the verdict, for commands
+    std::array<char, 64> filter{};     // of settings' names
     std::map<std::string, std::string> typed;  // options whose text is being edited
     std::optional<Tab> open;                   // a tab to be brought to the front
     std::string message;                       // at the foot, of what was done last
@@ -51,10 +53,9 @@ struct InterfaceState {
     // What panels ask of the window.
     struct Requests {
         std::string copy;  // to the clipboard
-        bool reload = false, screenshot = false;
+        bool reload = false;
         std::optional<std::pair<int, PixelPlace>> worst;  // channel and pixel to fly to
         std::optional<std::string> camera;                // to take, in the words of --camera
-        std::optional<std::filesystem::path> scene;       // to load instead
     } requests;
 };
 

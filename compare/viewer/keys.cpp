@@ -34,7 +34,7 @@ constexpr KeyBinding bindings[] = {
     {Action::play, GLFW_KEY_K, "K", "plays the animations, or stops them"},
     {Action::scene_lights, GLFW_KEY_L, "L", "switches the scene's own lights off and on"},
     {Action::rig, GLFW_KEY_J, "J", "switches the lights of --lights off and on"},
-    {Action::screenshot, GLFW_KEY_P, "P", "writes both panels as PNG and all channels as EXR"},
+    {Action::screenshot, GLFW_KEY_P, "P", "writes both paths: this channel as PNG, all channels as EXR"},
     {Action::reload, GLFW_KEY_R, "R", "reads the scene again"},
     {Action::copy_command, GLFW_KEY_Y, "Y", "copies the command line that draws this view"},
     {Action::panels, GLFW_KEY_U, "U", "hides the panels at the side, or shows them"},

@@ -36,6 +36,12 @@ struct Subject {
     bool operator==(const Subject&) const = default;
 };
 
+// The same whichever path is the right panel's: what both paths draw.
+inline Subject ofBothPaths(Subject subject) {
+    subject.settings.path = drawn_paths[0];
+    return subject;
+}
+
 // What of it is shown.
 struct Look {
     int mode = static_cast<int>(gpu::DEBUG_lit);

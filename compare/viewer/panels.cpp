@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/panels.h"
 
+#include "compare/render/frame_facts.h"
 #include "compare/report/titles.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/lights/lights_json.h"
@@ -34,14 +35,32 @@ std::string figure(double value) {
     return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "infinite";
 }
 
-void channelRow(InterfaceState& state, const ChannelDiff& channel) {
+// Puts the comparison's pictures into the panels.
+void showComparison(InterfaceState& state, const Report& report, const Comparison& comparison) {
+    const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
+    for (Settings* settings : {&state.subject.settings, &state.edited}) settings->path = test.settings.path;
+    state.look.against = !baseline.origin.file.empty() ? Against::file
+                         : isReferenceFrame(baseline)  ? Against::reference
+                                                       : Against::paths;
+    state.look.file = state.look.against == Against::file ? state.stored : std::filesystem::path();
+}
+
+bool isShown(const InterfaceState& state, const Report& report, const Comparison& comparison) {
+    return report.test(comparison).settings.path == state.subject.settings.path &&
+           isReferenceFrame(report.baseline(comparison)) == (state.look.against == Against::reference);
+}
+
+void channelRow(InterfaceState& state, const Report& report, const Comparison& comparison,
+                const ChannelDiff& channel) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const bool compared = isCompared(channel.verdict);
     const std::string name(channel.mode->name);
-    if (ImGui::Selectable(name.c_str(), channel.mode->number == state.look.mode,
+    if (ImGui::Selectable(name.c_str(),
+                          channel.mode->number == state.look.mode && isShown(state, report, comparison),
                           ImGuiSelectableFlags_SpanAllColumns)) {
         state.look.mode = channel.mode->number;
+        showComparison(state, report, comparison);
         if (compared && channel.stats.worst_x >= 0)
             state.requests.worst = {channel.mode->number, {channel.stats.worst_x, channel.stats.worst_y}};
         if (compared && state.look.difference == Difference::none)
@@ -49,19 +68,26 @@ void channelRow(InterfaceState& state, const ChannelDiff& channel) {
     }
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(420);
+        ImGui::PushTextWrapPos(32 * ImGui::GetFontSize());
         ImGui::TextUnformatted(std::string(channel.mode->shows).c_str());
-        if (compared) ImGui::TextUnformatted(("tolerance: " + channel.tolerance.because).c_str());
+        if (compared) {
+            ImGui::Text("largest error %s, %s", figure(channel.stats.max).c_str(),
+                        std::string(nameOf(channel.mode->metric)).c_str());
+            ImGui::TextUnformatted(
+                ("tolerance " + figure(channel.tolerance.max) + ": " + channel.tolerance.because).c_str());
+        }
         if (!channel.reason.empty()) ImGui::TextColored(bad, "%s", channel.reason.c_str());
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
     }
+    // What decided, as the terminal and the page say it.
+    const auto& decided = channel.criterion;
     ImGui::TableNextColumn();
-    if (compared) ImGui::TextUnformatted(figure(channel.stats.max).c_str());
+    ImGui::TextUnformatted(decided ? decided->figure.c_str() : "");
     ImGui::TableNextColumn();
-    if (compared) ImGui::TextUnformatted(figure(channel.tolerance.max).c_str());
+    ImGui::TextUnformatted(decided ? figure(decided->measured).c_str() : "");
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(compared ? std::string(nameOf(channel.mode->metric)).c_str() : "");
+    ImGui::TextUnformatted(decided ? ((decided->least ? ">= " : "") + figure(decided->limit)).c_str() : "");
     ImGui::TableNextColumn();
     const bool failed = channel.verdict == Verdict::fail;
     ImGui::TextColored(failed     ? bad
@@ -78,10 +104,11 @@ void comparisonTable(InterfaceState& state, const Report& report, const Comparis
     for (const std::string& failure : comparison.failures) wrapped(failure, &bad);
     const std::string id = fmt::format("channels{}", index);
     if (!ImGui::BeginTable(id.c_str(), 5, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) return;
-    for (const char* head : {"channel", "largest error", "tolerance", "metric", "verdict"})
+    for (const char* head : {"channel", "judged by", "measured", "limit", "verdict"})
         ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
-    for (const ChannelDiff* channel : failuresFirst(comparison)) channelRow(state, *channel);
+    for (const ChannelDiff* channel : failuresFirst(comparison))
+        channelRow(state, report, comparison, *channel);
     ImGui::EndTable();
 }
 
@@ -90,7 +117,7 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
         wrapped("Both paths are compared, channel by channel, once the view stands still.", &faint);
         return;
     }
-    if (contents.judged->subject != state.subject)
+    if (contents.judged->subject != ofBothPaths(state.subject))
         wrapped("of the view before; this one is judged once it stands still", &faint);
     else
         wrapped(
@@ -130,7 +157,9 @@ void textInput(InterfaceState& state, const std::string& option, const std::stri
     } else if (ImGui::IsItemActive()) {
         state.typed[option] = text.data();
     } else if (typed != state.typed.end()) {
-        setOption(state, option, typed->second);
+        // Left with Esc, what was typed is forgotten.
+        if (typed->second != value && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+            setOption(state, option, typed->second);
         state.typed.erase(option);
     }
 }
@@ -153,7 +182,7 @@ void settingRow(InterfaceState& state, const Field& field) {
                        option.c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(420);
+        ImGui::PushTextWrapPos(32 * ImGui::GetFontSize());
         ImGui::TextUnformatted(std::string(field.help).c_str());
         ImGui::TextColored(faint, "--%s %s; usually %s", option.c_str(), accepted.c_str(),
                            Settings().valueOf(option).empty() ? "empty" : Settings().valueOf(option).c_str());
@@ -166,13 +195,15 @@ void settingRow(InterfaceState& state, const Field& field) {
     if (accepted.find('|') == accepted.npos) return textInput(state, option, value, accepted);
     if (!ImGui::BeginCombo(("##" + option).c_str(), value.c_str())) return;
     for (const std::string& word : wordsOf(accepted))
-        if (ImGui::Selectable(word.c_str(), word == value)) setOption(state, option, word);
+        if (!(option == "path" && word == nameOf(Path::reference)) &&
+            ImGui::Selectable(word.c_str(), word == value))
+            setOption(state, option, word);
     ImGui::EndCombo();
 }
 
 void settingsTab(InterfaceState& state) {
     if (!state.problem.empty()) wrapped("not drawn: " + state.problem, &bad);
-    ImGui::SetNextItemWidth(160);
+    ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##filter", "part of a name", state.filter.data(), state.filter.size());
     ImGui::SameLine();
     if (ImGui::SmallButton("as usual")) {
@@ -203,11 +234,16 @@ void animationRows(InterfaceState& state, const SceneFacts& facts) {
     if (facts.animations.empty()) return;
     ImGui::Separator();
     auto time = static_cast<float>(state.subject.settings.time);
-    ImGui::SetNextItemWidth(220);
+    ImGui::SetNextItemWidth(17 * ImGui::GetFontSize());
     if (ImGui::SliderFloat("time, s", &time, 0, static_cast<float>(std::max(facts.duration, 1e-3)), "%.3f"))
         setOption(state, "time", fmt::format("{}", time));
     ImGui::SameLine();
     if (ImGui::SmallButton(state.playing ? "stop (K)" : "play (K)")) state.playing = !state.playing;
+}
+
+const char* unitOf(LightKind kind) {
+    if (kind == LightKind::directional) return "lx";
+    return kind == LightKind::point || kind == LightKind::spot ? "cd" : "W/(sr m^2)";
 }
 
 void lightRows(InterfaceState& state, const Contents& contents) {
@@ -225,7 +261,8 @@ void lightRows(InterfaceState& state, const Contents& contents) {
     if (!contents.shown) return;
     if (!ImGui::BeginTable(
             "lights", 4, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
-            {0, std::min(180.0f, 26.0f * static_cast<float>(contents.shown->lights.size() + 1))}))
+            {0, ImGui::GetFontSize() *
+                    std::min(14.0f, 2 * static_cast<float>(contents.shown->lights.size() + 1))}))
         return;
     for (const char* head : {"light", "kind", "intensity", "range, m"}) ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
@@ -240,7 +277,7 @@ void lightRows(InterfaceState& state, const Contents& contents) {
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(std::string(nameOf(light.kind)).c_str());
             ImGui::TableNextColumn();
-            ImGui::Text("%.4g", double{light.intensity});
+            ImGui::Text("%.4g %s", double{light.intensity}, unitOf(light.kind));
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(std::isfinite(light.range) ? fmt::format("{:.4g}", light.range).c_str()
                                                               : "none");
@@ -269,7 +306,7 @@ void sceneTab(InterfaceState& state, const Contents& contents) {
     const SceneFacts& facts = *contents.facts;
     ImGui::Separator();
     const std::string& camera = state.subject.settings.camera;
-    ImGui::SetNextItemWidth(260);
+    ImGui::SetNextItemWidth(20 * ImGui::GetFontSize());
     if (ImGui::BeginCombo("camera (N)", camera.empty() ? "the scene's first, or the default view"
                                         : camera.find('=') != camera.npos ? "free"
                                                                           : camera.c_str())) {
@@ -313,8 +350,8 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     if (ImGui::SmallButton("copy as diptych compare --pixel"))
         state.requests.copy =
             fmt::format("{} --pixel {},{}", compareCommand(state), state.pixel->x, state.pixel->y);
-    const bool here =
-        contents.story && contents.story->pixel == *state.pixel && contents.story->subject == state.subject;
+    const bool here = contents.story && contents.story->pixel == *state.pixel &&
+                      contents.story->subject == ofBothPaths(state.subject);
     if (!here) wrapped("being drawn: each light alone in both paths, and the reference", &faint);
     if (!contents.story) return;
     ImGui::BeginChild("story", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);

@@ -34,6 +34,7 @@ void ReferenceThread::stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
     stop_ = false;
+    if (done_ < 1) settings_.reset();  // what is half done is of no more use
 }
 
 void ReferenceThread::begin(std::shared_ptr<const Scene> scene, const Settings& settings,
@@ -52,7 +53,8 @@ void ReferenceThread::begin(std::shared_ptr<const Scene> scene, const Settings& 
             partial_.channels = surfaces->channels;
             partial_.background = surfaces->background;
         }
-        partial_.channels[litChannel] = Image(settings.size.width, settings.size.height, 3);
+        Image& mine = partial_.channels[litChannel] = Image(settings.size.width, settings.size.height, 3);
+        drawn_.assign(mine.pixels(), false);
     }
     thread_ = std::thread([this, scene = std::move(scene), settings, surfaces = std::move(surfaces)] {
         run(scene, settings, surfaces);
@@ -77,9 +79,12 @@ void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Setti
             const Image& lit = channels.at(litChannel);
             const std::lock_guard lock(mutex_);
             Image& mine = partial_.channels.at(litChannel);
-            for (int row = y; row < y + height; ++row)
+            for (int row = y; row < y + height; ++row) {
                 std::copy_n(lit.data.data() + lit.offset(x, row), 3 * width,
                             mine.data.data() + mine.offset(x, row));
+                const auto first = static_cast<std::ptrdiff_t>(row) * mine.width + x;
+                std::fill_n(drawn_.begin() + first, width, true);
+            }
             wake_();
         };
         const SceneView view = makeSceneView(*scene, viewRequest(settings));
@@ -97,10 +102,22 @@ void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Setti
     wake_();
 }
 
-std::shared_ptr<const Frame> ReferenceThread::frame() const {
+std::shared_ptr<const Frame> ReferenceThread::frame(std::initializer_list<int> modes,
+                                                    const Image* under) const {
     const std::lock_guard lock(mutex_);
     if (finished_) return finished_;
-    return settings_ ? std::make_shared<const Frame>(partial_) : nullptr;
+    Frame frame;
+    frame.name = partial_.name;
+    frame.settings = partial_.settings;
+    frame.background = partial_.background;
+    for (const int mode : modes)
+        if (const auto found = partial_.channels.find(mode); found != partial_.channels.end())
+            frame.channels[mode] = found->second;
+    Image& lit = frame.channels[litChannel];
+    if (under && under->width == lit.width && under->height == lit.height)
+        for (std::size_t i = 0; i < lit.pixels(); ++i)
+            if (!drawn_[i]) std::copy_n(under->pixel(i), 3, lit.pixel(i));
+    return std::make_shared<const Frame>(std::move(frame));
 }
 
 std::string ReferenceThread::error() const {

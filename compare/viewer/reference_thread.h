@@ -7,11 +7,13 @@
 
 #include <atomic>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace diptych::viewer {
 
@@ -31,9 +33,9 @@ public:
     // The Settings of the picture that is drawn, or was last.
     const std::optional<Settings>& settings() const { return settings_; }
     double done() const { return done_; }  // 0 to 1; 1: finished
-    // lit as far as it is drawn, black elsewhere, and the channels of the surfaces; all channels once it is
-    // finished.
-    std::shared_ptr<const Frame> frame() const;
+    // lit as far as it is drawn, elsewhere that of `under`, W x H x 3, and of the channels of the surfaces
+    // these; all channels once it is finished.
+    std::shared_ptr<const Frame> frame(std::initializer_list<int> modes, const Image* under) const;
     std::string error() const;  // why it ended without a picture; empty: it did not
 
 private:
@@ -47,6 +49,7 @@ private:
     std::atomic<double> done_{0};
     mutable std::mutex mutex_;
     Frame partial_;
+    std::vector<bool> drawn_;  // by pixel of lit
     std::shared_ptr<const Frame> finished_;
     std::string error_;
 };

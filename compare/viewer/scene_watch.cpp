@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/scene_watch.h"
 
+#include "shared/scene/gltf/resources.h"
+
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -24,7 +26,7 @@ std::vector<fs::path> named(const fs::path& scene) {
         for (const nlohmann::json& each : *found)
             if (each.is_object() && each.contains("uri") && each["uri"].is_string())
                 if (const auto uri = each["uri"].get<std::string>(); !uri.starts_with("data:"))
-                    files.push_back(scene.parent_path() / uri);
+                    files.push_back(scene.parent_path() / gltf::percentDecoded(uri));
     }
     return files;
 }

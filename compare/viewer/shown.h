@@ -41,6 +41,7 @@ struct PathFacts {
     std::string name;
     double ms = 0;  // the whole frame: of a picture that moves the sum of its passes
     std::vector<PassTime> passes;
+    std::uint64_t measurement = 0;  // rises with each of these two
     FrameBytes bytes;
     FrameCounters counters;
     std::vector<std::string> notes;

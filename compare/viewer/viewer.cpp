@@ -93,13 +93,20 @@ public:
         if (state_.subject.settings.path == Path::reference) state_.subject.settings.path = drawn_paths[1];
         state_.look = options.look;
         state_.stored = options.look.file;
+        // But the left panel's, which the interface chooses.
+        const std::vector<std::string>& words = options.compare.words;
+        for (std::size_t i = 0; i < words.size(); ++i)
+            if (words[i] == "--baseline")
+                ++i;
+            else
+                state_.counted.push_back(words[i]);
         state_.follow = !options.size_given;
         state_.edited = state_.subject.settings;
         state_.rig = state_.subject.settings.lights;
         if (options.pixel) {
             state_.pixel = options.pixel;
             state_.open = Tab::pixel;
-            state_.canvas.zoom = flown;
+            state_.canvas.zoom = flown * window_.contentScale();
             state_.canvas.centre_x = options.pixel->x + 0.5;
             state_.canvas.centre_y = options.pixel->y + 0.5;
         }
@@ -243,6 +250,11 @@ private:
         if (state_.pixel && (state_.pixel->x >= state_.subject.settings.size.width ||
                              state_.pixel->y >= state_.subject.settings.size.height))
             state_.pixel.reset();
+        // What changes again and again, as by a slider, moves.
+        if (order_.subject != state_.subject) {
+            if (now_ - changed_ < resizedAfter) moving_until_ = std::max(moving_until_, now_ + stillAfter);
+            changed_ = now_;
+        }
         const bool moving = now_ < moving_until_ || state_.playing || isHeldMoving();
         if (order_.number != 0 && order_.subject == state_.subject && order_.look == state_.look &&
             order_.moving == moving && order_.pixel == state_.pixel)
@@ -303,7 +315,9 @@ private:
         const ImGuiIO& io = ImGui::GetIO();
         if (!io.WantTextInput)
             for (const KeyDown& key : input.keys) press(key);
-        handleMouse(input, io.WantCaptureMouse);
+        // What Dear ImGui says is of the frame before: only what may lie over the pictures is asked about.
+        const bool covered = state_.help || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+        handleMouse(input, covered && io.WantCaptureMouse);
         move();
         fly();
         play();
@@ -391,6 +405,8 @@ private:
                 tell(state_.orbiting ? "dragging orbits what is under the cursor" : "dragging looks around");
                 break;
             case Action::wipe:
+                // While a difference is shown there are no panels to arrange.
+                if (std::exchange(state_.look.difference, Difference::none) != Difference::none) break;
                 cycle(state_.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single});
                 break;
             case Action::difference:
@@ -462,7 +478,7 @@ private:
                 break;
             case Action::screenshot:
                 drawing_.save(options_.out.empty() ? "." : options_.out);
-                tell("writing both panels and all channels");
+                tell("writing both paths, all channels");
                 break;
             case Action::reload:
                 readAgain();
@@ -516,7 +532,9 @@ private:
         const std::size_t count = contents_.facts ? contents_.facts->cameras.size() : 0;
         const std::string& now = state_.subject.settings.camera;
         std::size_t next = 0;
-        if (!now.empty() && now.find('=') == now.npos)
+        if (now.empty() && count > 1)
+            next = 1;  // the first is what is seen
+        else if (!now.empty() && now.find('=') == now.npos)
             next = (static_cast<std::size_t>(std::atoi(now.c_str())) + 1) % std::max<std::size_t>(count, 1);
         const std::string words = count == 0 ? "" : std::to_string(next);
         change([&](Settings& s) { s.camera = words; });
@@ -526,7 +544,7 @@ private:
     }
 
     void worstPixel() {
-        if (!contents_.judged || contents_.judged->subject != state_.subject)
+        if (!contents_.judged || contents_.judged->subject != ofBothPaths(state_.subject))
             return tell("there is no verdict of this view yet");
         for (const Comparison& comparison : contents_.judged->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
@@ -575,7 +593,8 @@ private:
     struct Flight {
         double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = flown, to_x = 0, to_y = 0;
     };
-    void flyTo(const PixelPlace& pixel, double zoom = flown) {
+    void flyTo(const PixelPlace& pixel, std::optional<double> wanted = {}) {
+        const double zoom = wanted.value_or(flown) * scale_;
         const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
         const Size& size = state_.subject.settings.size;
         const double fits = std::min(double(canvas.width) / size.width, double(canvas.height) / size.height);
@@ -703,7 +722,8 @@ private:
     glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
         const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
         const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
-        if (!under || !contents_.judged || contents_.judged->subject != state_.subject) return ahead;
+        if (!under || !contents_.judged || contents_.judged->subject != ofBothPaths(state_.subject))
+            return ahead;
         for (const Frame& frame : contents_.judged->report.frames) {
             const auto position = frame.channels.find(static_cast<int>(gpu::DEBUG_position));
             const auto depth = frame.channels.find(static_cast<int>(gpu::DEBUG_depth));
@@ -750,6 +770,8 @@ private:
                     "view: the device that shows the window was lost several times; try another --device");
             say("the device that shows the window was lost and is started again");
             makePresenter();
+        } else {
+            presenters_ = 0;
         }
         setTitle();
         sayShown();
@@ -834,6 +856,7 @@ private:
     Order order_;                                                 // asked for last
     std::uint64_t said_still_ = 0;                                // of which it was said that all is drawn
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
+    double changed_ = -1;                                         // when what is drawn changed last
     double scale_ = 1;
     int width_ = 0, height_ = 0, frames_left_ = 3;
     bool quit_ = false, held_ = false, said_first_ = false, said_whole_ = false;

@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -57,7 +58,9 @@ Window::~Window() {
 // Dear ImGui hears everything first; who takes an event is decided by what it wants.
 void Window::listen() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
+        // Tab swaps the paths; in a text it goes to the next one.
+        if (key != GLFW_KEY_TAB || ImGui::GetIO().WantTextInput)
+            ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
         Input& input = inputOf(w);
         input.any = true;
         if (action == GLFW_PRESS)

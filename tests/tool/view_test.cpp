@@ -166,6 +166,8 @@ TEST(ViewWithoutDisplay, WhatCannotBeShownIsSaidBeforeAnyWindow) {
     EXPECT_TRUE(runTool(folder, "view --pixel 640,0").failedOver("--pixel"));
     EXPECT_TRUE(runTool(folder, "view --report nowhere").failedOver("--report nowhere"));
     EXPECT_TRUE(runTool(folder, "view --evsm-exponent 3").failedOver("evsm"));
+    EXPECT_TRUE(runTool(folder, "view nowhere.glb").failedOver("nowhere.glb"));
+    EXPECT_TRUE(runTool(folder, "view --device nosuch").failedOver("--device nosuch"));
 }
 
 TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
@@ -362,7 +364,7 @@ TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
     EXPECT_NE(copied().command.find("--time"), std::string::npos);
     // N goes to the scene's cameras.
     display_->events("key n");
-    EXPECT_TRUE(soon([&] { return times("view: camera 0") > 0; })) << view_->err();
+    EXPECT_TRUE(soon([&] { return times("view: camera ") > 0; })) << view_->err();
     // O changes what dragging does: around a point ahead, the eye moves.
     const std::array<double, 3> still = [&] {
         hold("w");
@@ -480,7 +482,7 @@ TEST_F(View, AReportOpensAtItsFailingChannelsWorstPixel) {
     const Ran compared =
         runTool(folder_, "compare builtin:spots --size 320x180 --tolerances strict.json -o report");
     ASSERT_EQ(compared.code, 1) << compared.out << compared.err;
-    EXPECT_NE(contentsOf(folder_ / "report/index.html").find("diptych view --report report --debug albedo"),
+    EXPECT_NE(contentsOf(folder_ / "report/index.html").find("diptych view --debug albedo"),
               std::string::npos);
     start({"view", "-v", "--report", "report"});
     settle();
