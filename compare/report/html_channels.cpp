@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -169,6 +171,8 @@ private:
         std::vector<std::string> view = withOption(command_, "--debug", name);
         if (view.front() != "compare") return text;
         view.front() = "view";
+        // The folder of the report that draws it again is none of the window's.
+        if (const auto out = std::ranges::find(view, "-o"); out != view.end()) view.erase(out, out + 2);
         return text + line("in a window", view);
     }
 

@@ -112,7 +112,9 @@ TEST(PageReport, TheCommandOfAFailingCardFailsAgain) {
         runTool(folder, "compare builtin:cutout --size 96x54 --runs 0 --tolerances t.json --json -o report");
     ASSERT_EQ(first.code, 1) << first.err;
     const std::string page = contentsOf(folder / "report/index.html"), start = "<code>diptych ";
-    ASSERT_EQ(countOf(page, start), 1u);
+    // One that draws it again, and one that shows it in a window.
+    ASSERT_EQ(countOf(page, start), 2u);
+    EXPECT_EQ(countOf(page, "<code>diptych view --debug normals --tolerances t.json"), 1u);
     const std::size_t at = page.find(start) + start.size();
     const std::string copied = page.substr(at, page.find("</code>", at) - at);
     const Ran again = runTool(folder, copied + " --json --runs 0");
