@@ -6,11 +6,10 @@
 #include "compare/run/command_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace diptych {
 
