@@ -22,7 +22,8 @@ namespace diptych::cli {
 namespace {
 
 // Settings that choose what is seen.
-constexpr std::string_view ofTheView[] = {"size", "camera", "time", "animation", "env", "scene-lights", "lights", "seed"};
+constexpr std::string_view ofTheView[] = {"size", "camera",       "time",   "animation",
+                                          "env",  "scene-lights", "lights", "seed"};
 
 // The other path, and what --test names.
 Settings testOf(const Options& options, std::string& name) {

@@ -45,7 +45,8 @@ void checkExplained(const Frame& baseline, const Frame& test) {
                                 frame->name, debugMode(mode).name, image.width, image.height, baseline.name,
                                 lit.width, lit.height));
         }
-    for (const std::string_view option : {"camera", "time", "animation", "env", "scene-lights", "lights", "seed"})
+    for (const std::string_view option :
+         {"camera", "time", "animation", "env", "scene-lights", "lights", "seed"})
         if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
             throw std::runtime_error(
                 fmt::format("--{} {} and {}: an explanation is of two pictures of one view of one scene",

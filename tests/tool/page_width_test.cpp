@@ -150,7 +150,7 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
         EXPECT_EQ(told["whole"], print);
         EXPECT_EQ(told["beside"], print) << "both pictures, not one over the other";
         EXPECT_GT(told["pictures"], 2);
-        EXPECT_EQ(told["commands"], 1) << "a person can type it";
+        EXPECT_EQ(told["commands"], 2) << "a person can type them";
     }
 }
 
