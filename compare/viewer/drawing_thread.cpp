@@ -194,6 +194,7 @@ struct DrawingThread::State {
     Look exposure_of;
     Clock::time_point reference_shown{};
     int recoveries = 0;
+    std::uint64_t of_lost_devices = 0;  // messages of the layers
     bool loading = false;
     std::shared_ptr<const Scene> reference_scene;  // that the reference is of
     ReferenceThread reference;
@@ -208,6 +209,7 @@ struct DrawingThread::State {
         while (next()) {
             try {
                 work();
+                countMessages();
                 recoveries = 0;
             } catch (const Superseded&) {
             } catch (const std::bad_alloc&) {
@@ -332,11 +334,12 @@ struct DrawingThread::State {
         pipelines.reset();
     }
 
+    // Of the layers, by all devices so far.
     void countMessages() {
-        if (!device) return;
+        if (!device || device->validationMessages() == 0) return;
         const std::lock_guard lock(mutex);
         if (validation_messages == 0) first_validation_message = device->firstValidationMessage();
-        validation_messages += device->validationMessages();
+        validation_messages = of_lost_devices + device->validationMessages();
     }
 
     void needDevice() {
@@ -363,6 +366,7 @@ struct DrawingThread::State {
         const bool lost = why.find("lost") != std::string::npos;
         if (!lost || ++recoveries > mostRecoveries) return false;
         countMessages();
+        of_lost_devices = validation_messages;
         dropRenderer();
         device.reset();
         const std::lock_guard lock(mutex);
@@ -702,7 +706,6 @@ struct DrawingThread::State {
             judged = std::move(next);
             shown = std::move(again);
         }
-        countMessagesSoFar();
         options.wake();
     }
 
@@ -722,15 +725,6 @@ struct DrawingThread::State {
         told = std::pair(both, *order.pixel);
         const std::lock_guard lock(mutex);
         story = std::move(next);
-    }
-
-    void countMessagesSoFar() {
-        if (!device || device->validationMessages() == 0) return;
-        const std::lock_guard lock(mutex);
-        if (validation_messages == 0) {
-            validation_messages = device->validationMessages();
-            first_validation_message = device->firstValidationMessage();
-        }
     }
 
     // ---- files

@@ -103,13 +103,16 @@ void comparisonTable(InterfaceState& state, const Report& report, const Comparis
     ImGui::TextColored(comparison.passed() ? good : bad, "%s", title.c_str());
     for (const std::string& failure : comparison.failures) wrapped(failure, &bad);
     const std::string id = fmt::format("channels{}", index);
-    if (!ImGui::BeginTable(id.c_str(), 5, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2, 2});  // so that all five columns fit
+    if (!ImGui::BeginTable(id.c_str(), 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg))
+        return ImGui::PopStyleVar();
     for (const char* head : {"channel", "judged by", "measured", "limit", "verdict"})
         ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
     for (const ChannelDiff* channel : failuresFirst(comparison))
         channelRow(state, report, comparison, *channel);
     ImGui::EndTable();
+    ImGui::PopStyleVar();
 }
 
 void verdictTab(InterfaceState& state, const Contents& contents) {
@@ -121,9 +124,7 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
         wrapped("of the view before; this one is judged once it stands still", &faint);
     else
         wrapped(
-            "angular errors in degrees, absolute ones in the channel's unit; a click shows the difference "
-            "and its "
-            "worst pixel",
+            "a click shows the difference and its worst pixel; the tolerance's reason is under the cursor",
             &faint);
     std::size_t index = 0;
     for (const Comparison& comparison : contents.judged->report.comparisons)
