@@ -20,6 +20,9 @@ constexpr double knownEffect = 0.15;
 constexpr double benefit = 2;
 // An error that two changes make together may be smaller than the larger of both by so much.
 constexpr double together = 0.8;
+// By so much, in logarithms, the error of several changes is taken to differ from the sum of what each does,
+// until so many were seen.
+constexpr double spreadAtFirst = 0.4, seenAtFirst = 4;
 // A change is worth combining if it takes off so much of the time, in logarithms.
 constexpr double worthTime = -0.02;
 // What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
@@ -88,6 +91,10 @@ private:
                 first_errors_[path] = candidate.judged->error;
             else
                 errors_[changes.front()] = candidate.judged->error;
+        } else if (const std::optional<double> sum = sumOfErrors(i); sum && *sum > 0) {
+            const double off = std::log(std::max(candidate.judged->error, 1e-12) / *sum);
+            off_squared_ += off * off;
+            ++off_seen_;
         }
         return *candidate.judged;
     }
@@ -121,6 +128,26 @@ private:
         found_.timings += times.size();
     }
 
+    // What a candidate's changes do to the error if each does the same beside the others; nothing where one's
+    // is not known.
+    std::optional<double> sumOfErrors(std::size_t i) const {
+        const auto first = first_errors_.find(all_[i].settings.path);
+        if (first == first_errors_.end()) return {};
+        double sum = first->second;
+        for (const Change& change : model_.changesOf(i)) {
+            const auto error = errors_.find(change);
+            if (error == errors_.end()) return {};
+            sum += error->second - first->second;
+        }
+        return std::max(sum, 0.0);
+    }
+    // The least that this sum leaves open, by how far off it was for others.
+    double leastOfSum(std::size_t i) const {
+        if (model_.changesOf(i).size() < 2) return 0;
+        const double spread = std::sqrt((spreadAtFirst * spreadAtFirst * seenAtFirst + off_squared_) /
+                                        (seenAtFirst + static_cast<double>(off_seen_)));
+        return sumOfErrors(i).value_or(0) * std::exp(-benefit * spread);
+    }
     // The least and the likely error of a candidate by those of its single changes.
     struct ErrorGuess {
         double least = 0, likely = 0;
@@ -136,7 +163,7 @@ private:
             down += std::min(error->second - first->second, 0.0);
             sum += error->second - first->second;
         }
-        return {together * std::max(most + down, 0.0), std::max(sum, 0.0)};
+        return {std::max(together * std::max(most + down, 0.0), leastOfSum(i)), std::max(sum, 0.0)};
     }
     bool isSpoilt(std::size_t i) const { return budget_.error && guess(i).least > *budget_.error; }
 
@@ -442,6 +469,8 @@ private:
     std::map<Path, std::size_t> firsts_;
     std::map<Path, double> first_errors_;
     std::map<Change, double> errors_;
+    double off_squared_ = 0;  // of the logarithms by which sums of errors were off
+    std::size_t off_seen_ = 0;
     std::vector<double> repeats_;
     Choice found_;
 };

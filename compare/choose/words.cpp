@@ -83,7 +83,8 @@ std::string whyInWords(const ChoiceReport& report) {
     if (!forSpeed)
         line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
                             chosen.judged->error);
-    for (std::size_t i = 0; i < parts.size(); ++i) line += (i == 0 ? ": " : ", ") + parts[i].second;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        line += (i == 0 ? "; passes by the model: " : ", ") + parts[i].second;
     return line;
 }
 

@@ -110,7 +110,7 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
 
 void sweepAll(const ReplayNoise& noise) {
     std::size_t cases = 0, right = 0;
-    double most = 0, sum = 0;
+    double most = 0, sum = 0, all_judged = 0;
     fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
                "judged");
     for (const RecordedSweep& sweep : recordedSweeps()) {
@@ -132,6 +132,7 @@ void sweepAll(const ReplayNoise& noise) {
                                seed, outcome.off, 100 * outcome.timings);
             }
         cases += tried;
+        all_judged += static_cast<double>(judged);
         right += good;
         sum += share;
         const auto n = static_cast<double>(tried);
@@ -142,6 +143,8 @@ void sweepAll(const ReplayNoise& noise) {
                right, cases, 100 * sum / static_cast<double>(cases), 100 * most);
     EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(cases));
     EXPECT_LE(sum / static_cast<double>(cases), 0.10);
+    // 54 (51 with noise) where the errors of single changes leave those of several open, 47 (44) where it is learned how far.
+    EXPECT_LE(all_judged / static_cast<double>(cases), 50);
 }
 
 TEST(ChooseReplay, FindsWhatASweepOfEverythingFinds) {
