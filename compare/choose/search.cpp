@@ -258,7 +258,8 @@ private:
         }
         for (const auto& [path, changes] : helpful) {
             std::vector<Change> taken;
-            addCombinations(all_[firsts.at(path)].settings, changes, 0, taken);
+            const Settings first = all_[firsts.at(path)].settings;  // all_ grows
+            addCombinations(first, changes, 0, taken);
         }
     }
     void addCombinations(const Settings& first, const std::vector<Change>& changes, std::size_t from,
