@@ -55,7 +55,7 @@ std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const Size& size, con
             places.push_back({panel, rect, placementIn(within, size, view)});
     };
     if (difference) {
-        add(2, canvas, canvas);
+        add(view.other ? 1 : 2, canvas, canvas);
     } else if (view.layout == Layout::single) {
         add(second, canvas, canvas);
     } else if (view.layout == Layout::wipe) {

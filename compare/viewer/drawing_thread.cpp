@@ -9,6 +9,7 @@
 #include "compare/render/shown_scene.h"
 #include "compare/report/frame_files.h"
 #include "compare/verdict/pair_reports.h"
+#include "compare/viewer/picture_cost.h"
 #include "compare/viewer/pictures.h"
 #include "compare/viewer/reference_thread.h"
 #include "shared/frame/made_channels.h"
@@ -83,45 +84,6 @@ void guessBackground(Frame& frame) {
 }
 
 }  // namespace
-
-void PictureCost::add(double pixels, double ms) {
-    // A machine that is busy for a moment says little of the next picture: what is known rises slowly.
-    constexpr double slowly = 1.15;
-    const auto take = [&](Point& point) {
-        const bool same = point.pixels > 0 && pixels <= point.pixels * 1.5 && pixels * 1.5 >= point.pixels;
-        point = {pixels, same ? std::min(ms, slowly * point.ms) : ms};
-    };
-    if (small_.pixels == 0 || pixels <= small_.pixels * 1.5) {
-        if (small_.pixels >= 2 * pixels) large_ = small_;
-        take(small_);
-    } else {
-        take(large_);
-    }
-}
-
-double PictureCost::perPixel() const {
-    if (!known()) return 0;
-    const bool two = large_.pixels >= 1.5 * small_.pixels && large_.ms > small_.ms;
-    return two ? (large_.ms - small_.ms) / (large_.pixels - small_.pixels) : small_.ms / small_.pixels;
-}
-double PictureCost::fixed() const {
-    return known() ? std::max(0.0, small_.ms - perPixel() * small_.pixels) : 0;
-}
-double PictureCost::of(double pixels) const {
-    return fixed() + perPixel() * pixels;
-}
-
-Size movingSize(const Size& full, double milliseconds, const PictureCost& cost) {
-    const double room = std::max(0.5 * milliseconds, milliseconds - cost.fixed());
-    const double expected = cost.perPixel() * full.width * full.height;
-    // Beyond 8 a picture says nothing any more.
-    const int divisor =
-        cost.known() ? std::clamp(static_cast<int>(std::ceil(std::sqrt(expected / room) - 0.05)), 1, 8) : 3;
-    Size size = full;
-    size.width = std::max(1, full.width / divisor);
-    size.height = std::max(1, full.height / divisor);
-    return size;
-}
 
 struct DrawingThread::State {
     explicit State(DrawingOptions o)
@@ -405,6 +367,7 @@ struct DrawingThread::State {
         scene = std::move(read);
         loaded = asked;
         auto known = std::make_shared<SceneFacts>();
+        known->scene = asked.scene;
         known->name = scene->name;
         for (const Camera& camera : poseAt(*scene, 0, "").cameras) known->cameras.push_back(camera.name);
         for (const Animation& animation : scene->animations) {
@@ -467,7 +430,7 @@ struct DrawingThread::State {
     RenderOptions channelOptions(std::vector<int> channels) {
         RenderOptions render;
         render.channels = std::move(channels);
-        for (const int helper : {lit, ids})
+        for (const int helper : {lit, ids, depthMode})
             if (std::ranges::count(render.channels, helper) == 0) render.channels.push_back(helper);
         render.runs = 0;
         return render;
@@ -547,7 +510,7 @@ struct DrawingThread::State {
             for (std::size_t i = 0; i < 2; ++i)
                 frames.at(i) = std::make_shared<const Frame>(std::move(whole.at(i)));
             drawn = both;
-            drawn_channels = {mode, lit, ids};
+            drawn_channels = {mode, lit, ids, depthMode};
         }
         const std::array<const Frame*, 2> now{passing ? &passed[0] : frames[0].get(),
                                               passing ? &passed[1] : frames[1].get()};
@@ -616,6 +579,8 @@ struct DrawingThread::State {
         next->camera = cameraOf(view.view);
         next->view = view.view;
         next->lights = view.lights;
+        next->plan = planLines(view, order.subject.settings.skinning);
+        if (!passing) next->depth = now.at(right)->channels.at(depthMode);
         next->paths = paths;
         next->made_in_ms = msSince(start);
         {
@@ -668,7 +633,6 @@ struct DrawingThread::State {
         auto next = std::make_shared<Judged>();
         next->subject = both;
         const SceneView& view = views->at(viewRequest(pair[0].settings));
-        next->plan = planLines(view, settings.skinning);
         CompareOptions compare = options.compare;
         compare.progress = Stage(comparing, "verdict").part(0.8, 1);
         heed();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,17 @@ std::string FlyCamera::words() const {
     return fmt::format(
         "eye={:.9g},{:.9g},{:.9g} target={:.9g},{:.9g},{:.9g} fov={:.9g} near={:.9g} far={:.9g}", eye_.x,
         eye_.y, eye_.z, target.x, target.y, target.z, fov_, near_, far_);
+}
+
+std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPlace& pixel) {
+    const auto along = double{depth.at(pixel.x, pixel.y)};
+    if (!(along > 0)) return std::nullopt;
+    // Any point on the pixel's ray, from the eye.
+    const glm::dvec4 clip(2 * (pixel.x + 0.5) / depth.width - 1, 2 * (pixel.y + 0.5) / depth.height - 1, 0.5,
+                          1);
+    const glm::dvec4 at = glm::inverse(view.clipFromWorld()) * clip;
+    const glm::dvec3 ray = glm::dvec3(at) / at.w;
+    return view.eye() + ray * (along / glm::dot(ray, -view.backward()));
 }
 
 }  // namespace diptych::viewer

@@ -2,10 +2,14 @@
 // A camera that a person steers, in the words of --camera: what is drawn is what those words ask for.
 #pragma once
 
+#include "compare/viewer/order.h"
 #include "shared/frame/frame.h"
+#include "shared/image/image.h"
+#include "shared/scene/view.h"
 
 #include <glm/vec3.hpp>
 
+#include <optional>
 #include <string>
 
 namespace diptych::viewer {
@@ -40,5 +44,9 @@ private:
     double heading_ = 0, pitch_ = 0;  // rad: about +Y from -Z, counter-clockwise seen from above; upwards
     double fov_ = 0, near_ = 0.1, far_ = 1000, reach_ = 1;
 };
+
+// The place in the world that a pixel shows, by its depth (m along the view's direction, 0: background);
+// nothing where there is none. Of a perspective camera: others do not orbit.
+std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPlace& pixel);
 
 }  // namespace diptych::viewer

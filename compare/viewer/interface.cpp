@@ -81,21 +81,27 @@ void exposureInput(InterfaceState& state, const Contents& contents, float width)
 
 void bar(InterfaceState& state, const Contents& contents, int width, float scale) {
     ImGui::SetNextWindowPos({0, 0});
-    ImGui::SetNextWindowSize({static_cast<float>(width), static_cast<float>(barHeight) * scale});
+    const auto rows = barRows(width, double{scale});
+    ImGui::SetNextWindowSize(
+        {static_cast<float>(width), static_cast<float>(barHeight + barRow * rows.back()) * scale});
     ImGui::Begin("bar", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
-    const auto space = [&] { ImGui::SameLine(0, 14 * scale); };
+    auto next = [&, at = std::size_t{0}]() mutable {
+        ++at;
+        if (rows.at(at) == rows.at(at - 1)) ImGui::SameLine(0, static_cast<float>(barGap) * scale);
+        ImGui::AlignTextToFramePadding();
+    };
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("channel");
     ImGui::SameLine();
     channelCombo(state, 150 * scale);
-    space();
+    next();
     ImGui::TextUnformatted("panels");
     ImGui::SameLine();
     combo("##layout", 105 * scale, state.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single},
           [](Layout l) { return nameOf(l); });
-    space();
+    next();
     ImGui::TextUnformatted("against");
     ImGui::SameLine();
     Against against = state.look.against;
@@ -108,16 +114,16 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
         state.look.against = against;
         state.look.file = against == Against::file ? state.stored : std::filesystem::path();
     }
-    space();
+    next();
     ImGui::TextUnformatted("difference");
     ImGui::SameLine();
     combo("##difference", 90 * scale, state.look.difference,
           {Difference::none, Difference::signed_difference, Difference::absolute, Difference::relative,
            Difference::flip},
           [](Difference d) { return viewer::nameOf(d); });
-    space();
+    next();
     exposureInput(state, contents, 90 * scale);
-    space();
+    next();
     if (ImGui::SmallButton("keys: H")) state.help = !state.help;
     ImGui::End();
 }
@@ -191,7 +197,8 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
 
 void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::vector<PanelPlace>& places,
               float scale) {
-    if (state.canvas.layout != Layout::wipe || places.empty() || places.front().panel == 2) return;
+    if (state.canvas.layout != Layout::wipe || places.empty() || state.look.difference != Difference::none)
+        return;
     const auto x =
         static_cast<float>(canvas.x) + static_cast<float>(std::lround(state.canvas.wipe * canvas.width));
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
@@ -231,9 +238,11 @@ void legend(const CanvasRect& canvas, float scale, const Color& color,
     }
 }
 
-void legends(const Contents& contents, const CanvasRect& canvas, float scale) {
+void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelPlace>& places,
+             float scale) {
     const Shown& shown = *contents.shown;
-    if (shown.difference) {
+    const bool of_difference = !places.empty() && places.front().panel == 2;
+    if (shown.difference && of_difference) {
         if (!shown.difference->missing.empty()) return;
         const double top = shown.difference->top;
         if (top == 0)
@@ -487,7 +496,7 @@ void drawInterface(InterfaceState& state, const Contents& contents, const Canvas
         chosenPixel(state, places, s);
         wipeLine(state, canvas, places, s);
         values(contents, places, s);
-        legends(contents, canvas, s);
+        legends(contents, canvas, places, s);
         titles(state, contents, places, s);
     }
     bar(state, contents, width, s);

@@ -27,8 +27,25 @@ void History::add(const PathFacts& facts) {
     for (const PassTime& pass : facts.passes) push(passes[pass.name], pass.ms);
 }
 
+std::array<int, barWidths.size()> barRows(int width, double scale) {
+    std::array<int, barWidths.size()> rows{};
+    double x = barEdge;
+    int row = 0;
+    for (std::size_t i = 0; i < barWidths.size(); ++i) {
+        if (i > 0 && (x + barWidths.at(i) + barEdge) * scale > width) {
+            ++row;
+            x = barEdge;
+        }
+        rows.at(i) = row;
+        x += barWidths.at(i) + barGap;
+    }
+    return rows;
+}
+
 CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale) {
-    const int top = static_cast<int>(barHeight * scale), bottom = static_cast<int>(footHeight * scale);
+    const int rows = barRows(width, scale).back();
+    const int top = static_cast<int>((barHeight + barRow * rows) * scale),
+              bottom = static_cast<int>(footHeight * scale);
     // A narrow window keeps some of its width for pictures.
     const int side = state.panels ? std::min(static_cast<int>(sideWidth * scale), width / 2) : 0;
     return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};
@@ -61,8 +78,12 @@ std::string underWords(const Contents& contents) {
     return words;
 }
 
+const std::string& sceneOf(const InterfaceState& state) {
+    return state.loaded.empty() ? state.subject.scene : state.loaded;
+}
+
 std::string renderCommand(const InterfaceState& state) {
-    std::vector<std::string> words = commandWords("render", state.subject.scene, state.subject.settings);
+    std::vector<std::string> words = commandWords("render", sceneOf(state), state.subject.settings);
     if (state.look.mode != static_cast<int>(gpu::DEBUG_lit))
         words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.mode).name));
     if (state.look.exposure)
@@ -74,7 +95,7 @@ std::string renderCommand(const InterfaceState& state) {
 }
 
 std::string compareCommand(const InterfaceState& state) {
-    std::vector<std::string> words = commandWords("compare", state.subject.scene, state.subject.settings);
+    std::vector<std::string> words = commandWords("compare", sceneOf(state), state.subject.settings);
     if (state.look.against == Against::reference)
         words = withOption(std::move(words), "--baseline", "reference");
     if (state.look.against == Against::file)

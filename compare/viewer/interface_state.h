@@ -32,6 +32,8 @@ enum class Tab { verdict, settings, scene, pixel, cost };
 
 struct InterfaceState {
     Subject subject;
+    std::string
+        loaded;  // the scene that is drawn: not the subject's while that is read, or where it cannot be
     Look look;
     std::filesystem::path stored;  // that T can put in the left panel; empty: none
     CanvasView canvas;
@@ -73,10 +75,20 @@ struct Contents {
     bool idle = false;
 };
 
-inline constexpr double barHeight = 30, footHeight = 24, sideWidth = 470;  // pixels of the window at scale 1
+// Pixels of the window at scale 1. A bar that is too narrow for all it holds has more rows.
+inline constexpr double barHeight = 30, barRow = 25, footHeight = 24, sideWidth = 470;
+// What the bar holds, in order: channel, panels, against, difference, exposure, keys; and between two of
+// them.
+inline constexpr std::array<double, 6> barWidths{210, 158, 185, 171, 156, 64};
+inline constexpr double barGap = 14, barEdge = 8;
+// In which row of the bar each of them stands.
+std::array<int, barWidths.size()> barRows(int width, double scale);
 
 // The part of a window of this size that has pictures, with the interface `scale` times as large as usual.
 CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale);
+
+// The scene that is drawn, as on the command line.
+const std::string& sceneOf(const InterfaceState& state);
 
 // "diptych render ..." of the view, and "diptych compare ...".
 std::string renderCommand(const InterfaceState& state);

@@ -287,19 +287,23 @@ void lightRows(InterfaceState& state, const Contents& contents) {
 }
 
 void planRows(const Contents& contents) {
-    if (!contents.judged || contents.judged->plan.empty()) return;
+    if (!contents.shown || contents.shown->plan.empty()) return;
     for (const bool modelled : {true, false}) {
         if (!ImGui::CollapsingHeader(
                 modelled ? "What this scene needs modelled" : "What is left out, and why",
                 modelled ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
             continue;
-        for (const Requirements::Line& line : contents.judged->plan)
+        for (const Requirements::Line& line : contents.shown->plan)
             if (line.modelled == modelled) wrapped(fmt::format("{}: {}", line.what, line.why));
     }
 }
 
 void sceneTab(InterfaceState& state, const Contents& contents) {
-    wrapped(state.subject.scene);
+    wrapped(sceneOf(state));
+    if (sceneOf(state) != state.subject.scene)
+        wrapped(contents.status.loading ? "being read: " + state.subject.scene
+                                        : "could not be read: " + state.subject.scene,
+                contents.status.loading ? &faint : &bad);
     if (ImGui::SmallButton("read again (R)")) state.requests.reload = true;
     ImGui::SameLine();
     if (ImGui::SmallButton("copy as diptych render (Y)")) state.requests.copy = renderCommand(state);
@@ -417,7 +421,7 @@ void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRec
     const std::optional<Tab> open = std::exchange(state.open, std::nullopt);
     const auto tab = [&](Tab which, const char* name, const auto& draw) {
         if (!ImGui::BeginTabItem(name, nullptr, open == which ? ImGuiTabItemFlags_SetSelected : 0)) return;
-        ImGui::BeginChild(name, {0, 0});
+        ImGui::BeginChild(name, {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
         draw();
         ImGui::EndChild();
         ImGui::EndTabItem();

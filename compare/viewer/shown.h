@@ -59,7 +59,9 @@ struct Shown {
     double heat_top = 0;  // of light_count, the count at the end of the colours; 0: no heat map
     FrameCamera camera;
     View view;
-    std::vector<Light> lights;         // of the view, world
+    std::vector<Light> lights;             // of the view, world
+    std::vector<Requirements::Line> plan;  // what is modelled of it and what is left out
+    Image depth;  // W x H x 1, m along the view's direction, 0: background; none while it moves
     std::array<PathFacts, 2> paths;    // deferred, forward+
     double reference_done = 1;         // share of the left panel that is drawn
     std::string words_of_uncertainty;  // of a reference that was sampled
@@ -70,7 +72,6 @@ struct Shown {
 struct Judged {
     Subject subject;
     Report report;
-    std::vector<Requirements::Line> plan;  // what is modelled and what is left out
 };
 
 struct Story {
@@ -82,6 +83,7 @@ struct Story {
 
 // What is known of the scene that is loaded.
 struct SceneFacts {
+    std::string scene;  // as on the command line
     std::string name;
     std::vector<std::string> cameras;  // names, may be empty
     std::vector<std::string> animations;

@@ -7,9 +7,11 @@
 #include "compare/viewer/fly_camera.h"
 #include "compare/viewer/interface.h"
 #include "compare/viewer/keys.h"
+#include "compare/viewer/latencies.h"
 #include "compare/viewer/presenter.h"
 #include "compare/viewer/scene_watch.h"
 #include "compare/viewer/window.h"
+#include "compare/viewer/zoom_flight.h"
 #include "shared/frame/debug_modes.h"
 
 #include <vulkan/vulkan_core.h>
@@ -38,7 +40,6 @@ constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.2
 // A view stands still once nothing has moved for so long, s.
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
-constexpr double flightTime = 0.3;  // s, of a zoom that flies to a pixel
 // Window pixels a pixel: of Z, which shows values, and of a pixel in its surroundings.
 constexpr double zoomed = 72, flown = 32;
 constexpr double least_zoom = 1, most_zoom = 128;
@@ -135,11 +136,11 @@ public:
             if (frames_left_ > 0) {
                 --frames_left_;
                 frame();
-                addTime(1000 * secondsBetween(start, Clock::now()));
+                latencies_.frame(1000 * secondsBetween(start, Clock::now()));
             }
             last_ = now_;
         }
-        sayTimes();
+        latencies_.sayFrames();
         ViewerResult result{drawing_.validationMessages() + log_.messages, drawing_.firstValidationMessage()};
         if (result.first_validation_message.empty()) result.first_validation_message = log_.first;
         return result;
@@ -149,7 +150,9 @@ private:
     // ---- time
     // ----------------------------------------------------------------------------------------------
 
-    bool isMoving() const { return now_ < moving_until_ || state_.playing || flight_ || isHeldMoving(); }
+    bool isMoving() const {
+        return now_ < moving_until_ || state_.playing || flight_.isFlying() || isHeldMoving();
+    }
 
     double pause() const {
         const double since = secondsBetween(begun_, Clock::now()) - last_;
@@ -158,26 +161,8 @@ private:
         return idlePause;
     }
 
-    void addTime(double ms) {
-        times_.push_back(ms);
-        if (times_.size() % 30 == 0) percentile_ = percentileOf(0.99);
-    }
-    double percentileOf(double share) const {
-        if (times_.empty()) return 0;
-        std::vector<double> sorted = times_;
-        const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
-        std::ranges::nth_element(sorted, sorted.begin() + place);
-        return sorted[static_cast<std::size_t>(place)];
-    }
-
     void say(const std::string& line) const {
         if (options_.say) options_.say(line);
-    }
-    void sayTimes() const {
-        if (!times_.empty())
-            say(fmt::format(
-                "interface: {} frames, median {:.1f} ms, 99th percentile {:.1f} ms, longest {:.1f} ms",
-                times_.size(), percentileOf(0.5), percentileOf(0.99), percentileOf(1)));
     }
     void tell(const std::string& message) {
         state_.message = message;
@@ -209,6 +194,7 @@ private:
             say("still: all is drawn");
         }
         contents_ = std::move(next);
+        if (contents_.facts) state_.loaded = contents_.facts->scene;
         if (pictures) takePictures();
         if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
         return news;
@@ -216,7 +202,7 @@ private:
 
     void takePictures() {
         const Shown& shown = *contents_.shown;
-        for (std::size_t i = 0; i < 2; ++i) history_[i].add(shown.paths[i]);
+        for (std::size_t i = 0; i < 2; ++i) histories_.at(isWhole(shown)).at(i).add(shown.paths[i]);
         const std::string& asked = state_.subject.settings.camera;
         if (shown.order.subject.settings.camera == asked && asked != own_camera_ &&
             shown.order.subject.scene == state_.subject.scene) {
@@ -264,8 +250,7 @@ private:
         order_.moving = moving;
         order_.pixel = state_.pixel;
         order_.number = drawing_.ask(order_);
-        for (Waiting& waiting : waiting_)
-            if (waiting.order == 0) waiting.order = order_.number;
+        latencies_.asked(order_.number);
     }
 
     std::vector<std::filesystem::path> otherFiles() const {
@@ -319,7 +304,7 @@ private:
         const bool covered = state_.help || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         handleMouse(input, covered && io.WantCaptureMouse);
         move();
-        fly();
+        flight_.move(now_, state_.canvas);
         play();
         state_.canvas.other = !io.WantTextInput && isHeld(Action::flicker);
         if (options_.watch && now_ - watched_ > watchPause) {
@@ -372,7 +357,7 @@ private:
     void press(const KeyDown& key) {
         const std::optional<KeyPress> found = actionOf(key.key, key.control);
         if (!found) return;
-        waiting_.push_back({std::string(nameOfKey(found->action)), Clock::now(), 0, order_.number});
+        latencies_.pressed(nameOfKey(found->action), order_.number);
         act(*found, key.shift);
     }
 
@@ -506,7 +491,7 @@ private:
     }
 
     void leave() {
-        flight_.reset();
+        flight_.stop();
         if (state_.help)
             state_.help = false;
         else if (state_.canvas.zoom > 0)
@@ -589,37 +574,9 @@ private:
         change([&](Settings& s) { s.time = time; });
     }
 
-    // A zoom that is on its way to a pixel.
-    struct Flight {
-        double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = flown, to_x = 0, to_y = 0;
-    };
     void flyTo(const PixelPlace& pixel, std::optional<double> wanted = {}) {
-        const double zoom = wanted.value_or(flown) * scale_;
-        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
-        const Size& size = state_.subject.settings.size;
-        const double fits = std::min(double(canvas.width) / size.width, double(canvas.height) / size.height);
-        const bool is = state_.canvas.zoom > 0;
-        flight_ = Flight{now_,
-                         is ? state_.canvas.zoom : fits,
-                         is ? state_.canvas.centre_x : 0.5 * size.width,
-                         is ? state_.canvas.centre_y : 0.5 * size.height,
-                         std::max(zoom, state_.canvas.zoom),
-                         pixel.x + 0.5,
-                         pixel.y + 0.5};
-    }
-    void fly() {
-        if (!flight_) return;
-        const double t = std::clamp((now_ - flight_->begun) / flightTime, 0.0, 1.0),
-                     eased = t * t * (3 - 2 * t);
-        state_.canvas.zoom = flight_->from_zoom * std::pow(flight_->to_zoom / flight_->from_zoom, eased);
-        // The place moves as the zoom's inverse does, so that the target nears the middle evenly.
-        const double share = flight_->to_zoom == flight_->from_zoom
-                                 ? eased
-                                 : (1 / flight_->from_zoom - 1 / state_.canvas.zoom) /
-                                       (1 / flight_->from_zoom - 1 / flight_->to_zoom);
-        state_.canvas.centre_x = std::lerp(flight_->from_x, flight_->to_x, share);
-        state_.canvas.centre_y = std::lerp(flight_->from_y, flight_->to_y, share);
-        if (t >= 1) flight_.reset();
+        flight_.begin(now_, state_.canvas, canvasOf(state_, width_, height_, scale_),
+                      state_.subject.settings.size, pixel, wanted.value_or(flown) * scale_);
     }
 
     double wipePlace(const CanvasRect& canvas) const {
@@ -717,24 +674,15 @@ private:
         tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.reach()));
     }
 
-    // Where in the world the pixel is, if a verdict has drawn its position; else what the camera was aimed
-    // at.
+    // Where in the world the pixel is, once this view is drawn whole; else what the camera was aimed at.
     glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
         const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
         const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
-        if (!under || !contents_.judged || contents_.judged->subject != ofBothPaths(state_.subject))
+        const std::shared_ptr<const Shown>& shown = contents_.shown;
+        if (!under || !shown || shown->depth.empty() ||
+            ofBothPaths(shown->order.subject) != ofBothPaths(state_.subject))
             return ahead;
-        for (const Frame& frame : contents_.judged->report.frames) {
-            const auto position = frame.channels.find(static_cast<int>(gpu::DEBUG_position));
-            const auto depth = frame.channels.find(static_cast<int>(gpu::DEBUG_depth));
-            if (position == frame.channels.end() || depth == frame.channels.end()) continue;
-            const auto [px, py] = under->pixel;
-            if (!(depth->second.at(px, py) > 0)) return ahead;
-            return camera_.eye() + glm::dvec3(double{position->second.at(px, py, 0)},
-                                              double{position->second.at(px, py, 1)},
-                                              double{position->second.at(px, py, 2)});
-        }
-        return ahead;
+        return seenAt(shown->view, shown->depth, under->pixel).value_or(ahead);
     }
 
     // ---- drawing the window
@@ -753,8 +701,8 @@ private:
     }
 
     void frame() {
-        contents_.history = &history_;
-        contents_.interface_ms = percentile_;
+        contents_.history = &histories_.at(!contents_.shown || isWhole(*contents_.shown));
+        contents_.interface_ms = latencies_.percentile();
         contents_.drawn_by = drawing_.device();
         const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
         const std::vector<PanelPlace> places = placesNow(canvas);
@@ -774,7 +722,7 @@ private:
             presenters_ = 0;
         }
         setTitle();
-        sayShown();
+        if (contents_.shown) latencies_.seen(*contents_.shown, order_.number);
     }
 
     void setTitle() {
@@ -805,40 +753,6 @@ private:
         ++pixels_.version;
     }
 
-    // How long keys and the first pictures took to be seen.
-    struct Waiting {
-        std::string key;
-        Clock::time_point pressed;
-        std::uint64_t order = 0;   // that shows it; 0: none was asked for yet
-        std::uint64_t before = 0;  // the order of that time: a key that asks for nothing is seen at once
-    };
-    void sayShown() {
-        if (!contents_.shown) {
-            return;
-        }
-        const Shown& shown = *contents_.shown;
-        const bool whole = shown.size == shown.order.subject.settings.size;
-        const Clock::time_point now = Clock::now();
-        if (!said_first_) {
-            said_first_ = true;
-            say(fmt::format("first picture after {:.2f} s, {}x{}", secondsBetween(begun_, now),
-                            shown.size.width, shown.size.height));
-        }
-        if (!said_whole_ && whole) {
-            said_whole_ = true;
-            say(fmt::format("first whole picture after {:.2f} s, {}x{}", secondsBetween(begun_, now),
-                            shown.size.width, shown.size.height));
-        }
-        std::erase_if(waiting_, [&](const Waiting& waiting) {
-            if (waiting.order == 0 ? order_.number != waiting.before : shown.order.number < waiting.order)
-                return false;
-            say(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
-                            1000 * secondsBetween(waiting.pressed, now), shown.size.width,
-                            shown.size.height));
-            return true;
-        });
-    }
-
     const ViewerOptions& options_;
     const Clock::time_point begun_ = Clock::now();
     InterfaceState state_;
@@ -849,7 +763,7 @@ private:
     int presenters_ = 0;
     DrawingThread drawing_;
     Contents contents_;
-    std::array<History, 2> history_;
+    std::array<std::array<History, 2>, 2> histories_;  // of smaller pictures, of whole ones
     FlyCamera camera_;
     std::string own_camera_ = "none taken yet";  // the words that camera_ stands for
     SceneWatch watch_;
@@ -859,16 +773,14 @@ private:
     double changed_ = -1;                                         // when what is drawn changed last
     double scale_ = 1;
     int width_ = 0, height_ = 0, frames_left_ = 3;
-    bool quit_ = false, held_ = false, said_first_ = false, said_whole_ = false;
+    bool quit_ = false, held_ = false;
     Drag drag_ = Drag::none;
     glm::dvec3 pivot_{0};
     double cursor_x_ = 0, cursor_y_ = 0;
-    std::optional<Flight> flight_;
+    ZoomFlight flight_;
     WindowPixels pixels_;
     Composed composed_;
-    std::vector<Waiting> waiting_;
-    std::vector<double> times_;
-    double percentile_ = 0;
+    Latencies latencies_{[this](const std::string& line) { say(line); }, begun_};
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/renderer.h"
 #include "compare/viewer/drawing_thread.h"
+#include "compare/viewer/fly_camera.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/load.h"
 
@@ -90,7 +91,22 @@ TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
     EXPECT_TRUE(judged->report.passed());
     // But shaded_samples, which needs several samples a pixel.
     EXPECT_EQ(judged->report.comparisons.at(0).channels.size(), debugModes().size() - 1);
-    EXPECT_FALSE(judged->plan.empty());
+    EXPECT_FALSE(shown->plan.empty());
+    // What a drag orbits is known with the picture: by its depth, where the channel of positions has it.
+    const Image& position = judged->report.frames.at(0).channels.at(static_cast<int>(gpu::DEBUG_position));
+    std::size_t seen = 0;
+    for (int y = 0; y < position.height; y += 3)
+        for (int x = 0; x < position.width; x += 3) {
+            const std::optional<glm::dvec3> at = seenAt(shown->view, shown->depth, {x, y});
+            if (!at) continue;
+            ++seen;
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR((*at - shown->view.eye())[c], double{position.at(x, y, c)},
+                            1e-5 * double{shown->depth.at(x, y)})
+                    << x << "," << y;
+            }
+        }
+    EXPECT_GT(seen, 0u);
     EXPECT_EQ(drawing.validationMessages(), 0u) << drawing.firstValidationMessage();
 }
 

@@ -8,6 +8,7 @@
 #include "compare/viewer/fly_camera.h"
 #include "compare/viewer/interface.h"
 #include "compare/viewer/keys.h"
+#include "compare/viewer/picture_cost.h"
 #include "compare/viewer/pictures.h"
 #include "compare/viewer/scene_watch.h"
 #include "shared/frame/debug_modes.h"
@@ -227,6 +228,37 @@ TEST(ViewerCanvas, FitsByTheLargestWholeFactor) {
     ASSERT_TRUE(under);
     EXPECT_EQ(under->pixel, (PixelPlace{1, 0}));
     EXPECT_FALSE(pixelUnder(places, shown.size, left - 0.5, top));
+}
+
+TEST(ViewerCanvas, OverADifferenceTheRightPanelIsShownWhileThereIsAnother) {
+    const CanvasRect canvas{0, 0, 40, 20};
+    CanvasView view;
+    ASSERT_EQ(placesOf(canvas, {10, 5}, view, true).size(), 1u);
+    EXPECT_EQ(placesOf(canvas, {10, 5}, view, true)[0].panel, 2u);
+    view.other = true;
+    ASSERT_EQ(placesOf(canvas, {10, 5}, view, true).size(), 1u);
+    EXPECT_EQ(placesOf(canvas, {10, 5}, view, true)[0].panel, 1u);
+}
+
+TEST(ViewerBar, ANarrowOneHasMoreRows) {
+    for (const double scale : {1.0, 1.5, 2.0})
+        for (const int width : {1, 100, 300, 640, 900, 1280, 4000}) {
+            const auto rows = barRows(width, scale);
+            double x = 0;
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const bool new_row = i == 0 || rows[i] != rows[i - 1];
+                x = (new_row ? barEdge : x + barGap) + barWidths[i];
+                // Each fits, or stands alone.
+                EXPECT_TRUE(x * scale <= width || new_row) << width << " " << scale << " " << i;
+                if (i > 0) {
+                    EXPECT_TRUE(rows[i] == rows[i - 1] || rows[i] == rows[i - 1] + 1);
+                }
+            }
+            InterfaceState state;
+            const CanvasRect canvas = canvasOf(state, width, 600, scale);
+            EXPECT_EQ(canvas.y, static_cast<int>((barHeight + barRow * rows.back()) * scale));
+        }
+    EXPECT_EQ(barRows(1280, 1).back(), 0);
 }
 
 TEST(ViewerCanvas, ASmallerPictureFillsTheSamePlace) {
@@ -451,6 +483,14 @@ TEST(ViewerCommands, SayTheWholeView) {
     state.look.against = Against::reference;
     EXPECT_EQ(compareCommand(state),
               "diptych compare --baseline reference --camera 'eye=1,2,3 target=0,0,0' 'a b.glb'");
+}
+
+TEST(ViewerCommands, NameTheSceneThatIsDrawnAndNotOneThatCannotBeRead) {
+    InterfaceState state;
+    state.subject.scene = "broken.glb";
+    state.loaded = "good.glb";
+    EXPECT_EQ(renderCommand(state), "diptych render good.glb");
+    EXPECT_EQ(compareCommand(state), "diptych compare good.glb");
 }
 
 TEST(ViewerValues, AreToldToTheLastDigit) {

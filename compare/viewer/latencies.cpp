@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/latencies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace diptych::viewer {
+
+namespace {
+
+double secondsFrom(Latencies::Clock::time_point from, Latencies::Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+bool isWhole(const Shown& shown) {
+    return shown.size == shown.order.subject.settings.size;
+}
+
+Latencies::Latencies(std::function<void(const std::string&)> say, Clock::time_point begun)
+    : say_(std::move(say)), begun_(begun) {}
+
+void Latencies::pressed(std::string_view key, std::uint64_t order) {
+    waiting_.push_back({std::string(key), Clock::now(), 0, order});
+}
+
+void Latencies::asked(std::uint64_t order) {
+    for (Waiting& waiting : waiting_)
+        if (waiting.order == 0) waiting.order = order;
+}
+
+void Latencies::seen(const Shown& shown, std::uint64_t order) {
+    const Clock::time_point now = Clock::now();
+    const auto sayPicture = [&](bool& said, std::string_view what) {
+        if (std::exchange(said, true)) return;
+        say_(fmt::format("{} after {:.2f} s, {}x{}", what, secondsFrom(begun_, now), shown.size.width,
+                         shown.size.height));
+    };
+    sayPicture(said_first_, "first picture");
+    if (isWhole(shown)) sayPicture(said_whole_, "first whole picture");
+    std::erase_if(waiting_, [&](const Waiting& waiting) {
+        if (waiting.order == 0 ? order != waiting.before : shown.order.number < waiting.order) return false;
+        say_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
+                         1000 * secondsFrom(waiting.pressed, now), shown.size.width, shown.size.height));
+        return true;
+    });
+}
+
+void Latencies::frame(double ms) {
+    frames_.push_back(ms);
+    if (frames_.size() % 30 == 0) percentile_ = percentileOf(0.99);
+}
+
+double Latencies::percentileOf(double share) const {
+    if (frames_.empty()) return 0;
+    std::vector<double> sorted = frames_;
+    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+    std::ranges::nth_element(sorted, sorted.begin() + place);
+    return sorted[static_cast<std::size_t>(place)];
+}
+
+void Latencies::sayFrames() const {
+    if (!frames_.empty())
+        say_(fmt::format(
+            "interface: {} frames, median {:.1f} ms, 99th percentile {:.1f} ms, longest {:.1f} ms",
+            frames_.size(), percentileOf(0.5), percentileOf(0.99), percentileOf(1)));
+}
+
+}  // namespace diptych::viewer

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// A zoom on its way to a pixel.
+#pragma once
+
+#include "compare/viewer/canvas.h"
+
+#include <optional>
+
+namespace diptych::viewer {
+
+class ZoomFlight {
+public:
+    // From `view` to a zoom of at least `zoom` window pixels a pixel with `pixel` in the middle. `now`: s.
+    void begin(double now, const CanvasView& view, const CanvasRect& canvas, const Size& size,
+               const PixelPlace& pixel, double zoom);
+    void stop() { flight_.reset(); }
+    bool isFlying() const { return flight_.has_value(); }
+    // Where it is by now.
+    void move(double now, CanvasView& view);
+
+private:
+    struct Flight {
+        double begun = 0, from_zoom = 1, from_x = 0, from_y = 0, to_zoom = 1, to_x = 0, to_y = 0;
+    };
+    std::optional<Flight> flight_;
+};
+
+}  // namespace diptych::viewer
