@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Settings that the test has without saying so: an environment that is turned, other ambient light, other
-// haze. Each is tried in our lighting of its channels.
+// haze; and of another program's picture, other conventions. Each is tried in our lighting of its channels.
 #pragma once
 
 #include "compare/explain/channel_lighting.h"

@@ -50,6 +50,7 @@ Brdf::Brdf(const Surface& s, const Compensation& compensation)
       to_viewer_(s.to_viewer),
       albedo_(s.albedo),
       dielectric_f0_(s.dielectric_f0),
+      base_layer_(s.base_layer),
       metallic_(s.metallic),
       scattered_(1 - s.transmission),
       dielectric_f90_(s.dielectric_f90),
@@ -79,18 +80,17 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
     const glm::dvec3 metal = fresnel(albedo_, 1, weight);
     // A dielectric's Lambertian base receives what its specular layer does not reflect.
-    const double base = compensation_.base.value_or(1 - std::max({layer.r, layer.g, layer.b}));
+    const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =
         layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;
-    return {albedo_ * ((1 - metallic_) * scattered_ * base * n_dot_l / std::numbers::pi),
+    return {albedo_ * base * ((1 - metallic_) * scattered_ * n_dot_l / std::numbers::pi),
             mixed * (lobe * n_dot_l)};
 }
 
 glm::dvec3 transmitted(const Surface& s) {
     const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
     const glm::dvec3 layer = fresnel(s.dielectric_f0, s.dielectric_f90, schlick(cosine));
-    const double enters = 1 - std::max({layer.r, layer.g, layer.b});
-    return s.albedo * (s.transmission * (1 - s.metallic) * enters);
+    return s.albedo * (1.0 - lostToLayer(s.base_layer, layer)) * (s.transmission * (1 - s.metallic));
 }
 
 }  // namespace diptych::reference

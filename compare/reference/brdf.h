@@ -15,7 +15,7 @@ struct Compensation {
     glm::dvec3 dielectric{1}, metal{1};  // factors of the lobes of the two materials that `metallic` mixes
     glm::dvec3 between{0};               // albedo of a Lambertian lobe beside the specular one, of the mix
     // The share of light from any direction that a dielectric's base gets; by appendix B without one.
-    std::optional<double> base;
+    std::optional<glm::dvec3> base;
 };
 
 // Of light from straight behind a surface without thickness what reaches the viewer, for each component
@@ -43,6 +43,7 @@ private:
     Compensation compensation_;
     glm::dvec3 normal_, to_viewer_;
     glm::dvec3 albedo_, dielectric_f0_;
+    BaseLayer base_layer_;
     double metallic_, scattered_, dielectric_f90_, alpha_, n_dot_v_, lambda_v_;
 };
 

@@ -120,8 +120,12 @@ private:
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
                    const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment, Multiscatter multiscatter, double environment_turned)
-    : ambient_(ambient), shadowed_environment_(shadowed_environment), multiscatter_(multiscatter) {
+                   bool shadowed_environment, Multiscatter multiscatter, double environment_turned,
+                   const Falloff& falloff)
+    : ambient_(ambient),
+      shadowed_environment_(shadowed_environment),
+      multiscatter_(multiscatter),
+      falloff_(falloff) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Light& light = lights[i];
         const bool casts = std::ranges::find(casters, i) != casters.end();
@@ -145,7 +149,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     const Brdf brdf(surface, compensation);
     Shading sum;
     for (const Punctual& p : punctual_) {
-        const Incident light = incident(p.light, p.position, surface.position);
+        const Incident light = incident(p.light, p.position, surface.position, falloff_);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
         if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance)))
             sum.reflected += reflected;
@@ -179,7 +183,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         const MoreReflections more = between(surface, visible, sum.all(), streamOf(seed, betweenStream));
         sum += more.shading;
         sum.reflected.diffuse *= more.base;
-        sum.ambient -= base * (1 - more.base);
+        sum.ambient -= base * (1.0 - more.base);
     }
     sum.ambient *= surface.occlusion;
     return sum;
@@ -190,7 +194,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     // Lights without extent are seen, or not, by all paths alike.
     std::vector<Incident> directions;
     for (const Punctual& p : punctual_) {
-        const Incident light = incident(p.light, p.position, surface.position);
+        const Incident light = incident(p.light, p.position, surface.position, falloff_);
         if (glm::dot(light.to_light, surface.normal) > 0 && light.irradiance != glm::dvec3(0) &&
             (!p.casts || !visible || visible(light.to_light, light.distance)))
             directions.push_back(light);
@@ -203,7 +207,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     std::vector<Shining> shining;
     for (const auto& [emitter, casts] : emitters_) {
         const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - surface.position;
-        const double window = rangeWindow(glm::length(centre), emitter.range);
+        const double window = rangeWindow(glm::length(centre), emitter.range, falloff_.window);
         if (window > 0)
             shining.push_back({visiblePatches(emitter, centre, surface.normal), emitter.radiance * window,
                                casts, emitter.far});
@@ -246,13 +250,13 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     dielectric.metallic = 0;
     if (surface.metallic < 1) layer += specularAlbedo(dielectric);
     return {{{glm::dvec3(0), more.value.specular}, more.uncertainty, more.value.diffuse},
-            1 - std::min(std::max({layer.r, layer.g, layer.b}), 1.0)};
+            1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1))};
 }
 
 Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                               const Visibility& visible, std::uint64_t seed) const {
     const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
-    const double window = rangeWindow(glm::length(centre), emitter.range);
+    const double window = rangeWindow(glm::length(centre), emitter.range, falloff_.window);
     if (!(window > 0)) return {};
     const std::vector<Patch> patches = visiblePatches(emitter, centre, brdf.normal());
     std::vector<Leaves> leaves;

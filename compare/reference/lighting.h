@@ -7,6 +7,7 @@
 #include "compare/reference/environment.h"
 #include "compare/reference/environment_costs.h"
 #include "compare/reference/multiscatter.h"
+#include "compare/reference/punctual.h"
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
 #include "compare/reference/surroundings.h"
@@ -56,7 +57,8 @@ public:
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
-             Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0);
+             Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0,
+             const Falloff& falloff = {});
 
     // From now on Shading has its costs, unless light between microfacets is followed, or its surroundings,
     // of what `visible` is known.
@@ -95,7 +97,7 @@ private:
     // reflections, which the confidence is relative to.
     struct MoreReflections {
         Shading shading;
-        double base;
+        glm::dvec3 base;
     };
     MoreReflections between(const Surface& surface, const Visibility& visible, const glm::dvec3& single,
                             std::uint64_t seed) const;
@@ -107,6 +109,7 @@ private:
     glm::dvec3 ambient_;
     bool shadowed_environment_, takes_surroundings_ = false;
     Multiscatter multiscatter_;
+    Falloff falloff_;
 };
 
 }  // namespace diptych::reference

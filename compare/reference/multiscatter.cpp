@@ -45,7 +45,7 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
 
 Compensation compensationOf(const Surface& surface, Multiscatter multiscatter) {
     if (multiscatter == Multiscatter::off) return {};
-    if (multiscatter == Multiscatter::walk) return {.base = 1};
+    if (multiscatter == Multiscatter::walk) return {.base = glm::dvec3(1)};
     Surface white = surface, metal = surface, dielectric = surface;
     white.albedo = glm::dvec3(1);
     white.metallic = metal.metallic = 1;
@@ -64,7 +64,7 @@ Compensation compensationOf(const Surface& surface, Multiscatter multiscatter) {
                                meanFresnel(surface.dielectric_f0, surface.dielectric_f90));
         result.dielectric = of_layer.factor;
         const glm::dvec3 layer = single * of_layer.factor + of_layer.between;
-        result.base = 1 - std::min(std::max({layer.r, layer.g, layer.b}), 1.0);
+        result.base = 1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1));
     }
     result.between = of_layer.between * (1 - surface.metallic) + of_metal.between * surface.metallic;
     return result;

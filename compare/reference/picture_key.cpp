@@ -110,6 +110,9 @@ std::uint64_t keyOf(const Request& request) {
     key.add(request.environment_turned);
     key.add(request.ambient);
     key.add(request.multiscatter);
+    key.add(request.base_layer);
+    key.add(request.falloff.window);
+    key.add(request.falloff.cone);
     key.add(request.air.has_value());
     if (request.air) {
         const Air& air = *request.air;

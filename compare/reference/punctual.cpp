@@ -9,19 +9,22 @@
 
 namespace diptych::reference {
 
-double rangeWindow(double distance, double range) {
+double rangeWindow(double distance, double range, RangeWindow window) {
     if (std::isinf(range)) return 1;
-    return distance < range ? 1 - std::pow(distance / range, 4) : 0;
+    if (distance >= range) return 0;
+    return std::pow(1 - std::pow(distance / range, 4), window == RangeWindow::squared ? 2 : 1);
 }
 
-Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place) {
+Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place,
+                  const Falloff& falloff) {
     const glm::dvec3 power = glm::dvec3(light.color) * double{light.intensity};
     if (light.kind == LightKind::directional)
         return {-light.direction, power, std::numeric_limits<double>::infinity()};
     const glm::dvec3 path = light_position - place;
     const double distance = glm::length(path);
     if (!(distance > 0)) return {};
-    Incident result{path / distance, power / (distance * distance) * rangeWindow(distance, light.range),
+    Incident result{path / distance,
+                    power / (distance * distance) * rangeWindow(distance, light.range, falloff.window),
                     distance};
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
@@ -29,7 +32,9 @@ Incident incident(const Light& light, const glm::dvec3& light_position, const gl
         // edge.
         const double inside =
             (-glm::dot(result.to_light, light.direction) - outer) / std::max(0.001, inner - outer);
-        result.irradiance *= std::pow(std::clamp(inside, 0.0, 1.0), 2);
+        const double t = std::clamp(inside, 0.0, 1.0);
+        // The cubic of zero slope at both ends (Hermite), or the square.
+        result.irradiance *= falloff.cone == SpotFalloff::smoothstep ? 3 * t * t - 2 * t * t * t : t * t;
     }
     return result;
 }

@@ -2,14 +2,22 @@
 // Lights without extent, as KHR_lights_punctual (Khronos 2019) defines them, in double.
 #pragma once
 
+#include "shared/frame/setting_values.h"
 #include "shared/scene/model/scene.h"
 
 #include <glm/vec3.hpp>
 
 namespace diptych::reference {
 
-// The attenuation by a light's range, both arguments in metres: max(min(1 - (d / range)^4, 1), 0).
-double rangeWindow(double distance, double range);
+// The attenuation by a light's range, both arguments in metres: max(min(1 - (d / range)^4, 1), 0), or its
+// square.
+double rangeWindow(double distance, double range, RangeWindow window = RangeWindow::gltf);
+
+// How light falls off.
+struct Falloff {
+    RangeWindow window = RangeWindow::gltf;
+    SpotFalloff cone = SpotFalloff::gltf;
+};
 
 // The light of a directional light without a disc, a point light or a spot at one place.
 struct Incident {
@@ -19,6 +27,7 @@ struct Incident {
 };
 
 // `light_position` and `place` are in the same space.
-Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place);
+Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place,
+                  const Falloff& falloff = {});
 
 }  // namespace diptych::reference

@@ -179,7 +179,7 @@ public:
           materials_(request.scene, request.pose, geometry_),
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,
-                    request.environment_turned),
+                    request.environment_turned, request.falloff),
           blends_(request.blended && blendsSomewhere(request)),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.air) haze_.emplace(*request.air, eye_);
@@ -211,8 +211,8 @@ public:
         const auto shade = [&](std::span<const Light> lights, const Environment* environment,
                                const glm::dvec3& ambient, std::span<const std::size_t> casters) {
             return Lighting(lights, environment, request_.environment_factor, eye_, ambient, casters,
-                            request_.shadowed_environment, request_.multiscatter,
-                            request_.environment_turned)(standing->surface, visible, seedOf(x, y));
+                            request_.shadowed_environment, request_.multiscatter, request_.environment_turned,
+                            request_.falloff)(standing->surface, visible, seedOf(x, y));
         };
         constexpr std::size_t first = 0;
         for (std::size_t i = 0; i < request_.lights.size(); ++i) {
@@ -303,7 +303,7 @@ private:
         double all = 0, seen = 0;
         for (const Light* const light : locals_) {
             const glm::dvec3 position = light->position - eye_;
-            const Incident here = incident(*light, position, foot.place);
+            const Incident here = incident(*light, position, foot.place, request_.falloff);
             const double weight = luminance(here.irradiance);
             if (!(weight > 0)) continue;
             const auto sees = [&](const glm::dvec3& place) {
@@ -366,7 +366,8 @@ private:
         const Captured captured(*request_.surfaces, materialsOf(request_.scene, request_.pose));
         const std::uint64_t pixel = seedOf(x, y);
         if (!captured.isSurface(pixel)) return {};
-        const Surface s = captured.surface(pixel, rays_);
+        Surface s = captured.surface(pixel, rays_);
+        s.base_layer = request_.base_layer;
         const double depth = captured.depth(pixel);
         Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
         if (request_.shadows() || request_.surroundings) {
@@ -386,6 +387,7 @@ private:
 
     Standing standingAt(const Hit& hit, const PixelRay& ray) const {
         Surface s = materials_.surface(hit, ray);
+        s.base_layer = request_.base_layer;
         s.to_viewer = rays_.toViewer(s.position);
         return {s, Foot{s.position, s.geometric_normal, hit.id, exactOffset}, hit.t};
     }

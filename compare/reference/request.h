@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/reference/haze.h"
+#include "compare/reference/punctual.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
@@ -34,6 +35,8 @@ struct Request {
     double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
     glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
+    BaseLayer base_layer = BaseLayer::max;
+    Falloff falloff = {};
     std::optional<Air> air = {};
     bool blended = true;                    // whether surfaces of alphaMode BLEND are there at all
     std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows

@@ -3,6 +3,8 @@
 // metres, linear Rec.709.
 #pragma once
 
+#include "shared/frame/setting_values.h"
+
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -25,6 +27,7 @@ struct Surface {
     glm::dvec3 dielectric_f0{0};  // F0 of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
     double transmission = 0;  // share of what enters the base that passes it, instead of being scattered
+    BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};
     // What a normal map is read with and holds; 0 without one or where its scale is 0.
@@ -32,6 +35,11 @@ struct Surface {
     double handedness = 0;         // bitangent = handedness * cross(normal, tangent)
     glm::dvec3 tangent_normal{0};  // unit, tangent space
 };
+
+// What the base loses to a layer that reflects `layer`, for each component.
+inline glm::dvec3 lostToLayer(BaseLayer rule, const glm::dvec3& layer) {
+    return rule == BaseLayer::component ? layer : glm::dvec3(std::max({layer.r, layer.g, layer.b}));
+}
 
 // A quantity for each of the two lobes: radiance, W/(sr m^2), or a factor of it.
 struct Reflected {

@@ -111,6 +111,8 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
             .environment_turned = glm::radians(double{settings.env_rotation}),
             .ambient = doubles(settings.ambient),
             .multiscatter = settings.multiscatter,
+            .base_layer = settings.base_layer,
+            .falloff = {settings.range_window, settings.spot_cone},
             .air = airOf(view.lights, settings),
             .blended = settings.transparency != Transparency::off,
             .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}

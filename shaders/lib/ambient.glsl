@@ -72,10 +72,7 @@ float meanSchlickWeight(float n_dot_v) {
 }
 
 // Of light from everywhere the share that the base gets of the layer above it.
-float baseShare(Brdf b) {
-    float share = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * meanSchlickWeight(b.n_dot_v));
-    return share;
-}
+vec3 baseShare(Brdf b) { return reachingBase(b, meanSchlickWeight(b.n_dot_v)); }
 
 // Of light from everywhere the share that the specular lobe sends to the viewer.
 vec3 lobeShare(Brdf b) {

@@ -7,6 +7,7 @@
 
 #include "shaders/lib/area_point.glsl"
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/lights.glsl"
 #include "shaders/lib/ltc_tube.glsl"
 
 bool areaPoints() { return (feature_area_lights & AREA_POINTS) != 0; }
@@ -88,8 +89,7 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
     AreaIncident i;
     i.centre = light.position - position;
     float d2 = max(dot(i.centre, i.centre), MIN_LIGHT_DISTANCE_SQUARED);
-    float x = d2 * light.inverse_range_squared;
-    float window = x < 1.0 ? 1.0 - x * x : 0.0;
+    float window = rangeWindow(light, d2);
     float front = -dot(i.centre, shape.direction);
     i.side = front < 0.0 ? -1.0 : 1.0;
     bool shines = !flat_light || front > 0.0 || (front < 0.0 && shape.two_sided != 0.0);
@@ -108,7 +108,7 @@ const float LTC_MOST_GAIN = 4.0;
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
-    float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * weight);
+    vec3 base = reachingBase(a.brdf, weight);
     float share = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
     vec3 u = unitOrZero(lobe), l = fromCosine(a.ltc, u);
     // Per steradian: a direction's solid angle shrinks by the cube of the length that its image has.

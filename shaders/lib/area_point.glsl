@@ -86,7 +86,7 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
 void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse,
                   inout vec3 specular) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
-    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(0.5 * lengthOf(l + v)));
+    vec3 base = reachingBase(b, schlickWeight(0.5 * lengthOf(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;
 
     float to_point = inversesqrt(max(dot(p.specular_at, p.specular_at), MIN_LIGHT_DISTANCE_SQUARED));

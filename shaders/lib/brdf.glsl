@@ -19,8 +19,8 @@ struct Brdf {
     vec3 diffuse;    // (1 - metallic) albedo / pi, 1/sr
     vec3 f0;         // of the mix
     vec3 f90;
-    float base_f0;   // the dielectric layer's largest component: what it reflects the base does not get
-    float base_f90;
+    vec3 base_f0;    // of the dielectric's layer: what that reflects the base does not get (lostBelow)
+    vec3 base_f90;
     // With feature_multiscatter (multiscatter.glsl):
     vec3 between;    // a Lambertian lobe beside the specular one, 1/sr
     vec2 albedo;     // specularAlbedo()
@@ -30,14 +30,20 @@ struct Brdf {
     float smith_v;   // sqrt((n.v)^2 (1 - alpha^2) + alpha^2)
 };
 
+// What a base loses to a layer that reflects `layer`: the largest component, or each.
+vec3 lostBelow(vec3 layer) {
+    if (on(feature_base_by_component)) return layer;
+    return vec3(max(layer.r, max(layer.g, layer.b)));
+}
+
 Brdf makeBrdf(Surface s, vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
     if (on(feature_transmission)) b.diffuse *= 1.0 - s.transmission;
     b.f0 = specularF0(s);
     b.f90 = vec3(blend(s.dielectric_f90, 1.0, s.metallic));
-    b.base_f0 = max(s.dielectric_f0.r, max(s.dielectric_f0.g, s.dielectric_f0.b));
-    b.base_f90 = s.dielectric_f90;
+    b.base_f0 = lostBelow(s.dielectric_f0);
+    b.base_f90 = vec3(s.dielectric_f90);
     b.between = vec3(0.0);
     b.albedo = vec2(0.0);
     float roughness = max(s.roughness, MIN_PERCEPTUAL_ROUGHNESS);
@@ -81,6 +87,12 @@ float schlickWeight(float v_dot_h) {
     return x2 * x2 * x;
 }
 
+// The share that reaches the base, `weight` being that of f90.
+vec3 reachingBase(Brdf b, float weight) {
+    vec3 share = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
+    return share;
+}
+
 // Of what arrives from one direction.
 struct Reflected {
     float n_dot_l;  // 0 to 1
@@ -115,8 +127,8 @@ Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) 
     float16_t x = clamp(float16_t(1.0) - dot(v, h), float16_t(0.0), float16_t(1.0));
     float16_t x2 = x * x, weight = x2 * x2 * x;
     f16vec3 f0 = f16vec3(b.f0), fresnel = f0 + (f16vec3(b.f90) - f0) * weight;
-    float16_t base_f0 = float16_t(b.base_f0);
-    float16_t base = float16_t(1.0) - (base_f0 + (float16_t(b.base_f90) - base_f0) * weight);
+    f16vec3 base_f0 = f16vec3(b.base_f0);
+    f16vec3 base = f16vec3(1.0) - (base_f0 + (f16vec3(b.base_f90) - base_f0) * weight);
     return Reflected(float(n_dot_l), vec3(f16vec3(b.diffuse) * base),
                      vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
 }
@@ -129,7 +141,7 @@ Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
     float s2 = dot(s, s);
     float weight = schlickWeight(0.5 * sqrt(s2));  // v.h = |l + v| / 2
     vec3 fresnel = b.f0 + (b.f90 - b.f0) * weight;
-    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
+    vec3 base = reachingBase(b, weight);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
     return Reflected(n_dot_l, b.diffuse * base, fresnel * lobe);
 }

@@ -64,8 +64,8 @@ Brdf raisedBrdf(Brdf b, Surface s) {
     if (on(feature_dielectric_specular)) {
         vec3 bound = rootBound(s.dielectric_f0, SPECULAR_BITS);
         float bound90 = unormBound(s.dielectric_f90, SPECULAR_BITS);
-        b.base_f0 = max(b.base_f0 - max(bound.r, max(bound.g, bound.b)), 0.0);
-        b.base_f90 = max(b.base_f90 - bound90, 0.0);
+        b.base_f0 = max(b.base_f0 - lostBelow(bound), vec3(0.0));
+        b.base_f90 = max(b.base_f90 - bound90, vec3(0.0));
         least_f0 = max(f0 - bound, vec3(0.0));
         least_f90 = max(f90 - bound90, 0.0);
         f0 += bound;

@@ -14,13 +14,20 @@ Incident fromDirectionalLight(Light light) {
     return Incident(light.position, light.intensity);
 }
 
-// The window max(1 - (d / range)^4, 0) is compared first, so that it is exactly zero from the range on: a
-// light that is out of reach adds nothing, not even rounding, whether or not it is evaluated.
+// The window max(1 - (d / range)^4, 0), or its square, of d^2. It is compared first, so that it is exactly zero
+// from the range on: a light that is out of reach adds nothing, not even rounding, whether or not it is
+// evaluated.
+float rangeWindow(Light light, float d2) {
+    float x = d2 * light.inverse_range_squared;
+    float window = x < 1.0 ? 1.0 - x * x : 0.0;
+    if (on(feature_squared_window)) window *= window;
+    return window;
+}
+
 Incident fromPointLight(Light light, vec3 position) {
     vec3 to_light = light.position - position;
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);
-    float x = d2 * light.inverse_range_squared;
-    float window = x < 1.0 ? 1.0 - x * x : 0.0;
+    float window = rangeWindow(light, d2);
     float inverse = inversesqrt(d2);
     // Zero, and no light, in the light's own centre.
     return Incident(to_light * inverse, light.intensity * (window * (inverse * inverse)));
@@ -29,7 +36,9 @@ Incident fromPointLight(Light light, vec3 position) {
 Incident fromSpotLight(Light light, SpotCone cone, vec3 position) {
     Incident incident = fromPointLight(light, position);
     float c = clamp(cone.offset - dot(incident.direction, cone.direction) * cone.scale, 0.0, 1.0);
-    incident.irradiance *= c * c;
+    float share = c * c;
+    if (on(feature_smooth_cones)) share *= 3.0 - 2.0 * c;
+    incident.irradiance *= share;
     return incident;
 }
 

@@ -46,11 +46,11 @@ SpecularFactors mixedFactors(vec3 f0, float f90, vec3 metal, float metallic, vec
                            blend(a.between, b.between, metallic));
 }
 
-// Of light from everywhere what a dielectric's layer reflects, its largest component.
-float layerAlbedo(vec3 f0, float f90, vec2 albedo) {
+// Of light from everywhere what a base loses to a dielectric's layer.
+vec3 layerAlbedo(vec3 f0, float f90, vec2 albedo) {
     SpecularFactors s = specularFactors(f0, f90, albedo);
     vec3 all = s.f0 * albedo.x + s.f90 * albedo.y + s.between * PI;
-    return min(max(all.r, max(all.g, all.b)), 1.0);
+    return min(lostBelow(all), vec3(1.0));
 }
 
 void setSpecular(inout Brdf b, SpecularFactors s) {
@@ -61,7 +61,7 @@ void setSpecular(inout Brdf b, SpecularFactors s) {
 
 // The base under a layer gets what the layer does not reflect of light from everywhere, from every direction
 // alike: the weight by F of the half vector (appendix B) does not conserve energy.
-void setBase(inout Brdf b, float layer) {
+void setBase(inout Brdf b, vec3 layer) {
     b.base_f0 = layer;
     b.base_f90 = layer;
 }

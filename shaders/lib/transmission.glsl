@@ -10,9 +10,9 @@
 // absorbs. Its colour is that of the base; one share stands for all components, that of the luminance.
 float transmittedShare(Surface s) {
     Brdf b = makeBrdf(s, viewVector(s.position));
-    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(b.n_dot_v));
-    float color = dot(s.albedo, vec3(0.2126, 0.7152, 0.0722));
-    return clamp(s.transmission * (1.0 - s.metallic) * base * color, 0.0, 1.0);
+    vec3 base = reachingBase(b, schlickWeight(b.n_dot_v));
+    float color = dot(s.albedo * base, vec3(0.2126, 0.7152, 0.0722));
+    return clamp(s.transmission * (1.0 - s.metallic) * color, 0.0, 1.0);
 }
 
 #endif

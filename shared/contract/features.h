@@ -112,7 +112,12 @@
     /* DEPTH_* of view.h: how the scene's depth is stored */                                                \
     X(63, depth_format,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS) \
     /* the light of points, spots and suns in floats of 16 bits */                                          \
-    X(64, half_shading,               frame,   0, PASSES_SHADE)
+    X(64, half_shading,               frame,   0, PASSES_SHADE)                                             \
+    /* a dielectric's base loses each component of what its layer reflects, not the largest */              \
+    X(65, base_by_component,          frame,   0, PASSES_SHADE)                                             \
+    /* spots fade by smoothstep, ranges end by the window's square */                                       \
+    X(66, smooth_cones,               frame,   0, PASSES_SHADE)                                             \
+    X(67, squared_window,             frame,   0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN

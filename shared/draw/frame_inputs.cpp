@@ -66,7 +66,10 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_samples, settings.msaa > 1 ? static_cast<gpu::uint>(settings.msaa) : 0)
         .set(gpu::FEATURE_tonemapped_resolve, settings.resolve == Resolve::tonemapped)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic)
-        .set(gpu::FEATURE_half_shading, settings.shading_precision == ShadingPrecision::fp16);
+        .set(gpu::FEATURE_half_shading, settings.shading_precision == ShadingPrecision::fp16)
+        .set(gpu::FEATURE_base_by_component, settings.base_layer == BaseLayer::component)
+        .set(gpu::FEATURE_smooth_cones, settings.spot_cone == SpotFalloff::smoothstep)
+        .set(gpu::FEATURE_squared_window, settings.range_window == RangeWindow::squared);
     addSpecularAa(variant, settings);
     gbuffer.specialise(variant);
     return variant;

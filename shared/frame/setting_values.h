@@ -102,6 +102,28 @@ template <>
 inline constexpr auto enum_names<SpecularAlbedo> =
     std::to_array<EnumName<SpecularAlbedo>>({{SpecularAlbedo::table, "table"}, {SpecularAlbedo::fit, "fit"}});
 
+// What is left to a dielectric's base of light that its layer reflects a coloured part of: 1 less the largest
+// component of F, or less each (glTF 2.0, appendix B, leaves both open to implementations; the first keeps
+// the base's hue).
+enum class BaseLayer { max, component };
+template <>
+inline constexpr auto enum_names<BaseLayer> =
+    std::to_array<EnumName<BaseLayer>>({{BaseLayer::max, "max"}, {BaseLayer::component, "component"}});
+
+// How a spot's light falls from the inner to the outer angle, t being the share of the way back in cosines:
+// t^2 (KHR_lights_punctual), or t^2 (3 - 2 t).
+enum class SpotFalloff { gltf, smoothstep };
+template <>
+inline constexpr auto enum_names<SpotFalloff> = std::to_array<EnumName<SpotFalloff>>(
+    {{SpotFalloff::gltf, "gltf"}, {SpotFalloff::smoothstep, "smoothstep"}});
+
+// What of a light's intensity is left at the distance d: 1 - (d / range)^4 (KHR_lights_punctual), or its
+// square (Karis 2013, "Real Shading in Unreal Engine 4").
+enum class RangeWindow { gltf, squared };
+template <>
+inline constexpr auto enum_names<RangeWindow> =
+    std::to_array<EnumName<RangeWindow>>({{RangeWindow::gltf, "gltf"}, {RangeWindow::squared, "squared"}});
+
 enum class Multiscatter { off, energy, fdez, walk };
 template <>
 inline constexpr auto enum_names<Multiscatter> =

@@ -48,6 +48,9 @@ struct Settings {
     TexturePrecision textures = TexturePrecision::device;
     SpecularAlbedo specular_albedo = SpecularAlbedo::table;
     Multiscatter multiscatter = Multiscatter::off;
+    BaseLayer base_layer = BaseLayer::max;
+    SpotFalloff spot_cone = SpotFalloff::gltf;
+    RangeWindow range_window = RangeWindow::gltf;
     Shadows shadows = Shadows::pcf;
     int shadow_lights = 0;
     int shadow_size = 2048;  // texels
@@ -465,6 +468,23 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "off,energy,fdez",
                 .for_surfaces = "off"},
           &Settings::multiscatter);
+    visit(Field{.option = "base-layer",
+                .help = "what a dielectric's base gets: 1 less the largest component of what its layer "
+                        "reflects, or less each",
+                .for_surfaces = "max"},
+          &Settings::base_layer);
+    visit(
+        Field{.option = "spot-cone",
+              .help = "how a spot fades from its inner to its outer angle: as KHR_lights_punctual has it, or "
+                      "by smoothstep",
+              .for_surfaces = "gltf"},
+        &Settings::spot_cone);
+    visit(
+        Field{.option = "range-window",
+              .help = "how a light ends at its range: by 1 - (d / range)^4 as KHR_lights_punctual has it, or "
+                      "by its square",
+              .for_surfaces = "gltf"},
+        &Settings::range_window);
     visit(Field{.option = "shadows",
                 .help = "shadow technique",
                 .off = "off",

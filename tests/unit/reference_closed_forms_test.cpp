@@ -110,6 +110,9 @@ TEST(ReferenceClosedForms, LightsEndAtTheirRangeExactly) {
         EXPECT_EQ(irradianceBy(light, lambertian()), 0);
     }
     EXPECT_EQ(rangeWindow(1e9, std::numeric_limits<double>::infinity()), 1);
+    EXPECT_EQ(rangeWindow(1e9, std::numeric_limits<double>::infinity(), RangeWindow::squared), 1);
+    EXPECT_DOUBLE_EQ(rangeWindow(1, 2, RangeWindow::squared), 0.9375 * 0.9375);
+    EXPECT_EQ(rangeWindow(2, 2, RangeWindow::squared), 0);
 }
 
 // ---- tube --------------------------------------------------------------------------------------------
@@ -245,9 +248,9 @@ TEST(ReferenceClosedForms, ASpotsCones) {
     Light spot = lightOf(LightKind::spot, {0, 0, 0});
     spot.inner_cone = 0.3f;
     spot.outer_cone = 0.6f;
-    const auto factor = [&](double angle) {
+    const auto factor = [&](double angle, SpotFalloff cone = SpotFalloff::gltf) {
         const Incident light =
-            incident(spot, {0, 0, 0}, 2.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)));
+            incident(spot, {0, 0, 0}, 2.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)), {.cone = cone});
         return light.irradiance.g * 4;
     };
     const double inner = std::cos(double{spot.inner_cone}), outer = std::cos(double{spot.outer_cone});
@@ -256,6 +259,10 @@ TEST(ReferenceClosedForms, ASpotsCones) {
     EXPECT_NEAR(factor(0.45), std::pow((std::cos(0.45) - outer) / (inner - outer), 2), 1e-14);
     EXPECT_EQ(factor(0.6001), 0);
     EXPECT_EQ(factor(pi), 0);
+    const double t = (std::cos(0.45) - outer) / (inner - outer);
+    EXPECT_NEAR(factor(0.45, SpotFalloff::smoothstep), t * t * (3 - 2 * t), 1e-14);
+    EXPECT_NEAR(factor(0.2999, SpotFalloff::smoothstep), 1, 1e-15);
+    EXPECT_EQ(factor(0.6001, SpotFalloff::smoothstep), 0);
     spot.inner_cone = spot.outer_cone;  // a hard edge keeps a slope of 1000
     EXPECT_NEAR(factor(0.5995), std::min(1.0, std::pow((std::cos(0.5995) - outer) * 1000, 2)), 1e-12);
     EXPECT_LT(factor(0.5995), 0.9);

@@ -20,6 +20,8 @@ struct Asked {
     double environment_factor = 1;
     glm::dvec3 ambient{0};
     Multiscatter multiscatter = Multiscatter::off;
+    BaseLayer base_layer = BaseLayer::max;
+    Falloff falloff;
     Air air;
     std::vector<std::size_t> casters;
     bool shadowed_environment = false, environment_costs = false, surroundings = false;
@@ -58,6 +60,8 @@ struct Asked {
                       .environment_factor = environment_factor,
                       .ambient = ambient,
                       .multiscatter = multiscatter,
+                      .base_layer = base_layer,
+                      .falloff = falloff,
                       .air = air,
                       .casters = casters,
                       .shadowed_environment = shadowed_environment,
@@ -109,6 +113,9 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"orthographic", [](Asked& a) { a.view.camera.orthographic = true; }},
         {"ambient", [](Asked& a) { a.ambient.b = 0.1; }},
         {"multiscatter", [](Asked& a) { a.multiscatter = Multiscatter::fdez; }},
+        {"base layer", [](Asked& a) { a.base_layer = BaseLayer::component; }},
+        {"range window", [](Asked& a) { a.falloff.window = RangeWindow::squared; }},
+        {"spot cone", [](Asked& a) { a.falloff.cone = SpotFalloff::smoothstep; }},
         {"molecules", [](Asked& a) { a.air.molecules.scattering.b = 1e-5; }},
         {"what they take away", [](Asked& a) { a.air.molecules.extinction.r = 1e-5; }},
         {"their height", [](Asked& a) { a.air.molecules.scale = 2; }},

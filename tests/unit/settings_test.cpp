@@ -52,6 +52,9 @@ Settings everythingChanged() {
     s.textures = TexturePrecision::exact;
     s.specular_albedo = SpecularAlbedo::fit;
     s.multiscatter = Multiscatter::fdez;
+    s.base_layer = BaseLayer::component;
+    s.spot_cone = SpotFalloff::smoothstep;
+    s.range_window = RangeWindow::squared;
     s.shadows = Shadows::clipmap;
     s.shadow_lights = 7;
     s.shadow_size = 512;
@@ -368,6 +371,9 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"area-lights", "representative"},
         {"textures", "exact"},
         {"specular-albedo", "fit"},
+        {"base-layer", "component"},
+        {"spot-cone", "smoothstep"},
+        {"range-window", "squared"},
         {"multiscatter", "energy"},
         {"multiscatter", "fdez"},
         {"prepass", "on"},

@@ -25,6 +25,6 @@ void main() {
     addLight(b, s.normal, v, l, vec3(1.0), diffuse, specular);
     OUT(4, 0) = diffuse.r;
     OUT(4, 1) = specular.r;
-    OUT(4, 2) = b.diffuse.r * PI * (1.0 - b.base_f0);
+    OUT(4, 2) = b.diffuse.r * PI * (1.0 - b.base_f0.r);
     OUT(4, 3) = b.f0.r * table.x + b.f90.r * table.y + b.between.r * PI;
 }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Conventions in which renderers differ, in both paths and the reference: what a coloured layer leaves to the
+// base, how a spot fades, how a light ends at its range.
+#include "shared/contract/debug_mode.h"
+#include "tests/image/scenes.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int AMBIENT = static_cast<int>(gpu::DEBUG_lit_ambient),
+              SURFACES = static_cast<int>(gpu::DEBUG_material_id),
+              SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
+              DIFFUSE = static_cast<int>(gpu::DEBUG_lit_diffuse);
+
+struct Convention {
+    const char *option, *value, *scene;
+    Multiscatter multiscatter = Multiscatter::off;
+    bool of_ambient = false;  // whether it changes ambient light too
+};
+
+// Scenes that feel them: coloured layers, spots, lights that end within the view.
+constexpr std::array conventions{
+    Convention{"base-layer", "component", "builtin:dielectrics", Multiscatter::off, true},
+    Convention{"base-layer", "component", "builtin:dielectrics", Multiscatter::energy, true},
+    Convention{"base-layer", "component", "builtin:gallery", Multiscatter::fdez, true},
+    Convention{"spot-cone", "smoothstep", "builtin:spots"},
+    Convention{"range-window", "squared", "builtin:range_edge"},
+    Convention{"range-window", "squared", "builtin:areas"},
+};
+
+class Conventions : public testing::TestWithParam<Convention> {};
+
+Settings withConvention(const Convention& convention, bool switched) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.shadows = Shadows::off;
+    settings.size = {96, 54};
+    settings.ambient = {0.3f, 0.4f, 0.5f};
+    settings.multiscatter = convention.multiscatter;
+    if (switched) settings.set(convention.option, convention.value);
+    return settings;
+}
+
+// Of every channel of light at most 1 % of the pixels lie further from the reference than the paths do
+// without the convention, with a quarter to spare: it adds no error of its own.
+TEST_P(Conventions, BothPathsAreTheReference) {
+    const Convention& convention = GetParam();
+    UploadedScene& scene = uploaded(convention.scene);
+    RenderOptions options;
+    options.channels = {AMBIENT, SPECULAR, DIFFUSE, SURFACES};
+    options.runs = 0;
+    struct Drawn {
+        Frame reference;
+        std::vector<Frame> paths;
+    };
+    std::vector<Drawn> drawn;
+    for (const bool switched : {false, true}) {
+        const Settings settings = withConvention(convention, switched);
+        Settings asked = settings;
+        asked.path = Path::reference;
+        drawn.push_back(
+            {scene.renderer.draw(asked, options), bothPaths(scene.renderer, settings, options.channels)});
+    }
+    const auto p99 = [&](const Drawn& side, std::size_t path, int channel) {
+        const DebugMode& mode = debugMode(channel);
+        return channelStats(mode.metric, mode.kind, side.reference.channels.at(channel),
+                            side.paths[path].channels.at(channel), coverage(side.reference, side.paths[path]))
+            .p99;
+    };
+    for (std::size_t path = 0; path < 2; ++path)
+        for (const int channel : {AMBIENT, SPECULAR, DIFFUSE}) {
+            EXPECT_LE(p99(drawn[1], path, channel), 1.25 * p99(drawn[0], path, channel) + 1e-5)
+                << drawn[1].paths[path].name << " " << debugMode(channel).name;
+        }
+    // And it changes what it is about by far more than that.
+    const auto change = [&](int channel) {
+        const DebugMode& mode = debugMode(channel);
+        return channelStats(mode.metric, mode.kind, drawn[0].paths[0].channels.at(channel),
+                            drawn[1].paths[0].channels.at(channel),
+                            coverage(drawn[0].paths[0], drawn[1].paths[0]))
+            .max;
+    };
+    EXPECT_GT(change(DIFFUSE), 0.05);
+    EXPECT_EQ(change(AMBIENT) > 0.01, convention.of_ambient);
+}
+
+TEST_P(Conventions, BothPathsAreEqualBitForBit) {
+    const Convention& convention = GetParam();
+    UploadedScene& scene = uploaded(convention.scene);
+    const std::vector<Frame> both = bothPaths(scene.renderer, withConvention(convention, true), {lit});
+    EXPECT_EQ(differingPixels(both[0].channels.at(lit), both[1].channels.at(lit)), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [](const auto& test) {
+    const Convention& c = test.param;
+    return testName(c.option) + "_" + testName(std::string(c.scene).substr(8)) + "_" +
+           std::string(nameOf(c.multiscatter));
+});
+
+}  // namespace
+}  // namespace diptych::tests
