@@ -134,4 +134,34 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     return report;
 }
 
+void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
+                         const CompareOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto all = static_cast<double>(pictures.size());
+    double done = 0;
+    for (ExternalPicture& picture : pictures) {
+        CompareOptions here = options;
+        here.progress = options.progress.part(done / all, (done + 1) / all).about(picture.frame.scene);
+        ++done;
+        report.frames.push_back(std::move(picture.frame));
+        report.comparisons.push_back(
+            compareFrames(report, picture.baseline, report.frames.size() - 1, picture.needs, here));
+        Comparison& comparison = report.comparisons.back();
+        const Frame& left = report.baseline(comparison);
+        Settings settings = report.test(comparison).settings;
+        settings.path = Settings().path;
+        if (isReferenceFrame(left)) settings = withReferenceOf(settings, left.settings);
+        comparison.command = withWords(
+            withWords(commandWords("compare", report.test(comparison).scene, settings), picture.words),
+            options.words);
+        if (!left.origin.file.empty())
+            comparison.command = withOption(comparison.command, "--baseline", left.origin.file);
+        else if (left.settings.path != Path::deferred)
+            comparison.command =
+                withOption(comparison.command, "--baseline", std::string(nameOf(left.settings.path)));
+    }
+    report.diff_ms +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace diptych
