@@ -173,6 +173,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         frame.origin.file = renderer.file.string();
         frame.origin.external = true;
         frame.origin.left_out = std::move(picture.origin.left_out);
+        std::erase(frame.origin.left_out, "A");  // how much of a pixel is covered
         frame.origin.granted = inWords(renderer.granted);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.granted)

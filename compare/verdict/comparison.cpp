@@ -222,7 +222,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     ChannelDemands demands{options.rules, {}, options.strict};
     for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
-        if (frame->requested.empty() && !frame->origin.left_out.empty())
+        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
             (options.strict ? comparison.failures : comparison.notes)
                 .push_back(fmt::format("{} of {}: none of our channels, not compared",
                                        fmt::join(frame->origin.left_out, ", "), frame->name));
