@@ -123,7 +123,10 @@ Frame lentChannels(const Frame& external, const Frame& ours) {
     Frame frame = external;
     frame.settings = ours.settings;
     frame.requested.clear();
-    for (const auto& [mode, image] : ours.channels) frame.channels.try_emplace(mode, image);
+    // Not what ours adds up light from: that is ours alone.
+    for (const int mode : explainedChannels())
+        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
+            frame.channels.try_emplace(mode, found->second);
     return frame;
 }
 
