@@ -2,6 +2,7 @@
 #include "compare/cli/commands.h"
 #include "compare/cli/explanations.h"
 #include "compare/cli/verdict_words.h"
+#include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
 #include "compare/render/frame_facts.h"
@@ -14,8 +15,10 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/load.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -34,6 +37,7 @@ struct Drawn {
     std::vector<std::vector<FeatureChecks>> visual_checks;
     std::vector<std::vector<std::string>> materials;
     std::optional<TextureSampling> texels;  // with a reference in mode scene
+    std::vector<ExternalPicture> external;  // of --renderer
     std::vector<SceneError> errors;
 };
 
@@ -82,20 +86,55 @@ std::optional<TextureSampling> texelsFor(const Options& options, const std::vect
     return probeTextures(device, settings.front().textures);  // of all alike
 }
 
+// The left panel's place among a report's Frames, of those of one view that begin at `first`.
+std::size_t leftPanel(const Options& options, std::size_t first) {
+    if (!options.baseline_file.empty()) return 0;
+    if (againstReference(options)) return first;
+    const auto path = std::ranges::find(drawn_paths, options.baseline);
+    return first + static_cast<std::size_t>(path - drawn_paths.begin());
+}
+
+// One view by every renderer that is not ours. One that fails is an error of the report, and nothing is
+// compared with it.
+void drawExternals(const Scene& scene, const SceneView& view, const Settings& settings,
+                   const Options& options, std::size_t baseline, const Stage& stage,
+                   std::vector<ExternalPicture>& pictures, std::vector<SceneError>& errors) {
+    const auto all = static_cast<double>(options.renderers.size());
+    for (std::size_t i = 0; i < options.renderers.size(); ++i) {
+        const external::Renderer& renderer = options.renderers[i];
+        say(options, fmt::format("{}: {}", renderer.name,
+                                 oneLine(fmt::format("{}", fmt::join(renderer.command, " ")))));
+        stage.at(static_cast<double>(i) / all, renderer.name);
+        external::Attempt attempt = external::drawExternally(renderer, scene, view, settings);
+        if (attempt.frame) {
+            pictures.push_back({std::move(*attempt.frame), view.needs, baseline, options.renderer_words});
+        } else {
+            errors.push_back({scene.name,
+                              fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
+                                          renderer.file.string(), attempt.problem),
+                              renderer.name, std::move(attempt.said)});
+        }
+    }
+}
+
 // One scene by all paths and cameras. Adds to `drawn` when all is done.
 void drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
-               Device& device, const RenderOptions& render, Drawn& drawn) {
+               Device& device, const RenderOptions& render, const Stage& outside, Drawn& drawn) {
     SceneViews views(scene);
     std::vector<Requirements> needs;
     for (const Settings& of : settings) needs.push_back(views.at(viewRequest(of)).needs);
     std::vector<Frame> frames = renderAll(device, views, settings, render);
     const std::size_t together = pathsOf(options).size();
+    std::vector<ExternalPicture> external;
     for (std::size_t k = 0; k < frames.size(); k += together) {
         const Frame& shown = frames[k + together - 2];
         drawn.visual_checks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
         drawn.materials.push_back(materialNames(scene));
+        drawExternals(scene, views.at(viewRequest(shown.settings)), shown.settings, options,
+                      leftPanel(options, drawn.frames.size() + k), outside, external, drawn.errors);
         letGo(shown);
     }
+    std::ranges::move(external, std::back_inserter(drawn.external));
     std::ranges::move(needs, std::back_inserter(drawn.needs));
     std::ranges::move(frames, std::back_inserter(drawn.frames));
 }
@@ -149,8 +188,9 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Render
         const double loading = loadingShare(name, render, settings.size());
         succeeds(options, name, drawn.errors, [&] {
             const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
-            render.progress = stage.part(loading, 1);
-            drawScene(scene, options, settings, device, render, drawn);
+            const double ours = options.renderers.empty() ? 1 : 0.5 * (loading + 1);
+            render.progress = stage.part(loading, ours);
+            drawScene(scene, options, settings, device, render, stage.part(ours, 1), drawn);
             textures = textures || !scene.textures.empty();
         });
     }
@@ -249,6 +289,7 @@ int runCompare(const Options& options) {
     const auto [drawing, comparing] = sharesOf(render);
     Report report =
         reportOf(options, compare, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+    addExternalPictures(report, std::move(drawn.external), compare);
     report.errors = std::move(drawn.errors);
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", againFolder(folder));

@@ -4,6 +4,7 @@
 #include "compare/explain/explain.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"
+#include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
 #include "compare/run/command_text.h"
 
@@ -69,6 +70,19 @@ void leave(const Options& options, const PictureChoice& picture, const Device& d
     }
 }
 
+// The picture of the one renderer of --renderer, of the view of `ours`.
+Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours) {
+    const external::Renderer& renderer = options.renderers.front();
+    external::Attempt attempt = external::drawExternally(renderer, views.scene(),
+                                                         views.at(viewRequest(ours.settings)), ours.settings);
+    if (!attempt.frame)
+        throw std::runtime_error(
+            fmt::format("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem));
+    for (const std::string& line : attempt.frame->notes)
+        if (std::ranges::count(ours.notes, line) == 0) note(options, line);
+    return lentChannels(*attempt.frame, ours);
+}
+
 int explainScene(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
@@ -80,12 +94,19 @@ int explainScene(const Options& options) {
     Settings baseline = options.settings;
     baseline.path = options.baseline;
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
-    const Settings test = testOf(options, of.test);
-    of.commands = {{"Explain it again",
-                    shellLine(explainWords(of.scene, options.settings, options.baseline, options.test))},
-                   {"The baseline by itself", commandOf("render", of.scene, baseline)},
-                   {"The test by itself", commandOf("render", of.scene, test)}};
-    if (options.test.empty())
+    const bool external = !options.renderers.empty();
+    if (external && (options.renderers.size() > 1 || !options.test.empty()))
+        throw std::runtime_error(
+            "--renderer: an explanation is of two pictures; give one renderer, and no --test");
+    const Settings test = external ? baseline : testOf(options, of.test);
+    if (external) of.test = options.renderers.front().name;
+    of.commands = {
+        {"Explain it again",
+         shellLine(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
+                             options.renderer_words))},
+        {"The baseline by itself", commandOf("render", of.scene, baseline)}};
+    if (!external) of.commands.push_back({"The test by itself", commandOf("render", of.scene, test)});
+    if (options.test.empty() && !external)
         of.commands.push_back({"Every channel of both", commandOf("compare", of.scene, baseline)});
     const PictureChoice picture = pictureChoice(options);
     Progress progress(progressOutput(options));
@@ -101,7 +122,7 @@ int explainScene(const Options& options) {
     drawing.progress = stage.part(0.1, 0.25);
     const Frame a = renderer.draw(baseline, drawing);
     drawing.progress = stage.part(0.25, 0.4);
-    const Frame b = renderer.draw(test, drawing);
+    const Frame b = external ? drawnByOther(options, views, a) : renderer.draw(test, drawing);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     checkValidation(device);
     leave(options, picture, device, explanation, of, a, b);

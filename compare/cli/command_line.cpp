@@ -159,6 +159,17 @@ void resolveTest(Options& options, const ParsedOptions& parsed) {
     }
 }
 
+void resolveRenderers(Options& options, const ParsedOptions& parsed) {
+    for (const std::string& words : parsed.renderers) {
+        external::Renderer renderer = external::readRenderer(words);
+        if (std::ranges::count(options.renderers, renderer.name, &external::Renderer::name) > 0)
+            throw std::runtime_error(
+                fmt::format("--renderer {}: there are two of this name; give each its own", renderer.name));
+        options.renderers.push_back(std::move(renderer));
+        options.renderer_words.insert(options.renderer_words.end(), {"--renderer", words});
+    }
+}
+
 void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     PictureDiffOptions& diff = options.diff;
     if (!parsed.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(parsed.crop);
@@ -297,6 +308,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);
     resolveTest(options, parsed);
+    resolveRenderers(options, parsed);
     if (parsed.pixel) options.pixel = pixelOf(*parsed.pixel);
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);

@@ -205,8 +205,8 @@ void hideGroup(CLI::App& app, const std::string& group) {
 void hideUnread(CLI::App& app, const std::string& command) {
     if (command != "render") hide(app, {"--frames", "--fps"});
     if (command == "view")
-        hide(app, {"--runs", "--channels", "--times", "--single-file", "--keep", "--update-baseline",
-                   "--explain", "--force", "--json", "--strict", "--allow-empty"});
+        hide(app, {"--runs", "--channels", "--times", "--renderer", "--single-file", "--keep",
+                   "--update-baseline", "--explain", "--force", "--json", "--strict", "--allow-empty"});
     if (command == "compare") {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
@@ -332,6 +332,17 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
         ->type_name("on|off|only");
 }
 
+// Renderers of others.
+void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
+    app.add_option("--renderer", parsed.renderers,
+                   fmt::format("{}; several times. The file names its command, see "
+                               "compare/external/renderer.schema.json",
+                               what))
+        ->type_name("NAME=FILE.json")
+        ->allow_extra_args(false)
+        ->group(picture_group);
+}
+
 void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
     app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
@@ -396,6 +407,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
                        "compared (deferred)")
             ->type_name("PATH|FILE.exr");
+        addRenderers(app, parsed, "another renderer, whose picture is compared with the left panel");
         addReport(app, options, parsed);
         app.add_flag("--update-baseline", options.update_baseline,
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
@@ -419,6 +431,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     } else if (command == "tradeoff") {
         addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
         addGrid(app, options, "each by itself, and declared pairs");
+        addRenderers(app, parsed, "another renderer, which gets a row");
     } else if (command == "choose") {
         addFiles(app, options,
                  "X.json: the chosen Settings, of several scenes those for all; else a folder with a page, "
@@ -428,6 +441,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addFiles(app, options, "folder of the page, the maps and the JSON; without it nothing is written");
         app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
             ->type_name("deferred|forward_plus");
+        addRenderers(app, parsed, "another renderer, whose picture is the other one");
         app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")
             ->type_name("FILE");
         app.get_option("scene")->description(

@@ -26,6 +26,7 @@ struct ParsedOptions {
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
     std::vector<std::string> test;
+    std::vector<std::string> renderers;  // NAME=FILE.json
     std::optional<std::string> times;
     std::string baseline = "deferred", crop, metric;
     std::optional<std::string> pixel;

@@ -53,24 +53,31 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
 Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,
                     const Frame& right, const Stage& progress) {
     const std::vector<int> channels = explainedChannels();
-    const bool file = !left.origin.file.empty();
+    const bool file = !left.origin.file.empty(), external = right.origin.external;
+    if (file && external)
+        throw std::runtime_error("neither picture is drawn by diptych: what lights them is not known");
     // Where --channels left some out.
     std::optional<Frame> again[2];
     RenderOptions render = renderOptions(options);
     render.channels = channels;
     render.runs = 0;
-    if (!hasAll(right, channels) || (!file && !hasAll(left, channels))) {
+    if ((!external && !hasAll(right, channels)) || (!file && !hasAll(left, channels))) {
         if (!file) again[0] = drawing.renderer.draw(left.settings, render);
-        again[1] = drawing.renderer.draw(right.settings, render);
+        if (!external) again[1] = drawing.renderer.draw(right.settings, render);
     }
+    if (external) again[1] = lentChannels(right, again[0] ? *again[0] : left);
     if (file && left.scene.empty()) again[0] = asOurs(left, right);
     const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
     ExplainedPictures of{right.scene, left.name, right.name};
-    if (!file)
-        of.commands = {
-            {"With every cause's own map",
-             shellLine(withOption(explainWords(right.scene, right.settings, left.settings.path, {}), "-o",
-                                  "diptych-explanation"))}};
+    if (!file) {
+        std::vector<std::string> words =
+            explainWords(right.scene, external ? left.settings : right.settings, left.settings.path, {});
+        if (external)
+            words = withOption(std::move(words), "--renderer",
+                               fmt::format("{}={}", right.name, right.origin.file));
+        of.commands = {{"With every cause's own map",
+                        shellLine(withOption(std::move(words), "-o", "diptych-explanation"))}};
+    }
     const Explanation explanation = explain(device, drawing.renderer, drawing.scene, a, b, progress);
     return explainedOf(explanation, of, litPicture(b, a, options.picture));
 }
@@ -110,6 +117,17 @@ void addExplanations(const Options& options, Device& device, Report& report, con
         letGo(right);
     }
     checkValidation(device);
+}
+
+Frame lentChannels(const Frame& external, const Frame& ours) {
+    Frame frame = external;
+    frame.settings = ours.settings;
+    frame.requested.clear();
+    // Not what ours adds up light from: that is ours alone.
+    for (const int mode : explainedChannels())
+        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
+            frame.channels.try_emplace(mode, found->second);
+    return frame;
 }
 
 std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,

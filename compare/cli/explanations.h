@@ -24,4 +24,8 @@ void addExplanations(const Options& options, Device& device, Report& report, con
 std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
                                       const std::vector<std::pair<std::string, std::string>>& test);
 
+// Another renderer's picture of the view of `ours`, as explain() takes it: with the Settings and the channels
+// of `ours` where it says nothing of them, so that what its lit differs by is sought in the lighting.
+Frame lentChannels(const Frame& external, const Frame& ours);
+
 }  // namespace diptych::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/bench/cases.h"
+#include "compare/external/renderer_file.h"
 #include "compare/picture/picture.h"
 #include "compare/report/report_options.h"
 #include "compare/run/color.h"
@@ -70,11 +71,13 @@ struct Options {
     bool force = false, json = false, quiet = false, verbose = false;
     ColorChoice color = ColorChoice::automatic;
     bool single_file = false, list_scenes = false, list_channels = false;
-    Keep keep = Keep::all;                // compare, diff: of which comparisons a report keeps pictures, EXRs
-    SelectionOptions selection;           // compare: pixels
-    bool allow_noise = false;             // compare
-    bool explain = false;                 // compare: why lit differs also where it passes
-    std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
+    Keep keep = Keep::all;       // compare, diff: of which comparisons a report keeps pictures, EXRs
+    SelectionOptions selection;  // compare: pixels
+    bool allow_noise = false;    // compare
+    bool explain = false;        // compare: why lit differs also where it passes
+    std::vector<external::Renderer> renderers;  // compare, explain, tradeoff: --renderer
+    std::vector<std::string> renderer_words;    // of the command line that name them
+    std::filesystem::path baseline_file;        // compare: instead of a path; empty: none
     std::string scene_file;  // explain, of two EXR files: their scene; empty: the one that they name
     // explain: Settings of the test that are others than the baseline's, in the words of Settings::set().
     std::vector<std::pair<std::string, std::string>> test;

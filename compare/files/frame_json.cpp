@@ -47,7 +47,8 @@ Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
     // Nothing is known about how another renderer drew its picture.
-    const bool isUnknown = !frame.origin.file.empty() && frame.origin.device.empty();
+    const bool isUnknown =
+        !frame.origin.file.empty() && frame.origin.device.empty() && !frame.origin.external;
     Json noise = Json::object();
     for (const auto& [mode, of] : frame.noise)
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
@@ -66,7 +67,7 @@ Json jsonOf(const Frame& frame) {
                   {"pixels_above_a_tenth", frame.hidden_light->pixels}};
     return {
         {"name", frame.name},
-        {"path", isUnknown ? Json(nullptr) : Json(nameOf(frame.settings.path))},
+        {"path", isUnknown || frame.origin.external ? Json(nullptr) : Json(nameOf(frame.settings.path))},
         {"scene", frame.scene},
         {"camera", jsonOf(frame.camera)},
         {"size", {frame.settings.size.width, frame.settings.size.height}},
@@ -99,7 +100,9 @@ Json jsonOf(const Frame& frame) {
          {{"file", frame.origin.file},
           {"device", frame.origin.device},
           {"driver", frame.origin.driver},
-          {"commit", frame.origin.commit}}},
+          {"commit", frame.origin.commit},
+          {"external", frame.origin.external},
+          {"granted", frame.origin.granted}}},
         {"notes", frame.notes}};
 }
 

@@ -82,11 +82,19 @@ std::string firstNotes(const Report& report) {
     return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
 }
 
+// What another renderer said before it failed, to be opened.
+std::string saidBefore(const SceneError& error) {
+    if (error.output.empty()) return {};
+    return fmt::format("<details><summary>what {} said</summary><pre>{}</pre></details>",
+                       markup(error.renderer), markup(error.output));
+}
+
 // The failures of all comparisons: where to look first.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const auto* unpaired : {&report.errors, &report.failures})
-        for (const SceneError& error : *unpaired) items.push_back(markup(errorText(error)));
+        for (const SceneError& error : *unpaired)
+            items.push_back(markup(errorText(error)) + saidBefore(error));
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
         const std::string where = whereOf(report, layout, comparison);

@@ -4,6 +4,7 @@
 #include "compare/report/titles.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -128,7 +129,14 @@ std::string camera(const Report& report, const Frame& frame) {
         c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
 }
 
-// The files of pictures that were not drawn in this run.
+// What another renderer is granted.
+std::string grantsOf(const FrameOrigin& origin) {
+    return origin.granted.empty()
+               ? std::string("external renderer, nothing is granted")
+               : fmt::format("external renderer, granted {}", fmt::join(origin.granted, "; "));
+}
+
+// The files of pictures that were not drawn by this program in this run.
 std::string origins(const Frame& a, const Frame& b) {
     std::string rows;
     for (const Frame* frame : {&a, &b}) {
@@ -136,9 +144,10 @@ std::string origins(const Frame& a, const Frame& b) {
         if (origin.file.empty()) continue;
         rows += fmt::format("<tr><td>{}</td><td class=\"mono wide\">{}</td><td class=\"wide\">{}</td></tr>",
                             markup(frame->name), markup(origin.file),
-                            markup(origin.device.empty() ? ""
-                                                         : fmt::format("{}, {}, commit {}", origin.device,
-                                                                       origin.driver, origin.commit)));
+                            markup(origin.external         ? grantsOf(origin)
+                                   : origin.device.empty() ? ""
+                                                           : fmt::format("{}, {}, commit {}", origin.device,
+                                                                         origin.driver, origin.commit)));
     }
     if (rows.empty()) return {};
     return "<div class=\"box scroll\"><h4>Files</h4><table>" + rows + "</table></div>\n";

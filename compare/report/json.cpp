@@ -179,7 +179,11 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
     for (const auto& [key, all] :
          {std::pair{"errors", &report.errors}, std::pair{"failures", &report.failures}}) {
         json[key] = Json::array();
-        for (const SceneError& of : *all) json[key].push_back({{"scene", of.scene}, {"message", of.message}});
+        for (const SceneError& of : *all) {
+            Json one{{"scene", of.scene}, {"message", of.message}};
+            if (!of.renderer.empty()) one.update({{"renderer", of.renderer}, {"output", of.output}});
+            json[key].push_back(std::move(one));
+        }
     }
     if (layout) {
         json["encode_ms"] = layout->encode_ms;

@@ -39,10 +39,11 @@ std::string nowInUtc() {
 std::string unpairedSuite(const SceneError& of, std::string_view outcome) {
     return fmt::format(
         "  <testsuite name=\"{}\" tests=\"1\" failures=\"{}\" errors=\"{}\" skipped=\"0\" time=\"0.000\">\n"
-        "    <testcase classname=\"{}\" name=\"scene\" time=\"0.000\">\n"
-        "      <{} type=\"scene\" message=\"{}\"/>\n    </testcase>\n  </testsuite>\n",
+        "    <testcase classname=\"{}\" name=\"{}\" time=\"0.000\">\n"
+        "      <{} type=\"scene\" message=\"{}\"/>\n{}    </testcase>\n  </testsuite>\n",
         markup(of.scene), outcome == "failure" ? 1 : 0, outcome == "error" ? 1 : 0, classNameOf(of.scene),
-        outcome, markup(errorText(of)));
+        of.renderer.empty() ? "scene" : of.renderer, outcome, markup(errorText(of)),
+        of.output.empty() ? "" : fmt::format("      <system-err>{}</system-err>\n", markup(of.output)));
 }
 
 class Suite {

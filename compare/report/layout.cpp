@@ -136,7 +136,8 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
         const Frame& left = report.baseline(comparison);
         const bool kept = isKept(comparison, options.keep);
         for (const std::size_t frame : {comparison.baseline, comparison.test})
-            if (kept && !options.single_file && report.frames[frame].origin.file.empty())
+            if (kept && !options.single_file &&
+                (report.frames[frame].origin.file.empty() || report.frames[frame].origin.external))
                 layout.exr[frame] = folders.frames[frame] + report.frames[frame].name + ".exr";
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure = exposureFor(

@@ -149,9 +149,14 @@ constexpr std::size_t scenesNamed = 8;
 
 std::string errorsText(const Report& report) {
     std::vector<std::string> scenes;
-    for (const SceneError& error : report.errors) scenes.push_back(error.scene);
+    bool pictures = false;  // not the scene, but one renderer's picture of it
+    for (const SceneError& error : report.errors) {
+        pictures = pictures || !error.renderer.empty();
+        scenes.push_back(error.renderer.empty() ? error.scene
+                                                : fmt::format("{} of {}", error.scene, error.renderer));
+    }
     const bool files = report.device.name.empty();  // diff draws nothing
-    return fmt::format("{} {}{} could not be {}: {}", scenes.size(), files ? "picture" : "scene",
+    return fmt::format("{} {}{} could not be {}: {}", scenes.size(), files || pictures ? "picture" : "scene",
                        scenes.size() == 1 ? "" : "s", files ? "compared" : "drawn",
                        listed(scenes, scenesNamed));
 }

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace diptych {
@@ -17,11 +18,29 @@ namespace {
 std::mutex lastWordsMutex;
 std::string lastWords;
 
+std::mutex groupsMutex;
+std::set<int> groups;  // that an interruption kills
+
+void killGroups() {
+    const std::lock_guard lock(groupsMutex);
+    for (const int group : groups) ::kill(-group, SIGKILL);
+}
+
 }  // namespace
 
 void sayWhenInterrupted(const std::string& line) {
     const std::lock_guard lock(lastWordsMutex);
     lastWords = line;
+}
+
+KilledWhenInterrupted::KilledWhenInterrupted(int group) : group_(group) {
+    const std::lock_guard lock(groupsMutex);
+    groups.insert(group_);
+}
+
+KilledWhenInterrupted::~KilledWhenInterrupted() {
+    const std::lock_guard lock(groupsMutex);
+    groups.erase(group_);
 }
 
 void dieOf(int signal) {
@@ -45,6 +64,7 @@ void watchInterruption() {
     std::thread([watched] {
         int signal = 0;
         if (sigwait(&watched, &signal) != 0) return;
+        killGroups();
         abandonTemporaries();
         wipeProgress();
         {

@@ -15,6 +15,18 @@ void watchInterruption();
 // from any thread.
 void sayWhenInterrupted(const std::string& line);
 
+// While there is one, an interruption kills the process group too, before the program ends.
+class KilledWhenInterrupted {
+public:
+    explicit KilledWhenInterrupted(int group);
+    ~KilledWhenInterrupted();
+    KilledWhenInterrupted(const KilledWhenInterrupted&) = delete;
+    KilledWhenInterrupted& operator=(const KilledWhenInterrupted&) = delete;
+
+private:
+    const int group_;
+};
+
 // The program ends as if `signal` had never been caught.
 [[noreturn]] void dieOf(int signal);
 

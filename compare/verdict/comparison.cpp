@@ -217,11 +217,12 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             "samples, "
             "the reference's of the pixel's middle");
     bool shared = false;
-    std::vector<std::string> names;  // of the channels that one side has at least
+    std::vector<std::string> lacking_channels;  // of another renderer, which owes us none
+    std::vector<std::string> names;             // of the channels that one side has at least
     ChannelDemands demands{options.rules, {}, options.strict};
     for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
-        if (frame->requested.empty() && !frame->origin.left_out.empty())
+        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
             (options.strict ? comparison.failures : comparison.notes)
                 .push_back(fmt::format("{} of {}: none of our channels, not compared",
                                        fmt::join(frame->origin.left_out, ", "), frame->name));
@@ -242,6 +243,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             const std::string& one = onLeft ? left.name : right.name;
             const Path lacking = onLeft ? right.settings.path : left.settings.path;
             if (paths && isReferenceFrame(onLeft ? right : left)) continue;
+            if ((onLeft ? right : left).origin.external && !options.strict) {
+                lacking_channels.emplace_back(mode.name);
+                continue;
+            }
             const Rule* rule = ruleFor(options.rules, mode.name);
             const bool forward_only = mode.maker == MadeBy::forward_only && lacking == Path::deferred,
                        deferred_only = mode.maker == MadeBy::deferred_only && lacking == Path::forward_plus;
@@ -262,6 +267,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         throw std::runtime_error(
             fmt::format("{} and {} share no channel that was asked for; add one that both make to --channels",
                         left.name, right.name));
+    if (!lacking_channels.empty())
+        comparison.notes.push_back(fmt::format("{} has none of {}, which were not compared",
+                                               (left.origin.external ? left : right).name,
+                                               fmt::join(lacking_channels, ", ")));
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];

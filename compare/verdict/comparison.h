@@ -43,6 +43,8 @@ struct Comparison {
 // same call were, or why it fails.
 struct SceneError {
     std::string scene, message;
+    // Of an external renderer: its name, and the end of what it said before it failed, many lines.
+    std::string renderer{}, output{};
 };
 
 struct Report {

@@ -348,7 +348,7 @@ std::vector<int> footprintChannels() {
 }
 
 std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair) {
-    if (isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
+    if (!isPathAgainstReference(pair)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     if (reference.settings.reference_mode != ReferenceMode::scene) return {};
     return Judge(mode, pair)();

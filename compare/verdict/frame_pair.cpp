@@ -9,4 +9,9 @@ const Frame* FramePair::of(Path path) const {
     return first ? &baseline : &test;
 }
 
+bool isPathAgainstReference(const FramePair& pair) {
+    return isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test) && !pair.baseline.origin.external &&
+           !pair.test.origin.external;
+}
+
 }  // namespace diptych

@@ -27,4 +27,7 @@ struct FramePair {
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };
 
+// Whether one of the two is of the reference and the other one of a path.
+bool isPathAgainstReference(const FramePair& pair);
+
 }  // namespace diptych

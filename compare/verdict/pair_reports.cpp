@@ -7,6 +7,8 @@
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -132,6 +134,74 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return report;
+}
+
+namespace {
+
+// Another renderer seldom says where it shows no surface, so that ours says it for both. There it shows our
+// picture: what is seen behind everything is not compared, and must not reach into what is by a filter, as
+// FLIP's does.
+void lendBackground(Frame& external, const Frame& ours, std::vector<std::string>& notes) {
+    const Coverage covered = coverage(ours, ours);
+    if (!covered.known) return;
+    for (const auto& [mode, image] : external.channels) external.requested.push_back(mode);
+    std::size_t shown = 0;  // pixels of lit
+    for (auto& [mode, image] : external.channels) {
+        const auto other = ours.channels.find(mode);
+        if (other == ours.channels.end() || other->second.pixels() != image.pixels() ||
+            other->second.components != image.components)
+            continue;
+        for (std::size_t i = 0; i < image.pixels(); ++i) {
+            if (covered.covered[i]) continue;
+            float* const here = image.pixel(i);
+            if (mode == static_cast<int>(gpu::DEBUG_lit))
+                shown += std::any_of(here, here + image.components, [](float v) { return v != 0; });
+            std::copy_n(other->second.pixel(i), image.components, here);
+        }
+    }
+    for (const gpu::uint mode : {gpu::DEBUG_material_id, gpu::DEBUG_depth})
+        if (const auto found = ours.channels.find(static_cast<int>(mode)); found != ours.channels.end())
+            external.channels.try_emplace(static_cast<int>(mode), found->second);
+    if (shown > 0)
+        notes.push_back(fmt::format(
+            "{} shows something at {} pixel(s) where {} shows no surface: its background, or edges "
+            "that are elsewhere; they are not compared",
+            external.name, shown, ours.name));
+}
+
+}  // namespace
+
+void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
+                         const CompareOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto all = static_cast<double>(pictures.size());
+    double done = 0;
+    for (ExternalPicture& picture : pictures) {
+        CompareOptions here = options;
+        here.progress = options.progress.part(done / all, (done + 1) / all).about(picture.frame.scene);
+        ++done;
+        const Frame& ours = report.frames.at(picture.baseline);
+        if (picture.frame.settings.size == ours.settings.size)
+            lendBackground(picture.frame, ours, picture.frame.notes);
+        report.frames.push_back(std::move(picture.frame));
+        report.comparisons.push_back(
+            compareFrames(report, picture.baseline, report.frames.size() - 1, picture.needs, here));
+        Comparison& comparison = report.comparisons.back();
+        const Frame& left = report.baseline(comparison);
+        Settings settings = report.test(comparison).settings;
+        settings.path = Settings().path;
+        if (isReferenceFrame(left)) settings = withReferenceOf(settings, left.settings);
+        comparison.command = withWords(
+            withWords(commandWords("compare", report.test(comparison).scene, settings), picture.words),
+            options.words);
+        if (!left.origin.file.empty())
+            comparison.command = withOption(comparison.command, "--baseline", left.origin.file);
+        else if (left.settings.path != Path::deferred)
+            comparison.command =
+                withOption(comparison.command, "--baseline", std::string(nameOf(left.settings.path)));
+    }
+    report.diff_ms +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace diptych

@@ -35,4 +35,16 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
                           ReportDevice device, const CompareOptions& options,
                           const std::vector<std::string>& mismatches);
 
+// Another renderer's picture beside a report's Frames: `baseline` is the left panel's place among them.
+struct ExternalPicture {
+    Frame frame;
+    Requirements needs;
+    std::size_t baseline = 0;
+    std::vector<std::string> words{};  // of the command line that name the renderer
+};
+
+// Adds the pictures to the report's Frames and compares each with its baseline.
+void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
+                         const CompareOptions& options);
+
 }  // namespace diptych

@@ -268,6 +268,8 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame* deferred = pair.of(Path::deferred);
+    if (pair.baseline.origin.external || pair.test.origin.external)
+        return {0, "another renderer's picture has no tolerance of its own: give rules (--tolerances)"};
     Tolerance result{0, "one path twice: the same function of the same numbers"};
     if (deferred && pair.of(Path::forward_plus))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
@@ -298,7 +300,7 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
-    if (!isShaded(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
+    if (!isShaded(mode.number) || !isPathAgainstReference(pair)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;

@@ -71,6 +71,10 @@ struct FrameOrigin {
     std::string file;  // empty: drawn by this program run
     std::string device, driver, commit;
     std::vector<std::string> left_out = {};  // the file's channels that are none of ours
+    // Drawn now, by a program that is not ours: `file` is the one that names it, and what it is granted
+    // stands here, in words.
+    bool external = false;
+    std::vector<std::string> granted = {};
 };
 
 // The device that a Frame was drawn on, as reports name it.

@@ -71,6 +71,7 @@ const std::vector<Module> modules = {
     {"compare/bench", 70},
     {"compare/probe", 70},
     {"compare/viewer", 75},
+    {"compare/external", 75},
     {"compare/cli", 80},
     {"tests", 90},
 };

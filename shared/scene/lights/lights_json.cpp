@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -69,9 +70,15 @@ LightKind kindOf(const JsonFields& fields) {
                                      : fmt::format("\"{}\" is none of {}", oneLine(type), all));
 }
 
+// Of `intensity`.
+std::string_view unitOf(LightKind kind) {
+    if (kind == LightKind::directional) return "lx";
+    return isArea(kind) ? "cd/m^2" : "cd";
+}
+
 void checkKeys(const JsonFields& fields, LightKind kind) {
-    std::vector<std::string_view> known{"type",  "name",      "position", "direction",
-                                        "color", "intensity", "range",    "importance"};
+    std::vector<std::string_view> known{"type",      "name",  "position",   "direction", "color",
+                                        "intensity", "range", "importance", "unit"};
     for (const OwnKey& own : ownKeys) {
         known.push_back(own.key);
         if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
@@ -152,6 +159,33 @@ float sunAngle(const JsonFields& fields) {
     return static_cast<float>(std::min(angle, glm::pi<double>()));
 }
 
+nlohmann::ordered_json jsonOf(const Light& light) {
+    using Ordered = nlohmann::ordered_json;
+    const auto listOf = [](const glm::dvec3& v) { return Ordered{v.x, v.y, v.z}; };
+    Ordered json{{"type", nameOf(light.kind)},
+                 {"color", listOf(glm::dvec3(light.color))},
+                 {"intensity", light.intensity},
+                 {"unit", unitOf(light.kind)},
+                 {"position", listOf(light.position)}};
+    if (!light.name.empty()) json["name"] = light.name;
+    if (light.kind != LightKind::point) json["direction"] = listOf(light.direction);
+    if (std::isfinite(light.range)) json["range"] = light.range;
+    if (light.kind == LightKind::directional) {
+        if (light.angle > 0) json["angle"] = light.angle;
+        json.erase("position");
+    }
+    if (light.kind == LightKind::spot)
+        json["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
+    if (light.kind == LightKind::rect) json["size"] = {light.width, light.height};
+    if (light.kind == LightKind::disc || light.kind == LightKind::tube) json["radius"] = light.radius;
+    if (light.kind == LightKind::tube) json["length"] = light.length;
+    if (light.kind == LightKind::rect || light.kind == LightKind::tube) json["axis"] = listOf(light.axis);
+    if (light.kind == LightKind::rect || light.kind == LightKind::disc) json["twoSided"] = light.two_sided;
+    if (light.shadow) json["shadow"] = true;
+    if (light.kind == LightKind::tube) json.erase("direction");
+    return json;
+}
+
 Light lightFromJson(const Json& object, const std::string& who) {
     const JsonFields fields(object, who);
     Light light;
@@ -164,6 +198,10 @@ Light lightFromJson(const Json& object, const std::string& who) {
     light.color = glm::vec3(fields.vector("color", glm::dvec3(light.color)));
     if (light.color.r < 0 || light.color.g < 0 || light.color.b < 0) fields.fail("color", "is negative");
     light.intensity = static_cast<float>(fields.number("intensity", 1, 0, any));
+    if (const std::string unit = fields.text("unit", std::string(unitOf(light.kind)));
+        unit != unitOf(light.kind))
+        fields.fail("unit", fmt::format("\"{}\": a {} light is given in {}", oneLine(unit),
+                                        typeOf(light.kind), unitOf(light.kind)));
     if (fields.find("range")) {
         const double range = fields.number("range", 0, 0, any);
         if (!(static_cast<float>(range) > 0)) fields.fail("range", "is not above 0");

@@ -19,9 +19,9 @@ class JsonFields;
 //
 //   all           "type", "name", "position": [x, y, z] m, "direction": [x, y, z], "color": [r, g, b],
 //                 "intensity" (directional: lux; point, spot: cd; rect, disc, tube: cd/m^2), "range": m,
-//                 "extras" (not read). A directional light's position and range and a point light's direction
-//                 have no effect.
-//                 "importance": "auto", "important" or "not_important", for --assign per_object
+//                 "unit" (the one said here, or an error), "extras" (not read). A directional light's
+//                 position and range and a point light's direction have no effect. "importance": "auto",
+//                 "important" or "not_important", for --assign per_object
 //   point, spot   "shadow": true, asks to cast one
 //   directional   "angle": rad, the diameter of its disc; it does not change the illuminance
 //   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }; both may also stand beside "type"
@@ -41,6 +41,8 @@ std::string_view nameOf(LightKind kind);
 
 // Reads one object of such a file. Throws std::runtime_error: "WHO: range: ...".
 Light lightFromJson(const nlohmann::json& object, const std::string& who);
+// The way back: what lightFromJson() reads as the same light; without its `importance`.
+nlohmann::ordered_json jsonOf(const Light& light);
 // "angle" of a directional light, 0 to pi; 0 if the key is absent.
 float sunAngle(const JsonFields& fields);
 // "importance"; automatic if the key is absent.

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/child_process.h"
+
+#include "compare/run/interruption.h"
+#include "shared/text/one_line.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+extern char** environ;
+
+namespace diptych::external {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A file descriptor of this process, closed at its end.
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+    void close() {
+        if (number_ >= 0) ::close(number_);
+        number_ = -1;
+    }
+
+private:
+    int number_;
+};
+
+void check(int error, const char* what) {
+    if (error != 0) throw std::system_error(error, std::generic_category(), what);
+}
+
+// What is told to posix_spawn: where the program runs, what it reads and writes, and a group of its own.
+class SpawnPlan {
+public:
+    SpawnPlan(const std::filesystem::path& folder, int output) {
+        check(posix_spawn_file_actions_init(&actions_), "posix_spawn");
+        check(posix_spawnattr_init(&attributes_), "posix_spawn");
+        check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()), "posix_spawn");
+        check(posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0), "posix_spawn");
+        for (const int to : {1, 2})
+            check(posix_spawn_file_actions_adddup2(&actions_, output, to), "posix_spawn");
+        // The signals that this program waits for are blocked in it, and the program's own are not.
+        sigset_t none, all;
+        sigemptyset(&none);
+        sigfillset(&all);
+        check(posix_spawnattr_setsigmask(&attributes_, &none), "posix_spawn");
+        check(posix_spawnattr_setsigdefault(&attributes_, &all), "posix_spawn");
+        check(posix_spawnattr_setpgroup(&attributes_, 0), "posix_spawn");
+        check(posix_spawnattr_setflags(
+                  &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF),
+              "posix_spawn");
+    }
+    ~SpawnPlan() {
+        posix_spawn_file_actions_destroy(&actions_);
+        posix_spawnattr_destroy(&attributes_);
+    }
+    SpawnPlan(const SpawnPlan&) = delete;
+    SpawnPlan& operator=(const SpawnPlan&) = delete;
+
+    // 0, or why the program did not start.
+    int start(const std::vector<std::string>& arguments, pid_t& process) const {
+        std::vector<char*> words;
+        for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+        words.push_back(nullptr);
+        return posix_spawnp(&process, words.front(), &actions_, &attributes_, words.data(), environ);
+    }
+
+private:
+    posix_spawn_file_actions_t actions_{};
+    posix_spawnattr_t attributes_{};
+};
+
+// Adds what there is to read; false at the end of it.
+bool readInto(Ended& ended, int from) {
+    char bytes[4096];
+    for (;;) {
+        const ssize_t count = ::read(from, bytes, sizeof bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return errno == EAGAIN;
+        if (count == 0) return false;
+        ended.said.append(bytes, static_cast<std::size_t>(count));
+        if (ended.said.size() > most_said) {
+            const std::size_t over = ended.said.size() - most_said;
+            ended.said.erase(0, over);
+            ended.unsaid += over;
+        }
+    }
+}
+
+// Until the process has ended or the time is over, reads what it says. Its end is what counts and not that of
+// its output, which whoever it started may hold open.
+bool waitFor(int process, int output, double seconds, Ended& ended) {
+    const auto last = Clock::now() + std::chrono::duration<double>(seconds);
+    pollfd watched[2] = {{process, POLLIN, 0}, {output, POLLIN, 0}};
+    for (;;) {
+        const double left = std::chrono::duration<double, std::milli>(last - Clock::now()).count();
+        if (left <= 0) return false;
+        const int ready = ::poll(watched, 2, static_cast<int>(std::min(left, 1000.0)) + 1);
+        if (ready < 0 && errno != EINTR) check(errno, "poll");
+        if (ready <= 0) continue;
+        if (watched[1].revents != 0 && !readInto(ended, output)) watched[1].fd = -1;
+        if (watched[0].revents != 0) return true;
+    }
+}
+
+}  // namespace
+
+Ended runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 double seconds) {
+    int ends[2];
+    check(::pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno, "pipe");
+    const Descriptor output(ends[0]);
+    Descriptor input(ends[1]);
+    check(::fcntl(output.number(), F_SETFL, O_NONBLOCK) == 0 ? 0 : errno, "fcntl");
+    const auto start = Clock::now();
+    Ended ended;
+    pid_t process = 0;
+    if (const int error = SpawnPlan(folder, input.number()).start(arguments, process); error != 0)
+        throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
+                                             oneLine(folder.string()), std::strerror(error)));
+    input.close();
+    const KilledWhenInterrupted watched(process);
+    // By its number: glibc 2.36 declares pidfd_open() without C linkage.
+    const Descriptor handle(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
+    check(handle.number() >= 0 ? 0 : errno, "pidfd_open");
+    ended.timed_out = !waitFor(handle.number(), output.number(), seconds, ended);
+    // Before the process is waited for: until then nobody else can have its group's number.
+    ::kill(-process, SIGKILL);
+    int status = 0;
+    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    readInto(ended, output.number());
+    if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
+    ended.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return ended;
+}
+
+std::string howItEnded(const Ended& ended, double seconds) {
+    if (ended.timed_out) return fmt::format("was killed after {:g} s, which is its timeout", seconds);
+    if (ended.signal != 0)
+        return fmt::format("was ended by signal {} ({})", ended.signal, ::strsignal(ended.signal));
+    return ended.code == 0 ? std::string() : fmt::format("exited with {}", ended.code);
+}
+
+}  // namespace diptych::external

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/job.h"
+
+#include "compare/external/scene_gltf.h"
+#include "compare/files/frame_json.h"
+#include "compare/files/gltf_file.h"
+#include "compare/files/our_files.h"
+#include "compare/render/frame_facts.h"
+#include "compare/run/version.h"
+#include "shared/image/atomic_file.h"
+#include "shared/image/exr.h"
+#include "shared/scene/lights/lights_json.h"
+
+#include <fmt/format.h>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace diptych::external {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The view that is told: with the field of view that is granted.
+View toldView(const View& view, const Granted& granted) {
+    View told = view;
+    const double yfov = view.camera.yfov + glm::radians(granted.fov_offset);
+    told.camera.yfov = std::clamp(yfov, glm::radians(0.01), glm::radians(179.9));
+    return told;
+}
+
+// OpenGL's clip space, as glTF has it: y up, depth -1 at the near plane and 1 at the far one.
+glm::dmat4 clipFromView(const View& view, const Granted& granted) {
+    const Camera& camera = view.camera;
+    const double aspect = static_cast<double>(view.width) / view.height;
+    const double n = camera.near, f = camera.far;
+    // A pixel is 2 / size of clip space, of which w is the part that grows with depth.
+    const double x = 2 * granted.shift_x / view.width, y = -2 * granted.shift_y / view.height;
+    glm::dmat4 clip(0.0);
+    if (camera.orthographic) {
+        clip[0][0] = 1 / (camera.ymag * aspect);
+        clip[1][1] = 1 / camera.ymag;
+        clip[2][2] = std::isfinite(f) ? -2 / (f - n) : -1e-6 / camera.ymag;
+        clip[3] = glm::dvec4(x, y, std::isfinite(f) ? -(f + n) / (f - n) : -1 - 1e-6 * n / camera.ymag, 1);
+    } else {
+        const double t = std::tan(camera.yfov / 2);
+        clip[0][0] = 1 / (t * aspect);
+        clip[1][1] = 1 / t;
+        clip[2] = glm::dvec4(0 - x, 0 - y, std::isfinite(f) ? -(f + n) / (f - n) : -1, -1);
+        clip[3][2] = std::isfinite(f) ? -2 * f * n / (f - n) : -2 * n;
+    }
+    return clip;
+}
+
+glm::dmat4 viewFromWorld(const View& view) {
+    const glm::dmat3 turned = glm::transpose(glm::dmat3(view.right(), view.up(), view.backward()));
+    glm::dmat4 matrix(turned);
+    matrix[3] = glm::dvec4(-(turned * view.eye()), 1);
+    return matrix;
+}
+
+Json cameraJson(const View& view, const Granted& granted) {
+    Json json = jsonOf(cameraOf(view));
+    json.erase("choice");
+    json["projection"] = view.camera.orthographic ? "orthographic" : "perspective";
+    json["fov_degrees"] = view.camera.orthographic ? Json(nullptr) : Json(glm::degrees(view.camera.yfov));
+    json["ymag"] = view.camera.orthographic ? Json(view.camera.ymag) : Json(nullptr);
+    json["aspect"] = static_cast<double>(view.width) / view.height;
+    json["view_from_world"] = listOf(viewFromWorld(view));
+    json["clip_from_view"] = listOf(clipFromView(view, granted));
+    return json;
+}
+
+double factorOf(LightKind kind, const Granted& granted) {
+    switch (kind) {
+        case LightKind::point:
+            return granted.point_factor;
+        case LightKind::spot:
+            return granted.spot_factor;
+        case LightKind::directional:
+            return granted.directional_factor;
+        default:
+            return granted.area_factor;
+    }
+}
+
+std::vector<Light> toldLights(std::vector<Light> lights, const Granted& granted) {
+    for (Light& light : lights)
+        light.intensity = static_cast<float>(light.intensity * factorOf(light.kind, granted));
+    return lights;
+}
+
+Json lightsJson(const std::vector<Light>& lights) {
+    Json list = Json::array();
+    for (const Light& light : lights) list.push_back(jsonOf(light));
+    return list;
+}
+
+Image fromRightToLeft(const Image& image) {
+    Image turned = image;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < image.components; ++c)
+                turned.at(x, y, c) = image.at(image.width - 1 - x, y, c);
+    return turned;
+}
+
+// What "?scene=" and built-in names stand for is in no file that another renderer could read as meant.
+bool isFile(const std::string& scene) {
+    std::error_code error;
+    return !scene.starts_with("builtin:") && fs::is_regular_file(scene, error);
+}
+
+class JobWriter {
+public:
+    JobWriter(const fs::path& folder, const Scene& scene, const SceneView& view, const Settings& settings,
+              const Renderer& renderer)
+        : folder_(folder),
+          scene_(scene),
+          view_(view),
+          settings_(settings),
+          renderer_(renderer),
+          granted_(renderer.granted) {}
+
+    Job write() {
+        Job job;
+        job.file = folder_ / "job.json";
+        job.picture = folder_ / "picture.exr";
+        SceneView told = view_;
+        told.view = toldView(view_.view, granted_);
+        told.lights = toldLights(view_.lights, granted_);
+        const Json json{{"schema", 1},
+                        {"software", softwareName},
+                        {"version", versionName()},
+                        {"renderer", renderer_.name},
+                        {"scene", scene(told, job.notes)},
+                        {"time", settings_.time},
+                        {"size", {settings_.size.width, settings_.size.height}},
+                        {"samples", settings_.msaa},
+                        {"camera", cameraJson(told.view, granted_)},
+                        {"lights", lightsJson(told.lights)},
+                        {"rig", rig(told, job.notes)},
+                        {"environment", environment(view_.environment, "environment.exr")},
+                        {"background", background()},
+                        {"ambient", {settings_.ambient.r, settings_.ambient.g, settings_.ambient.b}},
+                        {"exposure", nullptr},
+                        {"tone_curve", nullptr},
+                        {"output",
+                         {{"file", job.picture.string()},
+                          {"format", "exr"},
+                          {"pixels", "float"},
+                          {"origin", "top left"},
+                          {"primaries", "rec709"},
+                          {"transfer", "linear"}}},
+                        {"settings", Json::parse(toJson(settings_))}};
+        job.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+        writeFile(job.file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        return job;
+    }
+
+private:
+    Json scene(const SceneView& told, std::vector<std::string>& notes) const {
+        const bool copied = renderer_.posed || !isFile(scene_.name);
+        Json json{{"name", scene_.name},
+                  {"file", copied ? (folder_ / "scene.glb").string() : fs::absolute(scene_.name).string()},
+                  {"copy", copied},
+                  {"animation", settings_.animation}};
+        if (copied) put("scene.glb", sceneGltf(scene_, told), "scene.glb", notes);
+        return json;
+    }
+
+    Json rig(const SceneView& told, std::vector<std::string>& notes) const {
+        put("rig.glb", rigGltf(told), "rig.glb", notes);
+        return {{"file", (folder_ / "rig.glb").string()}};
+    }
+
+    void put(const char* name, const WrittenScene& written, const char* who,
+             std::vector<std::string>& notes) const {
+        writeFile(folder_ / name, written.glb);
+        for (const std::string& line : written.notes) {
+            // Of a copy the rig says the same once more.
+            const std::string note = fmt::format("{}: left out of {}: {}", renderer_.name, who, line);
+            notes.push_back(note);
+        }
+    }
+
+    Json environment(const Environment* light, const char* name) const {
+        if (!light) return nullptr;
+        const fs::path file = folder_ / name;
+        const Image mirrored = granted_.environment_mirrored ? fromRightToLeft(light->radiance) : Image();
+        writeExr(file, {{{"R", "G", "B"}, mirrored.empty() ? &light->radiance : &mirrored}});
+        return {{"file", file.string()},
+                {"mapping", "lat-long"},
+                {"rotation_degrees", double{settings_.env_rotation} + granted_.environment_rotation},
+                {"intensity", double{settings_.ibl_intensity} * granted_.environment_factor}};
+    }
+
+    // Our pictures are 0 where no surface is seen, and nothing there is compared.
+    Json background() const {
+        const bool other = view_.background && view_.background != view_.environment;
+        return {{"shown", false},
+                {"color", listOf(glm::dvec3(scene_.background))},
+                {"environment", other ? environment(view_.background, "background.exr") : Json(nullptr)}};
+    }
+
+    const fs::path& folder_;
+    const Scene& scene_;
+    const SceneView& view_;
+    const Settings& settings_;
+    const Renderer& renderer_;
+    const Granted& granted_;
+};
+
+}  // namespace
+
+Job writeJob(const fs::path& folder, const Scene& scene, const SceneView& view, const Settings& settings,
+             const Renderer& renderer) {
+    return JobWriter(folder, scene, view, settings, renderer).write();
+}
+
+}  // namespace diptych::external

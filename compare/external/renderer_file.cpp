@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/renderer_file.h"
+
+#include "shared/frame/setting_values.h"
+#include "shared/image/file_bytes.h"
+#include "shared/scene/lights/json_fields.h"
+#include "shared/text/fail.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace diptych::external {
+namespace {
+
+constexpr std::pair<std::string_view, Transfer> transfers[] = {{"linear", Transfer::linear},
+                                                               {"srgb", Transfer::srgb}};
+constexpr std::pair<std::string_view, Primaries> primaries_names[] = {
+    {"rec709", Primaries::rec709}, {"display_p3", Primaries::display_p3}, {"rec2020", Primaries::rec2020}};
+
+template <class E, std::size_t N>
+std::string_view wordOf(const std::pair<std::string_view, E> (&names)[N], E value) {
+    for (const auto& [name, candidate] : names)
+        if (candidate == value) return name;
+    return "?";
+}
+
+// A grant that is a number, and one that is a flag.
+struct NumberGrant {
+    std::string_view name;
+    double Granted::*value;
+    double neutral, least, most;
+    std::string_view words;  // {} is the number
+};
+constexpr double largest_factor = 1e6;
+constexpr NumberGrant numbers[] = {
+    {"point_factor", &Granted::point_factor, 1, 0, largest_factor,
+     "it is told point lights {} times as bright"},
+    {"spot_factor", &Granted::spot_factor, 1, 0, largest_factor, "it is told spot lights {} times as bright"},
+    {"directional_factor", &Granted::directional_factor, 1, 0, largest_factor,
+     "it is told directional lights {} times as bright"},
+    {"area_factor", &Granted::area_factor, 1, 0, largest_factor, "it is told area lights {} times as bright"},
+    {"environment_factor", &Granted::environment_factor, 1, 0, largest_factor,
+     "it is told an environment {} times as bright"},
+    {"environment_rotation", &Granted::environment_rotation, 0, -360, 360,
+     "it is told an environment turned by {} degrees more"},
+    {"fov_offset", &Granted::fov_offset, 0, -90, 90, "it is told a field of view {} degrees wider"},
+    {"shift_x", &Granted::shift_x, 0, -1e3, 1e3, "it is told a projection {} pixels further right"},
+    {"shift_y", &Granted::shift_y, 0, -1e3, 1e3, "it is told a projection {} pixels further down"}};
+
+struct FlagGrant {
+    std::string_view name;
+    bool Granted::*value;
+    std::string_view words;
+};
+constexpr FlagGrant flags[] = {
+    {"environment_mirrored", &Granted::environment_mirrored, "it is told the environment left for right"},
+    {"upside_down", &Granted::upside_down, "its picture is read from the bottom up"},
+    {"mirrored", &Granted::mirrored, "its picture is read from right to left"}};
+
+constexpr std::string_view light_factor = "light_factor";  // of all kinds
+
+template <class E, std::size_t N>
+E oneOf(const JsonFields& fields, std::string_view key, const std::pair<std::string_view, E> (&names)[N]) {
+    const std::string word = fields.text(key, std::string(names[0].first));
+    std::vector<std::string_view> all;
+    for (const auto& [name, value] : names) {
+        if (name == word) return value;
+        all.push_back(name);
+    }
+    fields.fail(key, fmt::format("\"{}\" is none of {}", oneLine(word), fmt::join(all, ", ")));
+}
+
+Granted grantedIn(const nlohmann::json& object, const std::string& who) {
+    const JsonFields fields(object, who);
+    fields.knownOnly(grantNames(), "what is granted");
+    Granted granted;
+    const double all = fields.number(light_factor, 1, 0, largest_factor);
+    for (const NumberGrant& row : numbers) {
+        const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
+        granted.*row.value = fields.number(row.name, ofLights ? all : row.neutral, row.least, row.most);
+    }
+    for (const FlagGrant& row : flags) granted.*row.value = fields.flag(row.name, false);
+    granted.transfer = oneOf(fields, "transfer", transfers);
+    granted.primaries = oneOf(fields, "primaries", primaries_names);
+    return granted;
+}
+
+std::vector<std::string> commandIn(const JsonFields& fields) {
+    const nlohmann::json* command = fields.find("command");
+    std::vector<std::string> words;
+    bool sound = command && command->is_array() && !command->empty();
+    for (std::size_t i = 0; sound && i < command->size(); ++i) {
+        sound = command->at(i).is_string();
+        if (sound) words.push_back(command->at(i).get<std::string>());
+        sound = sound && words.back().find('\0') == std::string::npos;
+    }
+    if (!sound || words.front().empty())
+        fields.fail("command",
+                    "is the program and its arguments, as [\"node\", \"three.mjs\"]; no shell reads them");
+    return words;
+}
+
+void checkName(const std::string& name, const std::string& words) {
+    const auto fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+               c == '_' || c == '.';
+    };
+    if (name.empty() || name.size() > 64 || name.front() == '.' || !std::ranges::all_of(name, fits))
+        fail("--renderer " + oneLine(words),
+             "its name has letters, digits, \"-\", \"_\" and dots, 64 at most, as three=three.json");
+    for (const auto& [path, taken] : enumNames<Path>())
+        if (name == taken)
+            fail("--renderer " + oneLine(words), fmt::format("{} is a path of diptych's", name));
+    if (name == "baseline") fail("--renderer " + oneLine(words), "the file of --baseline is called so");
+}
+
+}  // namespace
+
+std::vector<std::string> inWords(const Granted& granted) {
+    std::vector<std::string> lines;
+    const auto& g = granted;
+    const bool alike = g.point_factor == g.spot_factor && g.point_factor == g.directional_factor &&
+                       g.point_factor == g.area_factor;
+    if (alike && g.point_factor != 1)
+        lines.push_back(
+            fmt::format("{0} {1}: it is told all lights {1} times as bright", light_factor, g.point_factor));
+    for (const NumberGrant& row : numbers) {
+        const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
+        if (granted.*row.value != row.neutral && !(alike && ofLights))
+            lines.push_back(fmt::format("{} {}: {}", row.name, granted.*row.value,
+                                        fmt::format(fmt::runtime(row.words), granted.*row.value)));
+    }
+    for (const FlagGrant& row : flags)
+        if (granted.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.words));
+    if (granted.transfer != Transfer::linear)
+        lines.push_back(fmt::format("transfer {}: its pixels are decoded from that",
+                                    wordOf(transfers, granted.transfer)));
+    if (granted.primaries != Primaries::rec709)
+        lines.push_back(fmt::format("primaries {}: its pixels are converted from these",
+                                    wordOf(primaries_names, granted.primaries)));
+    return lines;
+}
+
+std::vector<std::string_view> grantNames() {
+    std::vector<std::string_view> names{light_factor};
+    for (const NumberGrant& row : numbers) names.push_back(row.name);
+    for (const FlagGrant& row : flags) names.push_back(row.name);
+    names.insert(names.end(), {"transfer", "primaries"});
+    return names;
+}
+
+Renderer readRendererFile(const std::filesystem::path& file) {
+    const std::vector<unsigned char> bytes = bytesOf(file);
+    return named(oneLine(file.string()), [&] {
+        const nlohmann::json json = parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        const JsonFields fields(json, "the renderer");
+        constexpr std::array<std::string_view, 6> known{"$schema", "schema", "command",
+                                                        "timeout", "scene",  "granted"};
+        fields.knownOnly(known, "a renderer");
+        if (fields.number("schema", 1, 0, 1e6) != 1)
+            fields.fail("schema", "is not 1, which is what this diptych reads");
+        Renderer renderer;
+        renderer.file = file;
+        renderer.folder = std::filesystem::absolute(file).parent_path();
+        renderer.name = file.stem().string();
+        renderer.command = commandIn(fields);
+        renderer.timeout = fields.number("timeout", renderer.timeout, 0, 86400);
+        if (!(renderer.timeout > 0)) fields.fail("timeout", "is above 0, seconds");
+        constexpr std::pair<std::string_view, bool> scenes[] = {{"file", false}, {"copy", true}};
+        renderer.posed = oneOf(fields, "scene", scenes);
+        if (const nlohmann::json* granted = fields.find("granted"))
+            renderer.granted = grantedIn(*granted, "granted");
+        return renderer;
+    });
+}
+
+Renderer readRenderer(const std::string& words) {
+    const std::size_t at = words.find('=');
+    if (at == std::string::npos || at + 1 == words.size())
+        fail("--renderer " + oneLine(words), "is NAME=FILE.json, as three=three.json");
+    const std::string name = words.substr(0, at);
+    checkName(name, words);
+    Renderer renderer = readRendererFile(words.substr(at + 1));
+    renderer.name = name;
+    return renderer;
+}
+
+}  // namespace diptych::external

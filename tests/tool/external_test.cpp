@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// Renderers of others: what they are told, what becomes of their pictures, and what of those that fail.
+#include "shared/image/exr.h"
+#include "tests/tool/fake_renderer.h"
+#include "tests/tool/running.h"
+
+#include <csignal>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+const std::string compare_points = "compare builtin:points --size 32x18 --runs 0 --channels lit -q ";
+const fs::path external_room = fs::path(DIPTYCH_SOURCE_DIR) / "compare" / "external";
+
+Json reportOf(const Folder& folder, const std::string& name = "diptych-report") {
+    return Json::parse(contentsOf(folder / name / "report.json"));
+}
+
+// The comparison with a renderer; null where there is none.
+Json comparisonWith(const Json& report, const std::string& name) {
+    for (const Json& comparison : report["comparisons"])
+        if (comparison["test"] == name) return comparison;
+    return nullptr;
+}
+
+// Diptych itself as the renderer, through the template: what the job says is enough to draw its picture
+// again, by way of a scene, lights and a camera that were written as glTF and JSON.
+TEST(External, WhatAJobSaysIsEnoughToDrawThePictureAgain) {
+    for (const std::string scene :
+         {"builtin:points", "builtin:spots --camera 'eye=1,2,6 target=0,1,0 fov=50 far=40'"}) {
+        const Folder folder;
+        const Ran ran = runShell(
+            folder,
+            "DIPTYCH='" DIPTYCH_PROGRAM "' '" DIPTYCH_PROGRAM "' compare " + scene +
+                " --size 96x54 --runs 0 --channels lit -q --baseline forward_plus --renderer again='" +
+                (external_room / "adapters" / "template.json").string() + "'",
+            folder.path());
+        EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+        const Json again = comparisonWith(reportOf(folder), "again");
+        ASSERT_FALSE(again.is_null());
+        EXPECT_EQ(again["channels"][0]["max"], 0) << scene;
+    }
+}
+
+// Validates with Python's jsonschema, which is not needed for anything else.
+bool hasValidator() {
+    return std::system("python3 -c 'import jsonschema' 2>/dev/null") == 0;
+}
+
+Ran validate(const Folder& folder, const fs::path& schema, const fs::path& file) {
+    folder.write("validate.py", R"py(
+import json, sys, jsonschema
+schema = json.load(open(sys.argv[1]))
+jsonschema.Draft202012Validator.check_schema(schema)
+jsonschema.Draft202012Validator(schema).validate(json.load(open(sys.argv[2])))
+)py");
+    return runShell(folder, "python3 validate.py '" + schema.string() + "' '" + file.string() + "'",
+                    folder.path());
+}
+
+TEST(External, JobsAreAsTheSchemaSays) {
+    if (!hasValidator()) GTEST_SKIP() << "NO python3-jsonschema: written jobs are not held to the schema";
+    const Folder folder;
+    writeRenderer(folder, "fake", {"keep", (folder / "kept").string()}, {{"scene", "copy"}});
+    EXPECT_EQ(validate(folder, external_room / "renderer.schema.json", folder / "fake.json").code, 0);
+    Image sky(8, 4, 3, 0.5f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    folder.write("t.json",
+                 R"({"rules": [{"channel": "lit", "flip": 1, "because": "nothing is to be explained"}]})");
+    for (const std::string words :
+         {"builtin:gallery --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
+          "builtin:ortho", "builtin:motion --camera 'eye=0,2,9 target=0,1,0 fov=40'",
+          "builtin:spots --msaa 4"}) {
+        runTool(folder,
+                "compare " + words +
+                    " --size 32x18 --runs 0 --channels lit -q --tolerances t.json --renderer f=fake.json");
+        const Ran ran = validate(folder, external_room / "job.schema.json", folder / "kept/job.json");
+        EXPECT_EQ(ran.code, 0) << words << ran.err;
+    }
+    // A control: what is not said is missed.
+    Json job = Json::parse(contentsOf(folder / "kept/job.json"));
+    job["lights"][0].erase("unit");
+    folder.write("kept/job.json", job.dump());
+    EXPECT_NE(validate(folder, external_room / "job.schema.json", folder / "kept/job.json").code, 0);
+}
+
+TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
+    const Folder folder;
+    const std::string odd = "a 'b' \"c\" $(touch oops) \n d";
+    fs::create_directories(folder / odd);
+    // The folder of the renderer's file, of the temporary files, of the scene and of what it is told to keep.
+    writeRenderer(folder, "fake", {"keep", (folder / odd / "kept").string(), odd});
+    fs::rename(folder / "fake.json", folder / odd / "fake.json");
+    folder.write(odd + "/tri.gltf",
+                 R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [0] } ],
+        "nodes": [ { "mesh": 0 } ], "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+        "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                         "min": [0, 0, 0], "max": [1, 1, 0] } ],
+        "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+        "buffers": [ { "byteLength": 36,
+            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] })");
+    ::setenv("TMPDIR", (folder / odd).c_str(), 1);
+    Running tool(folder,
+                 {"compare", (folder / odd / "tri.gltf").string(), "--size", "32x18", "--runs", "0", "-q",
+                  "--channels", "lit", "--renderer", "f=" + (folder / odd / "fake.json").string()});
+    ASSERT_TRUE(soon([&] { return tool.ended(); }));
+    ::unsetenv("TMPDIR");
+    ASSERT_TRUE(fs::exists(folder / odd / "kept" / "handed.json")) << tool.err();
+    const Json handed = Json::parse(contentsOf(folder / odd / "kept" / "handed.json"));
+    EXPECT_EQ(handed["argv"][0], "keep");
+    EXPECT_EQ(handed["argv"][2], odd) << "no shell has read it";
+    EXPECT_EQ(handed["argv"].size(), 5u);
+    EXPECT_EQ(handed["folder"], (folder / odd).string()) << "it runs where its file is";
+    const Json job = Json::parse(contentsOf(folder / odd / "kept" / "job.json"));
+    EXPECT_EQ(Json::parse(handed["argv"][4].get<std::string>()), job) << "the file and the argument are one";
+    EXPECT_EQ(job["scene"]["file"], (folder / odd / "tri.gltf").string());
+    EXPECT_EQ(job["scene"]["copy"], false);
+    EXPECT_TRUE(job["output"]["file"].get<std::string>().starts_with((folder / odd).string()));
+    EXPECT_FALSE(fs::exists(folder / odd / "oops"));
+    EXPECT_FALSE(fs::exists(folder / "oops"));
+    for (const auto& entry : fs::directory_iterator(folder / odd))
+        EXPECT_FALSE(entry.path().filename().string().starts_with(".diptych-job")) << "is removed";
+}
+
+TEST(External, AnyFailureIsAnErrorAndNeverAComparison) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render builtin:points --size 32x18 --runs 0 -q -o before.exr").code, 0);
+    fs::last_write_time(folder / "before.exr", fs::file_time_type::clock::now() - 24h);
+    const std::string before = (folder / "before.exr").string();
+    struct Case {
+        std::vector<std::string> mode;
+        std::string says;
+    };
+    const std::vector<Case> cases{{{"exit"}, "exited with 3: no licence for <this> machine"},
+                                  {{"crash"}, "was ended by signal 11"},
+                                  {{"none"}, "wrote no picture"},
+                                  {{"wide"}, "its picture is 33x18, and 32x18 was asked for"},
+                                  {{"nan"}, "lit is NaN or infinite at 1 pixel(s), the first at 3,2"},
+                                  {{"link", before}, "its picture is no regular file"},
+                                  {{"old", before}, "its picture is older than its job"}};
+    for (const auto& [mode, says] : cases) {
+        writeRenderer(folder, "fake", mode);
+        const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
+        EXPECT_EQ(ran.code, 2) << mode[0] << ran.out;
+        EXPECT_TRUE(ran.failedOver(says)) << mode[0];
+        const Json report = reportOf(folder);
+        ASSERT_EQ(report["errors"].size(), 1u) << mode[0];
+        EXPECT_EQ(report["errors"][0]["renderer"], "fake");
+        EXPECT_EQ(report["verdict"], "fail");
+        EXPECT_TRUE(comparisonWith(report, "fake").is_null()) << mode[0];
+        EXPECT_EQ(comparisonWith(report, "forward_plus")["verdict"], "pass") << "the paths are compared";
+    }
+    writeRenderer(folder, "fake", {"exit"});
+    runTool(folder, compare_points + "--renderer fake=fake.json");
+    EXPECT_NE(reportOf(folder)["errors"][0]["output"].get<std::string>().find("drawing\nno licence"),
+              std::string::npos);
+    for (const std::string file : {"index.html", "junit.xml"})
+        EXPECT_NE(contentsOf(folder / "diptych-report" / file).find("no licence for &lt;this&gt; machine"),
+                  std::string::npos)
+            << file;
+    folder.write("absent.json", R"({ "command": ["./nobody's program"] })");
+    EXPECT_TRUE(runTool(folder, compare_points + "--renderer a=absent.json").failedOver("cannot be started"));
+}
+
+// A picture that is right is one more Frame: a control of all failures above.
+TEST(External, AFrameIsComparedReportedAndWritten) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render builtin:points --size 32x18 --runs 0 --channels lit -q -o p.exr").code,
+              0);
+    writeRenderer(folder, "fake", {"copy", (folder / "p.exr").string()});
+    Ran ran = runTool(folder, compare_points + "--baseline forward_plus --renderer fake=fake.json");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    Json report = reportOf(folder);
+    const Json fake = comparisonWith(report, "fake");
+    EXPECT_EQ(fake["baseline"], "forward_plus");
+    EXPECT_EQ(fake["channels"][0]["max"], 0);
+    EXPECT_TRUE(fs::exists(folder / "diptych-report/fake.exr"));
+    EXPECT_NE(contentsOf(folder / "diptych-report/junit.xml").find("fake against forward_plus"),
+              std::string::npos);
+
+    writeRenderer(folder, "fake", {"picture"});
+    ran = runTool(folder, compare_points + "--renderer fake=fake.json");
+    EXPECT_EQ(ran.code, 1) << "a difference";
+    folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 1, "because": "anything goes"}]})");
+    EXPECT_EQ(runTool(folder, compare_points + "--renderer fake=fake.json --tolerances t.json").code, 0);
+    // Several renderers, scenes and cameras.
+    ran = runTool(
+        folder,
+        "compare builtin:points builtin:spots --camera 0 --camera 'eye=0,3,9 target=0,1,0' --size 32x18 "
+        "--runs 0 --channels lit -q --renderer a=fake.json --renderer b=fake.json --tolerances t.json "
+        "--baseline reference");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    report = reportOf(folder);
+    EXPECT_EQ(report["comparisons"].size(), 4u * 5u);
+    EXPECT_EQ(comparisonWith(report, "b")["baseline"], "reference");
+    EXPECT_TRUE(runTool(folder, compare_points + "--renderer a=fake.json --renderer a=fake.json")
+                    .failedOver("there are two of this name"));
+}
+
+TEST(External, JsonStandsAloneOnStdoutAndChatterIsCutShort) {
+    const Folder folder;
+    writeRenderer(folder, "fake", {"chatter"});
+    const Ran ran = runTool(folder, compare_points + "--json --renderer fake=fake.json");
+    const Json report = Json::parse(ran.out);
+    const Json& notes = report["frames"].back()["notes"];
+    EXPECT_NE(std::ranges::find(notes, Json("fake says: line 19999 of very many")), notes.end()) << notes;
+    EXPECT_LT(notes.dump().size(), 4000u);
+}
+
+// Whether a process is there, zombies left aside.
+bool isRunning(pid_t process) {
+    const std::string status = contentsOf("/proc/" + std::to_string(process) + "/stat");
+    const std::size_t at = status.rfind(") ");
+    return at != std::string::npos && status[at + 2] != 'Z';
+}
+
+pid_t processIn(const fs::path& file) {
+    return soon([&] { return fs::exists(file); }) ? std::stoi(contentsOf(file)) : 0;
+}
+
+TEST(External, ATimeoutEndsAllThatItStarted) {
+    const Folder folder;
+    writeRenderer(folder, "fake", {"hang", (folder / "pid").string()}, {{"timeout", 1.5}});
+    const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
+    EXPECT_TRUE(ran.failedOver("was killed after 1.5 s"));
+    const pid_t child = processIn(folder / "pid");
+    ASSERT_GT(child, 0);
+    EXPECT_TRUE(soon([&] { return !isRunning(child); }));
+}
+
+TEST(External, AnInterruptionEndsAllThatItStarted) {
+    const Folder folder;
+    writeRenderer(folder, "fake", {"hang", (folder / "pid").string()});
+    Running tool(folder, {"compare", "builtin:points", "--size", "32x18", "--runs", "0", "-q", "--channels",
+                          "lit", "--renderer", "fake=fake.json"});
+    const pid_t child = processIn(folder / "pid");
+    ASSERT_GT(child, 0) << tool.err();
+    ASSERT_TRUE(isRunning(child));
+    ::kill(tool.process(), SIGTERM);
+    ASSERT_TRUE(soon([&] { return tool.ended(); }));
+    EXPECT_TRUE(soon([&] { return !isRunning(child); }));
+}
+
+TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {
+    const Folder folder;
+    const auto jobWith = [&](const Json& granted) {
+        writeRenderer(folder, "fake", {"keep", (folder / "kept").string()}, {{"granted", granted}});
+        EXPECT_EQ(runTool(folder, compare_points + "--renderer fake=fake.json").code, 1);
+        return Json::parse(contentsOf(folder / "kept/job.json"));
+    };
+    const Json plain = jobWith(Json::object());
+    const Json told = jobWith({{"light_factor", 3.0}, {"fov_offset", 1.0}, {"shift_x", 0.5}});
+    EXPECT_NEAR(told["lights"][0]["intensity"].get<double>(),
+                3 * plain["lights"][0]["intensity"].get<double>(), 1e-5);
+    EXPECT_NEAR(told["camera"]["fov_degrees"].get<double>(), plain["camera"]["fov_degrees"].get<double>() + 1,
+                1e-9);
+    // What lies in the middle is half a pixel further right: x of clip space grows by -w times this.
+    EXPECT_NEAR(told["camera"]["clip_from_view"][8].get<double>(), -2 * 0.5 / 32, 1e-12);
+    const Json report = reportOf(folder);
+    EXPECT_EQ(report["frames"].back()["origin"]["granted"].size(), 3u);
+    EXPECT_NE(contentsOf(folder / "diptych-report/index.html").find("light_factor 3"), std::string::npos);
+
+    // Read: a picture that stands on its head, and one of display colours.
+    Image image(32, 18, 3);
+    for (int y = 0; y < 18; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y, c) = 0.01f * static_cast<float>(y) + 0.001f * static_cast<float>(x);
+    writeExr(folder / "theirs.exr", {{{"R", "G", "B"}, &image}});
+    const auto readWith = [&](const Json& granted) {
+        writeRenderer(folder, "fake", {"copy", (folder / "theirs.exr").string()}, {{"granted", granted}});
+        EXPECT_EQ(runTool(folder, compare_points + "--renderer fake=fake.json").code, 1);
+        PictureFile file = readExr(folder / "diptych-report/fake.exr");
+        return std::ranges::find(file.layers, "", &PictureLayer::name)->image;
+    };
+    // In the middle of the picture, where the scene's floor is seen.
+    EXPECT_FLOAT_EQ(readWith(Json::object()).at(16, 12), image.at(16, 12));
+    EXPECT_FLOAT_EQ(readWith({{"upside_down", true}}).at(16, 12), image.at(16, 5));
+    EXPECT_FLOAT_EQ(readWith({{"mirrored", true}}).at(16, 12), image.at(15, 12));
+    EXPECT_NEAR(readWith({{"transfer", "srgb"}}).at(16, 12), std::pow((0.136 + 0.055) / 1.055, 2.4), 1e-6);
+}
+
+TEST(External, FilesAreReadStrictly) {
+    const Folder folder;
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {R"({})", "command: is the program and its arguments"},
+        {R"({"command": "sh -c x"})", "command: is the program and its arguments"},
+        {R"({"command": ["x", 3]})", "command: is the program and its arguments"},
+        {R"({"command": ["x"], "timeot": 3})", "timeot: is not a field of a renderer"},
+        {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
+        {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
+        {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
+         "light_faktor: is not a field of what is granted"},
+        {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is none of linear, srgb"},
+        {R"({"command")", "is not JSON"}};
+    for (const auto& [text, says] : cases) {
+        folder.write("r.json", text);
+        EXPECT_TRUE(runTool(folder, compare_points + "--renderer r=r.json").failedOver(says)) << text;
+    }
+    for (const std::string name : {"deferred", "baseline", "", "a/b", ".hidden"}) {
+        const Ran ran = runTool(folder, compare_points + "--renderer '" + name + "=r.json'");
+        EXPECT_EQ(ran.code, 2) << name;
+        EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+    }
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// three.js in headless Chromium against ours, where both are installed.
+#include "tests/tool/browser.h"
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+const fs::path assets = fs::path(DIPTYCH_SOURCE_DIR) / ".." / "shared" / "assets" / "scenes";
+const fs::path three_adapter = fs::path(DIPTYCH_SOURCE_DIR) / "compare/external/adapters/three.json";
+
+// Why three.js is not run; empty where it is.
+std::string lackingForThree() {
+    const char* const folder = std::getenv("DIPTYCH_THREE");
+    if (!folder || !fs::exists(fs::path(folder) / "node_modules/three"))
+        return "NO THREE.JS: DIPTYCH_THREE names no folder with node_modules/three, its adapter is not run";
+    if (browser().empty()) return "NO CHROMIUM: three.js is not run";
+    if (std::system("command -v node >/dev/null 2>&1") != 0) return "NO NODE: three.js is not run";
+    return {};
+}
+
+// The mean FLIP of three.js's picture against forward+'s, and what was left out.
+struct AgainstThree {
+    double flip = 1;
+    std::string notes;
+};
+AgainstThree againstThree(const Folder& folder, const std::string& scene, const std::string& more) {
+    folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 1, "because": "measured here"}]})");
+    const Ran ran = runTool(folder, "compare '" + scene + "' " + more +
+                                        " --size 320x180 --runs 0 --channels lit -q --baseline forward_plus "
+                                        "--tolerances t.json --renderer three='" +
+                                        three_adapter.string() + "'");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const Json report = Json::parse(contentsOf(folder / "diptych-report/report.json"));
+    for (const Json& comparison : report["comparisons"])
+        if (comparison["test"] == "three")
+            return {comparison["channels"][0]["flip"], report["frames"].back()["notes"].dump()};
+    return {};
+}
+
+TEST(Three, ABoxOfOurFileAgrees) {
+    if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
+    const fs::path box = assets / "features/box/Box.glb";
+    if (!fs::exists(box)) GTEST_SKIP() << "NO ASSETS at " << assets;
+    const Folder folder;
+    // Its suns' specular light has what is reflected between microfacets (--multiscatter); it casts none.
+    EXPECT_LT(againstThree(folder, box.string(), "--shadows off --multiscatter energy").flip, 0.01);
+    const fs::path lights = assets / "features/lights_punctual/Lights.glb";
+    EXPECT_LT(againstThree(folder, lights.string(), "--shadows off").flip, 0.01);
+    // A control: another light is seen.
+    EXPECT_GT(againstThree(folder, lights.string(), "--shadows off --seed 3 --lights point:4").flip, 0.01);
+}
+
+TEST(Three, WhatItCannotDrawIsSaid) {
+    if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
+    const Folder folder;
+    const AgainstThree areas = againstThree(folder, "builtin:areas", "");
+    EXPECT_NE(areas.notes.find("left out: "), std::string::npos) << areas.notes;
+    EXPECT_NE(areas.notes.find("rect lights"), std::string::npos) << areas.notes;
+}
+
+}  // namespace
+}  // namespace diptych
