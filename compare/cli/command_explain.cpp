@@ -71,7 +71,8 @@ void leave(const Options& options, const PictureChoice& picture, const Device& d
 }
 
 // The picture of the one renderer of --renderer, of the view of `ours`.
-Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours) {
+Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours, Renderer& drawing,
+                   const RenderOptions& render) {
     const external::Renderer& renderer = options.renderers.front();
     external::Attempt attempt = external::drawExternally(renderer, views.scene(),
                                                          views.at(viewRequest(ours.settings)), ours.settings);
@@ -80,7 +81,7 @@ Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours)
             fmt::format("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem));
     for (const std::string& line : attempt.frame->notes)
         if (std::ranges::count(ours.notes, line) == 0) note(options, line);
-    return lentChannels(*attempt.frame, ours);
+    return lentChannels(*attempt.frame, ours, drawing, render);
 }
 
 int explainScene(const Options& options) {
@@ -122,7 +123,8 @@ int explainScene(const Options& options) {
     drawing.progress = stage.part(0.1, 0.25);
     const Frame a = renderer.draw(baseline, drawing);
     drawing.progress = stage.part(0.25, 0.4);
-    const Frame b = external ? drawnByOther(options, views, a) : renderer.draw(test, drawing);
+    const Frame b =
+        external ? drawnByOther(options, views, a, renderer, drawing) : renderer.draw(test, drawing);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     checkValidation(device);
     leave(options, picture, device, explanation, of, a, b);

@@ -4,6 +4,7 @@
 #include "compare/cli/commands.h"
 #include "compare/explain/explain.h"
 #include "compare/explain/explained.h"
+#include "compare/explain/frame_images.h"
 #include "compare/explain/write.h"
 #include "compare/run/command_text.h"
 #include "shared/contract/debug_mode.h"
@@ -50,6 +51,23 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
     return frame;
 }
 
+// The view of `plain` with roughness widened by normals, where that brings lit nearer to the other renderer's
+// by at least half of what it changes: as much as anything has to that it is believed of (unsaid_settings.h).
+std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
+                                 const RenderOptions& options) {
+    Settings settings = plain.settings;
+    settings.spec_aa = true;
+    if (settings == plain.settings || settings.problem()) return {};
+    Frame widened = renderer.draw(settings, options);
+    const auto lit = [](const Frame& frame) -> const Image& {
+        return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
+    };
+    const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
+    const double nearer = distance(plain, external) - distance(widened, external);
+    if (!(nearer > 0.5 * distance(widened, plain))) return {};
+    return widened;
+}
+
 Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,
                     const Frame& right, const Stage& progress) {
     const std::vector<int> channels = explainedChannels();
@@ -65,7 +83,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
         if (!file) again[0] = drawing.renderer.draw(left.settings, render);
         if (!external) again[1] = drawing.renderer.draw(right.settings, render);
     }
-    if (external) again[1] = lentChannels(right, again[0] ? *again[0] : left);
+    if (external) again[1] = lentChannels(right, again[0] ? *again[0] : left, drawing.renderer, render);
     if (file && left.scene.empty()) again[0] = asOurs(left, right);
     const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
     ExplainedPictures of{right.scene, left.name, right.name};
@@ -119,7 +137,10 @@ void addExplanations(const Options& options, Device& device, Report& report, con
     checkValidation(device);
 }
 
-Frame lentChannels(const Frame& external, const Frame& ours) {
+Frame lentChannels(const Frame& external, const Frame& plain, Renderer& renderer,
+                   const RenderOptions& options) {
+    const std::optional<Frame> widened = drawnNearer(external, plain, renderer, options);
+    const Frame& ours = widened ? *widened : plain;
     Frame frame = external;
     frame.settings = ours.settings;
     frame.requested.clear();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/cli/options.h"
+#include "compare/render/renderer.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"
 #include "shared/vulkan/device.h"
@@ -25,7 +26,9 @@ std::vector<std::string> explainWords(const std::string& scene, const Settings& 
                                       const std::vector<std::pair<std::string, std::string>>& test);
 
 // Another renderer's picture of the view of `ours`, as explain() takes it: with the Settings and the channels
-// of `ours` where it says nothing of them, so that what its lit differs by is sought in the lighting.
-Frame lentChannels(const Frame& external, const Frame& ours);
+// of `ours` where it says nothing of them, so that what its lit differs by is sought in the lighting. Where
+// ours comes nearer to it with roughness that is widened by normals (--spec-aa), those are the channels.
+Frame lentChannels(const Frame& external, const Frame& ours, Renderer& renderer,
+                   const RenderOptions& options);
 
 }  // namespace diptych::cli

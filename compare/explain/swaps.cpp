@@ -60,6 +60,14 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
                         causes_.size(), mostCauses));
 }
 
+// Roughness that one side widens by its normals is told as that.
+std::string Swaps::shownBy(const DebugMode& mode) const {
+    const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
+    if (mode.number == static_cast<int>(gpu::DEBUG_roughness) && widened)
+        return fmt::format("{}, widened by normals (--spec-aa on)", mode.shows);
+    return std::string(mode.shows);
+}
+
 void Swaps::findChannels() {
     // Those that change no pixel: swapped alone, and when all others are.
     std::vector<std::size_t> inert = lighting_.differing();
@@ -76,7 +84,7 @@ void Swaps::findChannels() {
         if (std::ranges::count(inert, c) > 0)
             inert_.emplace_back(mode.name);
         else
-            causes_.push_back({Swap::Kind::channel, c, std::string(mode.name), std::string(mode.shows)});
+            causes_.push_back({Swap::Kind::channel, c, std::string(mode.name), shownBy(mode)});
     }
 }
 

@@ -46,6 +46,7 @@ public:
     Image lit(Subset subset);
 
 private:
+    std::string shownBy(const DebugMode& mode) const;
     void findChannels();
     void findStages(const Scene& scene);
 
