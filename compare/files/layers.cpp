@@ -262,6 +262,11 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         if (a.image.components != b->image.components)
             fail(fmt::format("{}: {} in the reference and {} in the test; --map says what belongs together",
                              a.name, fmt::join(a.channels, ","), fmt::join(b->channels, ",")));
+        const bool grey[2] = {a.channels == Names{"Y"}, b->channels == Names{"Y"}};
+        if (grey[0] != grey[1] && a.image.components == 3)
+            matched.notes.push_back(
+                fmt::format("{}: the one component of {} is compared with each of the three of {}", a.name,
+                            grey[0] ? "the reference" : "the test", grey[0] ? "the test" : "the reference"));
         if (a.type != b->type)
             matched.notes.push_back(
                 fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));

@@ -100,21 +100,29 @@ std::vector<std::uint8_t> grown(const std::vector<std::uint8_t>& marked, int wid
 
 void applyEdges(Coverage& coverage, int width, int height, int radius, const ObjectPlanes& objects,
                 std::vector<std::string>& notes) {
-    const bool ids = objects.ids[0] && objects.ids[1];
-    if (!ids && !(objects.depth[0] && objects.depth[1]))
+    // What both have is best, since an object may lie elsewhere in each; else what one has serves for both.
+    const bool both_ids = objects.ids[0] && objects.ids[1];
+    const bool both_depths = objects.depth[0] && objects.depth[1];
+    const bool ids = both_ids || (!both_depths && (objects.ids[0] || objects.ids[1]));
+    const Image* const* const planes = ids ? objects.ids : objects.depth;
+    if (!planes[0] && !planes[1])
         throw std::runtime_error(
-            "--ignore-edges: neither material_id nor Z is in both pictures, and they tell objects apart");
+            "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
     std::vector<std::uint8_t> edges(coverage.covered.size(), 0);
-    for (const int side : {0, 1})
+    for (const int side : {0, 1}) {
+        if (!planes[side]) continue;
         if (ids)
-            markEdges(*objects.ids[side], otherId, edges);
+            markEdges(*planes[side], otherId, edges);
         else
-            markEdges(*objects.depth[side], otherDepth, edges);
+            markEdges(*planes[side], otherDepth, edges);
+    }
     edges = grown(edges, width, height, radius - 1);
     for (std::size_t i = 0; i < edges.size(); ++i)
         if (edges[i]) coverage.covered[i] = 0;
-    notes.push_back(fmt::format(
-        "edges are where {}", ids ? "material_id changes" : "depth changes by over 5 % between neighbours"));
+    const char* const whose = planes[0] && planes[1] ? "" : planes[0] ? " in the reference" : " in the test";
+    notes.push_back(fmt::format("edges are where {}{}",
+                                ids ? "material_id changes" : "depth changes by over 5 % between neighbours",
+                                whose));
 }
 
 }  // namespace

@@ -100,7 +100,8 @@ PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, st
         if (rest.size() < size)
             fail(fmt::format("is cut short: {} x {} pixels are {} bytes, {} of them are there", header.width,
                              header.height, size, rest.size()));
-        PfmPicture picture{Image(header.width, header.height, header.components), rest.size() - size};
+        PfmPicture picture{Image(header.width, header.height, header.components), rest.size() - size,
+                           std::abs(header.scale)};
         readPixels(picture.image, rest, header.scale);
         return picture;
     });

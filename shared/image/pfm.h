@@ -17,12 +17,12 @@ namespace diptych {
 struct PfmPicture {
     Image image;             // 1 component (Pf) or RGB (PF), linear, row 0 on top
     std::size_t behind = 0;  // bytes in the file after the last pixel
+    float scale = 1;         // that its values were multiplied by
 };
 
 // Reads both byte orders, as given by the sign of the scale. Values are multiplied by the scale's magnitude,
 // whose meaning the format leaves open; a scale of 1 keeps every bit. Refuses what needs more than `most`
 // bytes decoded. Throws std::runtime_error, one line naming file and fault.
-// std::runtime_error, one line naming file and fault.
 PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name,
                    std::uint64_t most = limits::imageBytes());
 

@@ -70,6 +70,9 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     PictureFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
         file.notes.push_back(fmt::format("{} bytes behind its pixels are not read", pfm.behind));
+    if (pfm.scale != 1)
+        file.notes.push_back(
+            fmt::format("its values were multiplied by the {} that its header says", pfm.scale));
     return file;
 }
 

@@ -198,12 +198,46 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     SelectionOptions options;
     options.ignore_edges = 1;
     EXPECT_EQ(thrown([&] { applySelection(all, 6, 2, options, {}, notes); }),
-              "--ignore-edges: neither material_id nor Z is in both pictures, and they tell objects apart");
+              "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
     Image depth(6, 2, 1, 10.0f);  // 5 % further away is another object
     depth.at(0, 0) = 10.6f;
     depth.at(5, 1) = 10.4f;
     applySelection(all, 6, 2, options, {{}, {&depth, &depth}}, notes);
     EXPECT_EQ(picked(all), "..xxxx.xxxxx");
+}
+
+// What another renderer wrote may have neither ids nor depth: those of the one picture serve.
+TEST(Selection, EdgesAreThoseOfTheOnePictureThatTellsThem) {
+    Image ids(6, 1, 1, 4.0f), depth(6, 1, 1, 10.0f);
+    ids.at(5, 0) = 7.0f;
+    depth.at(0, 0) = 20.0f;
+    std::vector<std::string> notes;
+    const auto by = [&](const ObjectPlanes& objects) {
+        Coverage all = everyPixel(6);
+        SelectionOptions options;
+        options.ignore_edges = 1;
+        applySelection(all, 6, 1, options, objects, notes);
+        return picked(all) + " " + notes[notes.size() - 2];
+    };
+    EXPECT_EQ(by({{&ids, nullptr}, {}}), "xxxx.. edges are where material_id changes in the reference");
+    EXPECT_EQ(by({{nullptr, &ids}, {}}), "xxxx.. edges are where material_id changes in the test");
+    EXPECT_EQ(by({{}, {nullptr, &depth}}),
+              "..xxxx edges are where depth changes by over 5 % between neighbours in the test");
+    // What both have comes first: an object may lie elsewhere in each.
+    EXPECT_EQ(by({{&ids, nullptr}, {&depth, &depth}}),
+              "..xxxx edges are where depth changes by over 5 % between neighbours");
+}
+
+TEST(Layers, OneComponentAgainstColoursIsSaid) {
+    const auto grey = [] { return channelsOf(file({layer("", {"Y"})}), {}); };
+    const auto colours = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
+    EXPECT_EQ(matchChannels(grey(), colours(), {}).notes,
+              (std::vector<std::string>{
+                  "lit: the one component of the reference is compared with each of the three of the test"}));
+    EXPECT_EQ(matchChannels(colours(), grey(), {}).notes,
+              (std::vector<std::string>{
+                  "lit: the one component of the test is compared with each of the three of the reference"}));
+    EXPECT_TRUE(matchChannels(grey(), grey(), {}).notes.empty());
 }
 
 TEST(Selection, MaskIdsAndCrop) {

@@ -56,6 +56,7 @@ TEST(Pfm, TheScalesSignIsTheByteOrderAndItsSizeAFactor) {
     EXPECT_EQ(pfmOf("PF\n1 1\n+1e0\n" + big(stored)).image.data, stored);
     EXPECT_EQ(pfmOf("PF\n1 1\n-0.5\n" + little(stored)).image.data, (Values{0.5f, -1, 0.25f}));
     EXPECT_EQ(pfmOf("PF\n1 1\n4\n" + big(stored)).image.data, (Values{4, -8, 2}));
+    EXPECT_EQ(pfmOf("PF\n1 1\n-0.5\n" + little(stored)).scale, 0.5f) << "for a note";
 }
 
 TEST(Pfm, OneBlankEndsTheHeader) {
