@@ -4,9 +4,11 @@
 #include "compare/audit/quantities.h"
 #include "compare/audit/relations.h"
 #include "compare/cli/command_options.h"
+#include "compare/cli/manual.h"
 #include "compare/run/version.h"
 #include "compare/viewer/keys.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/builtin/builtin.h"
 #include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
@@ -331,6 +333,12 @@ std::vector<std::string> commandNames() {
     return names;
 }
 
+std::vector<std::string> builtinScenes() {
+    std::vector<std::string> names;
+    for (const BuiltinName& row : builtinNames()) names.push_back("builtin:" + row.name);
+    return names;
+}
+
 // Of CLI11's "The following argument was not expected: --sise" the option that was meant.
 std::string meantOption(const std::string& error, const CLI::App& app) {
     const std::size_t at = error.find("--");
@@ -354,7 +362,12 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         "by how much, why, and what each costs.",
         "diptych");
     app.set_version_flag("--version", std::string("diptych ") + versionName());
-    app.require_subcommand(1);
+    bool manual = false;
+    std::string shell;
+    app.add_flag("--manual", manual, "print the manual page, for man -l -");
+    app.add_option("--completion", shell, "print a script that completes diptych's words in a shell")
+        ->type_name(std::string(completedShells));
+    app.require_subcommand(0, 1);
     app.get_formatter()->column_width(44);
     app.footer(
         "Example: diptych compare builtin:gallery\nEach command has its own --help.\n"
@@ -377,6 +390,16 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         const std::vector<std::string> joined = joinFlagValues(words);
         app.parse(
             std::vector<std::string>(joined.rbegin(), joined.rend()));  // CLI11 takes them from the back
+        if (manual) {
+            options.help = manualPage(app, std::string("diptych ") + versionName());
+            return options;
+        }
+        if (!shell.empty()) {
+            options.help = completion(app, shell, builtinScenes());
+            return options;
+        }
+        if (app.get_subcommands().empty())
+            throw std::runtime_error("a command is missing; see diptych --help");
         chosen = app.get_subcommands().front();
     } catch (const CLI::CallForHelp&) {
         for (const CLI::App* sub : app.get_subcommands()) chosen = sub;

@@ -7,6 +7,7 @@
 #include "compare/explain/lighting_stages.h"
 #include "compare/explain/shapley.h"
 #include "compare/explain/unsaid_settings.h"
+#include "shared/frame/debug_modes.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
 

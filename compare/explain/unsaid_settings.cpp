@@ -129,7 +129,8 @@ private:
         if (isForeign(sides_.frame(1)))
             for (const auto& [option, value, shows] : conventions)
                 if (said_.valueOf(option) == Settings().valueOf(option))
-                    tryIt(option, std::string(shows), false, [&](Settings& s) { s.set(option, value); });
+                    tryIt(option, std::string(shows), false,
+                          [&](Settings& s) { s.set(option, std::string(value)); });
         return all;
     }
 

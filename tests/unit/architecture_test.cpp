@@ -72,6 +72,7 @@ const std::vector<Module> modules = {
     {"compare/probe", 70},
     {"compare/viewer", 75},
     {"compare/external", 75},
+    {"compare/library", 75},
     {"compare/cli", 80},
     {"tests", 90},
 };

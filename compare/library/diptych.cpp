@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "compare/library/diptych.h"
+
+#include "compare/metrics/channel.h"
+#include "compare/verdict/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych::library {
+namespace {
+
+Image imageOf(const Picture& picture, const char* which) {
+    if (picture.width < 1 || picture.height < 1 ||
+        picture.rgb.size() !=
+            3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+        throw std::runtime_error(fmt::format("the {} is {}x{} and has {} numbers; it takes 3 for each pixel",
+                                             which, picture.width, picture.height, picture.rgb.size()));
+    Image image(picture.width, picture.height, 3);
+    std::ranges::copy(picture.rgb, image.data.begin());
+    return image;
+}
+
+Coverage coverageOf(const Options& options, std::size_t pixels) {
+    Coverage coverage = everyPixel(pixels);
+    if (options.covered.empty()) return coverage;
+    if (options.covered.size() != pixels)
+        throw std::runtime_error(
+            fmt::format("Options::covered has {} numbers for {} pixels", options.covered.size(), pixels));
+    for (std::size_t i = 0; i < pixels; ++i) coverage.covered[i] = options.covered[i] != 0;
+    coverage.count =
+        static_cast<std::size_t>(std::ranges::count_if(coverage.covered, [](auto c) { return c; }));
+    return coverage;
+}
+
+}  // namespace
+
+Result compare(const Picture& reference, const Picture& test, const Options& options) {
+    const Image a = imageOf(reference, "reference"), b = imageOf(test, "test");
+    if (a.width != b.width || a.height != b.height)
+        throw std::runtime_error(
+            fmt::format("the reference is {}x{} and the test {}x{}: only pictures of one size are compared",
+                        a.width, a.height, b.width, b.height));
+    const Coverage coverage = coverageOf(options, a.pixels());
+    if (coverage.count == 0) throw std::runtime_error("no pixel counts: Options::covered is 0 everywhere");
+    HdrFlipOptions flip;
+    flip.pixels_per_degree = options.pixels_per_degree;
+    const Measurement measurement({.metric = Metric::absolute,
+                                   .kind = ChannelKind::color,
+                                   .display = options.display,
+                                   .reference = &a,
+                                   .test = &b,
+                                   .coverage = &coverage,
+                                   .flip = flip});
+    Result result;
+    result.compared = coverage.count;
+    for (const auto& [name, value] : measurement.all()) result.figures.emplace(name, value);
+    for (const Limit& limit : options.limits) {
+        const Figure* const figure = findFigure(limit.figure);
+        if (!figure)
+            throw std::runtime_error(fmt::format("{}: no such figure; figureNames() has them", limit.figure));
+        const auto measured = result.figures.find(limit.figure);
+        if (measured == result.figures.end())
+            throw std::runtime_error(fmt::format("{}: is not defined for colours", limit.figure));
+        // The same rule as a tolerance file's.
+        Rule rule;
+        rule.fail = {Condition::Kind::bound, {limit.figure, 0}, limit.value, {}};
+        const bool holds = decide(rule, measurement).level != Level::fail;
+        result.outcomes.push_back({limit, measured->second, holds});
+        result.passed = result.passed && holds;
+    }
+    result.passed = result.passed && measurement.plain().nonfinite_different == 0;
+    const Image& error = measurement.flip()->error;
+    result.flip.assign(error.data.begin(), error.data.end());
+    float most = 0;
+    for (std::size_t i = 0; i < result.flip.size(); ++i)
+        if (coverage.covered[i] && result.flip[i] > most) {
+            most = result.flip[i];
+            result.worst_x = static_cast<int>(i % static_cast<std::size_t>(a.width));
+            result.worst_y = static_cast<int>(i / static_cast<std::size_t>(a.width));
+        }
+    return result;
+}
+
+std::vector<std::string> figureNames() {
+    std::vector<std::string> names;
+    for (const Figure& figure : figures()) names.emplace_back(figure.name);
+    return names;
+}
+
+std::string meaningOf(const std::string& name) {
+    const Figure* const figure = findFigure(name);
+    return figure ? std::string(figure->meaning) : "";
+}
+
+std::string version() {
+    return DIPTYCH_VERSION;
+}
+
+}  // namespace diptych::library

@@ -1,0 +1,30 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Installs the .deb on a Debian 12 that has nothing else, and compares the gallery there:
+#   cmake --build build --target package
+#   tests/package-on-bare-debian.sh build/diptych_*.deb
+# As root, with debootstrap and a network: takes some minutes and 1 GB below TMPDIR.
+set -eu
+[ $# -eq 1 ] && [ -f "$1" ] || { echo "usage: $0 FILE.deb" >&2; exit 2; }
+for need in debootstrap chroot; do
+    command -v $need >/dev/null || { echo "$0: $need is missing; apt-get install debootstrap" >&2; exit 2; }
+done
+[ "$(id -u)" -eq 0 ] || { echo "$0: is for root: debootstrap and chroot are" >&2; exit 2; }
+
+bare=$(mktemp -d)
+trap 'umount "$bare/proc" 2>/dev/null || true; rm -rf -- "$bare"' EXIT INT TERM
+debootstrap --variant=minbase bookworm "$bare" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" >"$bare.log" 2>&1 ||
+    { cat "$bare.log" >&2; exit 2; }
+rm -f -- "$bare.log"
+cp -- "$1" "$bare/root/diptych.deb"
+cp -- /etc/resolv.conf "$bare/etc/resolv.conf"
+# A proxy or mirror of this machine serves there as well.
+for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -f "$file" ] || cp -- "$file" "$bare/etc/apt/apt.conf.d/"; done
+mount -t proc proc "$bare/proc"
+chroot "$bare" sh -euc '
+    export DEBIAN_FRONTEND=noninteractive LC_ALL=C
+    apt-get -q update
+    apt-get -q -y --no-install-recommends install /root/diptych.deb
+    diptych --version
+    cd /root
+    diptych compare --size 320x180'

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The interface for other programs: the figures are those of diff, and what cannot be compared says why.
+#include "compare/library/diptych.h"
+#include "compare/verdict/measurement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych::library {
+namespace {
+
+std::vector<float> noise(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<float> values(count);
+    for (float& value : values) value = static_cast<float>(random() % 1000) / 1000;
+    return values;
+}
+
+template <class Run>
+std::string faultOf(const Run& run) {
+    try {
+        run();
+        return "";
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+}
+
+TEST(Library, FiguresAreThoseOfDiff) {
+    constexpr int width = 20, height = 12;
+    const std::vector<float> a = noise(3 * width * height, 1), b = noise(3 * width * height, 2);
+    Image reference(width, height, 3), test(width, height, 3);
+    std::ranges::copy(a, reference.data.begin());
+    std::ranges::copy(b, test.data.begin());
+    std::vector<std::uint8_t> half(width * height, 0);
+    for (std::size_t i = 0; i < half.size() / 2; ++i) half[i] = 1;
+    for (const bool display : {false, true})
+        for (const bool covered : {false, true}) {
+            Options options;
+            options.display = display;
+            options.pixels_per_degree = 30;
+            if (covered) options.covered = half;
+            const Result result = compare({width, height, a}, {width, height, b}, options);
+            Coverage coverage = everyPixel(width * height);
+            if (covered) {
+                coverage.covered = half;
+                coverage.count = half.size() / 2;
+            }
+            HdrFlipOptions flip;
+            flip.pixels_per_degree = 30;
+            const Measurement expected({.display = display,
+                                        .reference = &reference,
+                                        .test = &test,
+                                        .coverage = &coverage,
+                                        .flip = flip});
+            EXPECT_EQ(result.compared, coverage.count);
+            const auto all = expected.all();
+            EXPECT_EQ(result.figures.size(), all.size());
+            for (const auto& [name, value] : all) EXPECT_EQ(result.figures.at(name), value) << name;
+            ASSERT_EQ(result.flip.size(), half.size());
+            float most = 0;
+            for (std::size_t i = 0; i < half.size(); ++i)
+                if (coverage.covered[i]) most = std::max(most, result.flip[i]);
+            EXPECT_EQ(result.flip[static_cast<std::size_t>(result.worst_y * width + result.worst_x)], most);
+        }
+}
+
+TEST(Library, LimitsDecide) {
+    constexpr int width = 8, height = 8;
+    const std::vector<float> a = noise(3 * width * height, 1);
+    std::vector<float> b = a;
+    b[17] += 0.25f;
+    Options options;
+    options.limits = {{"max", 0.3}, {"max", 0.2}, {"psnr", 10}, {"psnr", 90}};
+    Result result = compare({width, height, a}, {width, height, b}, options);
+    ASSERT_EQ(result.outcomes.size(), 4u);
+    EXPECT_TRUE(result.outcomes[0].holds && result.outcomes[2].holds);
+    EXPECT_FALSE(result.outcomes[1].holds || result.outcomes[3].holds);
+    EXPECT_NEAR(result.outcomes[0].measured, 0.25, 1e-6);
+    EXPECT_FALSE(result.passed);
+    options.limits.resize(1);
+    EXPECT_TRUE(compare({width, height, a}, {width, height, b}, options).passed);
+    // Equal pictures, and one without limits.
+    result = compare({width, height, a}, {width, height, a});
+    EXPECT_TRUE(result.passed);
+    EXPECT_EQ(result.worst_x, -1);
+    // What no figure of a mean sees.
+    b[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(compare({width, height, a}, {width, height, b}).passed);
+    options.limits = {{"mean", 1e9}};
+    EXPECT_FALSE(compare({width, height, a}, {width, height, b}, options).outcomes[0].holds);
+}
+
+TEST(Library, WhatCannotBeComparedSaysWhy) {
+    const std::vector<float> four(12, 0.5f), six(18, 0.5f);
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 2, four}, {3, 2, six});
+              }),
+              "the reference is 2x2 and the test 3x2: only pictures of one size are compared");
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 3, four}, {2, 2, four});
+              }),
+              "the reference is 2x3 and has 12 numbers; it takes 3 for each pixel");
+    EXPECT_EQ(faultOf([&] {
+                  compare({0, 0, {}}, {2, 2, four});
+              }),
+              "the reference is 0x0 and has 0 numbers; it takes 3 for each pixel");
+    Options options;
+    options.limits = {{"flop", 1}};
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 2, four}, {2, 2, four}, options);
+              }),
+              "flop: no such figure; figureNames() has them");
+    options.limits = {{"angle_max", 1}};
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 2, four}, {2, 2, four}, options);
+              }),
+              "angle_max: is not defined for colours");
+    const std::vector<std::uint8_t> none(4, 0), three(3, 1);
+    options.limits.clear();
+    options.covered = none;
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 2, four}, {2, 2, four}, options);
+              }),
+              "no pixel counts: Options::covered is 0 everywhere");
+    options.covered = three;
+    EXPECT_EQ(faultOf([&] {
+                  compare({2, 2, four}, {2, 2, four}, options);
+              }),
+              "Options::covered has 3 numbers for 4 pixels");
+    options.covered = {};
+    options.pixels_per_degree = 0;
+    EXPECT_NE(faultOf([&] { compare({2, 2, four}, {2, 2, four}, options); }), "");
+}
+
+TEST(Library, EveryFigureHasAMeaning) {
+    for (const std::string& name : figureNames()) EXPECT_NE(meaningOf(name), "") << name;
+    EXPECT_EQ(meaningOf("flop"), "");
+}
+
+}  // namespace
+}  // namespace diptych::library
