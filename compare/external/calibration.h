@@ -29,7 +29,7 @@ Scene chartsUnder(const Scene& charts, Lamp lamp);
 // Of all these pictures: 384x216, without shadows.
 Settings chartSettings(Lamp lamp);
 
-// The charts as they must be shown: lit, and material_id; by the reference.
+// The charts as they must be shown: lit, and material_id; by the reference. Under a sky lit is without it.
 struct ChartTruth {
     Image lit, ids;
 };

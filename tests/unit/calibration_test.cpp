@@ -162,8 +162,11 @@ private:
     ChartTruth draw(const Fake& fake, Lamp lamp) const {
         Scene scene = chartsUnder(charts_, lamp);
         Settings settings = chartSettings(lamp);
-        const Size size = settings.size;
-        settings.size = {size.width + fake.right, size.height + fake.down};
+        // Under the sky, where a pixel takes long and only the middles of faces count, of a quarter's size.
+        const int coarse = lamp == Lamp::environment ? 4 : 1;
+        const Size whole_size = settings.size;
+        const Size size{whole_size.width / coarse, whole_size.height / coarse};
+        settings.size = coarse > 1 ? size : Size{size.width + fake.right, size.height + fake.down};
         double& yfov = scene.cameras.front().yfov;
         yfov += glm::radians(fake.fov);
         yfov = 2 * std::atan(std::tan(yfov / 2) * settings.size.height / size.height);
@@ -193,10 +196,10 @@ private:
         const Frame frame =
             std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
         const Image& whole = frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
-        ChartTruth shown{Image(size.width, size.height, 3), {}};
-        for (int y = 0; y < size.height; ++y)
-            for (int x = 0; x < size.width; ++x)
-                for (int c = 0; c < 3; ++c) shown.lit.at(x, y, c) = whole.at(x, y, c);
+        ChartTruth shown{Image(whole_size.width, whole_size.height, 3), {}};
+        for (int y = 0; y < whole_size.height; ++y)
+            for (int x = 0; x < whole_size.width; ++x)
+                for (int c = 0; c < 3; ++c) shown.lit.at(x, y, c) = whole.at(x / coarse, y / coarse, c);
         return shown;
     }
 
@@ -294,18 +297,23 @@ TEST(Calibration, GrantsAreTheWayBack) {
 }
 
 TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
-    const ChartTruth truth = truthUnder(studio().charts(), Lamp::environment);
     const Scene& charts = studio().charts();
+    const Image ids = truthUnder(charts, Lamp::environment).ids;
+    const Image lit = std::move(studio().pictures({}, 3).back().picture);
+    int faces = 0;
     for (const Mesh& mesh : charts.meshes) {
         const Primitive& primitive = mesh.primitives.front();
         const std::string& name = charts.materials[static_cast<std::size_t>(primitive.material)].name;
         if (!std::set<std::string>{"front", "left", "right", "up", "down"}.contains(name)) continue;
-        const auto shown = shownBy(truth.ids, primitive.material, truth.lit, {});
+        ++faces;
+        const auto shown = shownBy(ids, primitive.material, lit, {});
         ASSERT_TRUE(shown) << name;
         const glm::dvec3 light =
             lightFrom(charts.environment->radiance, glm::dvec3(primitive.normals.front()), false);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR((*shown)[c], light[c], 0.03 * light[c] + 0.01) << name << c;
+        // The pictures have up to 5 % more or less light.
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR((*shown)[c], light[c], 0.08 * light[c] + 0.002) << name << c;
     }
+    EXPECT_EQ(faces, 5);
 }
 
 TEST(Calibration, AResponseIsItsOwnInverse) {

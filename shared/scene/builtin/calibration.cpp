@@ -54,15 +54,16 @@ void tilted(Builder& b, const std::string& name, const glm::dvec3& middle, const
           glm::dvec3(0));
 }
 
-// Radiance by direction: six broad lamps of six colours, one along each axis and no two alike, so that no
-// turn and no mirror leaves it as it is; some above 1, which a picture of 8 bits cannot hold.
+// Radiance by direction: six lamps of six colours, one along each axis and no two alike, so that no turn and
+// no mirror leaves it as it is; some far above 1, which a picture of 8 bits cannot hold, yet small, so that
+// white faces show less than 1.
 Environment sky() {
     struct Lamp {
         glm::dvec3 towards, radiance;
     };
-    const std::array lamps{Lamp{{1, 0, 0}, {6, 0.3, 0.3}},   Lamp{{-1, 0, 0}, {0.2, 0.8, 0.2}},
-                           Lamp{{0, 0, 1}, {0.3, 0.4, 3}},   Lamp{{0, 0, -1}, {0.7, 0.7, 0.05}},
-                           Lamp{{0, 1, 0}, {0.6, 0.6, 0.6}}, Lamp{{0, -1, 0}, {0.1, 0.05, 0.15}}};
+    const std::array lamps{Lamp{{1, 0, 0}, {8, 0.4, 0.4}},   Lamp{{-1, 0, 0}, {0.3, 3, 0.3}},
+                           Lamp{{0, 0, 1}, {0.4, 0.5, 5}},   Lamp{{0, 0, -1}, {2, 2, 0.1}},
+                           Lamp{{0, 1, 0}, {0.9, 0.9, 0.9}}, Lamp{{0, -1, 0}, {0.6, 0.2, 0.7}}};
     constexpr int width = 64, height = 32;
     Environment made{"calibration", Image(width, height, 3)};
     for (int y = 0; y < height; ++y)
@@ -73,8 +74,8 @@ Environment sky() {
                                        -std::sin(polar) * std::cos(azimuth));
             glm::dvec3 radiance(0);
             for (const Lamp& lamp : lamps) {
-                const double near = std::max(0.0, glm::dot(direction, lamp.towards));
-                radiance += lamp.radiance * near * near * near * near;
+                // Half of it 12 degrees from its middle.
+                radiance += lamp.radiance * std::pow(std::max(0.0, glm::dot(direction, lamp.towards)), 32);
             }
             for (int c = 0; c < 3; ++c) made.radiance.at(x, y, c) = static_cast<float>(radiance[c]);
         }
@@ -125,10 +126,11 @@ Scene calibration() {
     tilted(b, "down", {1.6, -1, 0}, {0, -1, 0});
     tilted(b, "left", {3.3, -1, 0}, {-1, 0, 0});
 
-    b.sun({0.3, -0.4, -1}, glm::vec3(1), 2);
-    b.point({2.6, 0.4, 3}, glm::vec3(1), 10);
-    b.spot({2.6, 0.4, 4}, {2.6, 0.4, 0}, glm::vec3(1), 16, std::numeric_limits<float>::infinity(), 20, 30);
-    b.rect({2.6, 0.4, 3}, {2.6, 0.4, 0}, glm::vec3(1), 10);
+    // Dim, so that a picture which ends at 1 holds three times as much.
+    b.sun({0.3, -0.4, -1}, glm::vec3(1), 0.5f);
+    b.point({2.6, 0.4, 3}, glm::vec3(1), 2.5f);
+    b.spot({2.6, 0.4, 4}, {2.6, 0.4, 0}, glm::vec3(1), 4, std::numeric_limits<float>::infinity(), 20, 30);
+    b.rect({2.6, 0.4, 3}, {2.6, 0.4, 0}, glm::vec3(1), 2.5f);
     b.scene.environment = sky();
     return std::move(b.scene);
 }
