@@ -33,6 +33,8 @@ const Command commands[] = {
      "diptych view helmet.glb"},
     {"bench", "Frame and pass times of several Settings side by side",
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9"},
+    {"calibrate", "How another renderer means what it is told: what it shows of charts whose answer is known",
+     "diptych calibrate three.json"},
     {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices"},
 };
 
@@ -368,6 +370,15 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             "run the shaders' functions on millions of inputs and hold them against double precision: "
             "errors in ULP; exit code 1 where one is beyond what Vulkan allows");
         addFiles(app, options, "refused: devices writes no file, --json prints one");
+        return addOutput(app, options);
+    }
+
+    if (command == "calibrate") {
+        app.add_option("renderer", options.scenes, "the file that names its command")
+            ->type_name("FILE.json")
+            ->expected(1)
+            ->required();
+        addFiles(app, options, "refused: calibrate writes no file, --json prints one");
         return addOutput(app, options);
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/external/external_frame.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/render/frame_facts.h"
@@ -12,6 +13,7 @@
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/draw/depth_storage.h"
 
 #include <fmt/format.h>
@@ -141,6 +143,7 @@ public:
             referenceDone + (0.98 - referenceDone) * 0.7;  // captures and errors are in the first visit
         measure(renderer, references, state, stage.part(referenceDone, drawn));
         timeAgain(renderer, references, state, stage.part(drawn, 0.98));
+        addExternalRows(views, references, state);
         checkValidation(device_);
         stage.at(0.98, "write");
         tradeoff_.cost.whole = msSince(start_);
@@ -153,7 +156,8 @@ public:
         noteLeftByOthers(options_, references_);
         if (options_.json) fmt::print("{}", json);
         if (prints()) print(tradeoffEnd(tradeoff_) + (folder_ / "index.html").string() + "\n");
-        return 0;
+        sayErrors(errors_);
+        return errors_.empty() ? 0 : 2;
     }
 
 private:
@@ -181,6 +185,39 @@ private:
                 state.keep(measured);
                 tradeoff_.rows.push_back(std::move(measured.row));
             }
+            if (prints()) print(table.line(tradeoff_, tradeoff_.rows.size() - 1));
+        }
+    }
+
+    // A row of each renderer that is not ours, from every camera; one that fails has none.
+    void addExternalRows(SceneViews& views, const ReferenceFrames& references, SweepState& state) {
+        const TradeoffTable table(tradeoff_, sweep_.rows, terminalColumns(stdout), options_.verbose);
+        for (const external::Renderer& renderer : options_.renderers) {
+            std::vector<Frame> frames;
+            std::string problem;
+            for (const Frame& reference : references.frames) {
+                Settings settings = tradeoff_.given;
+                settings.camera = reference.settings.camera;
+                external::Attempt attempt = external::drawExternally(
+                    renderer, views.scene(), views.at(viewRequest(settings)), settings);
+                problem = attempt.problem;
+                if (attempt.frame && !attempt.frame->channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+                    problem = "its picture has no R, G, B";
+                if (!problem.empty()) break;
+                for (const std::string& line : attempt.frame->notes)
+                    if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+                frames.push_back(std::move(*attempt.frame));
+            }
+            if (!problem.empty()) {
+                errors_.push_back(
+                    {tradeoff_.scene, fmt::format("{}: renderer {} ({}): {}", tradeoff_.scene, renderer.name,
+                                                  renderer.file.string(), problem)});
+                tradeoff_.notes.push_back("no row: " + errors_.back().message);
+                continue;
+            }
+            MeasuredRow measured = measuredRow(std::move(frames), references);
+            state.keep(measured);
+            tradeoff_.rows.push_back(std::move(measured.row));
             if (prints()) print(table.line(tradeoff_, tradeoff_.rows.size() - 1));
         }
     }
@@ -238,6 +275,7 @@ private:
     Progress progress_;
     Device device_;
     Tradeoff tradeoff_;
+    std::vector<SceneError> errors_;  // of renderers of others
 };
 
 }  // namespace

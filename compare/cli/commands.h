@@ -40,6 +40,7 @@ int runRelations(const Options& options, const Settings& settings);  // audit --
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 int runView(const Options& options);
+int runCalibrate(const Options& options);
 
 // What the commands share.
 

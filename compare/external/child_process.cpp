@@ -19,6 +19,7 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 extern char** environ;
@@ -77,12 +78,18 @@ public:
     SpawnPlan(const SpawnPlan&) = delete;
     SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-    // 0, or why the program did not start.
-    int start(const std::vector<std::string>& arguments, pid_t& process) const {
+    // 0, or why the program did not start. `folder`: that it runs in, which programs also look up in PWD.
+    int start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+              pid_t& process) const {
+        std::string pwd = "PWD=" + folder.string();
+        std::vector<char*> variables{pwd.data()};
+        for (char** variable = environ; *variable; ++variable)
+            if (!std::string_view(*variable).starts_with("PWD=")) variables.push_back(*variable);
+        variables.push_back(nullptr);
         std::vector<char*> words;
         for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
-        return posix_spawnp(&process, words.front(), &actions_, &attributes_, words.data(), environ);
+        return posix_spawnp(&process, words.front(), &actions_, &attributes_, words.data(), variables.data());
     }
 
 private:
@@ -135,7 +142,7 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
     const auto start = Clock::now();
     Ended ended;
     pid_t process = 0;
-    if (const int error = SpawnPlan(folder, input.number()).start(arguments, process); error != 0)
+    if (const int error = SpawnPlan(folder, input.number()).start(arguments, folder, process); error != 0)
         throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
                                              oneLine(folder.string()), std::strerror(error)));
     input.close();

@@ -58,7 +58,9 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
     std::string out = csvLine(head(passes));
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
-        std::vector<std::string> fields{fmt::format("{}", i + 1), std::string(nameOf(row.settings.path))};
+        std::vector<std::string> fields{fmt::format("{}", i + 1), row.renderer.empty()
+                                                                      ? std::string(nameOf(row.settings.path))
+                                                                      : row.renderer};
         for (const std::string& option : optionColumns())
             fields.push_back(ignoredBecause(row.settings, option).empty() ? row.settings.valueOf(option)
                                                                           : "");

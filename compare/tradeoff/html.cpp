@@ -92,8 +92,8 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     std::string out = fmt::format(
         "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row {0}</p>{3}<dl>"
         "<dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
-        index + 1, hiddenUnless(shown), markup(inWords(choicesOf(row.settings, tradeoff.given))),
-        pictures(tradeoff, row), time.value, time.low, time.high);
+        index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), pictures(tradeoff, row),
+        time.value, time.low, time.high);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
                            spreadText(errorOf(row, figure)));
@@ -106,7 +106,7 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
         out += fmt::format("<p class=\"warn\">{}</p>", markup(warning));
     const std::string comparing = comparingCommand(tradeoff, row);
     return out + again("Measure it again", measuringCommand(tradeoff, row)) +
-           again("Its picture", renderingCommand(tradeoff, row)) +
+           (row.renderer.empty() ? again("Its picture", renderingCommand(tradeoff, row)) : "") +
            (comparing.empty() ? "" : again("Its errors, beside the other path's", comparing)) +
            "</article>\n";
 }
@@ -143,7 +143,7 @@ std::string table(const Tradeoff& tradeoff) {
         const Spread time = timeOf(row);
         out += fmt::format(
             "<tr data-row=\"{0}\"><td>{0}</td><td class=\"whole\"><i class=\"swatch {1}\"></i>{2}</td>",
-            i + 1, nameOf(row.settings.path), markup(inWords(choicesOf(row.settings, tradeoff.given))));
+            i + 1, nameOf(row.settings.path), markup(inWords(row, tradeoff.given)));
         for (const double ms : {time.value, time.low, time.high})
             out += page::numberCell(ms, fmt::format("{:.4g}", ms));
         std::vector<std::string> fronts;

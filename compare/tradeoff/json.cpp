@@ -42,10 +42,12 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
          samples = Json::array();
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
-        Json json{{"row", i + 1}, {"differs", jsonOf(choicesOf(row.settings, tradeoff.given))}};
+        Json json{{"row", i + 1},
+                  {"differs",
+                   row.renderer.empty() ? jsonOf(choicesOf(row.settings, tradeoff.given)) : Json::object()}};
         json.update(jsonOf(row));
         json["measure"] = measuringCommand(tradeoff, row);
-        json["render"] = renderingCommand(tradeoff, row);
+        json["render"] = row.renderer.empty() ? Json(renderingCommand(tradeoff, row)) : Json(nullptr);
         const std::string comparing = comparingCommand(tradeoff, row);
         json["compare"] = comparing.empty() ? Json(nullptr) : Json(comparing);
         rows.push_back(std::move(json));

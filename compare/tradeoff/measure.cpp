@@ -6,6 +6,7 @@
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/upsample.h"
 #include "compare/verdict/measurement.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -144,6 +145,35 @@ Errors ErrorsOfCameras::errors() const {
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
     return small(channelPicture(debugMode(LIT), frame, scaleFor(debugMode(LIT), exposure, frames)));
+}
+
+MeasuredRow measuredRow(std::vector<Frame> frames, const ReferenceFrames& references) {
+    MeasuredRow measured;
+    TradeoffRow& row = measured.row;
+    row.settings = frames.front().settings;
+    row.renderer = frames.front().name;
+    row.renderer_file = frames.front().origin.file;
+    ErrorsOfCameras all_errors;
+    for (std::size_t i = 0; i < references.frames.size(); ++i) {
+        Frame& frame = frames.at(i);
+        showOurBackground(frame, references.frames[i]);
+        row.drawing_ms += frame.made_in_ms;
+        const FrameErrors errors = errorsOf(references.frames[i], frame);
+        CameraRow camera{cameraTitle(frame),
+                         {{frame.made_in_ms, frame.made_in_ms, frame.made_in_ms, 1}},
+                         {},
+                         {},
+                         errors.errors,
+                         errors.pixels.size()};
+        row.cameras.push_back(std::move(camera));
+        all_errors.add(errors);
+        if (i > 0) continue;
+        measured.picture = thumbnail(frame, references.exposure);
+        measured.errors = small(errorPicture(errors.flip, 1));
+    }
+    row.errors = references.frames.size() == 1 ? row.cameras.front().errors : all_errors.errors();
+    row.warnings.push_back("its time is its whole command's, from start to end: it stands on no front");
+    return measured;
 }
 
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,

@@ -64,6 +64,10 @@ struct MeasuredRow {
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options);
 
+// The same of another renderer's pictures, one for each of the reference frames, whose background they show.
+// Their time is that in which each was made.
+MeasuredRow measuredRow(std::vector<Frame> frames, const ReferenceFrames& references);
+
 // Times `options.runs` more frames of the rows from every camera, the rows in turn: one more visit of each.
 void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows, const ReferenceFrames& references,
                const RenderOptions& options);

@@ -173,6 +173,7 @@ Json jsonOf(const TradeoffRow& row) {
     const Spread time = timeOf(row);
     const FrameBytes bytes = bytesOf(row);
     return {{"settings", Json::parse(toJson(row.settings))},
+            {"renderer", row.renderer.empty() ? Json(nullptr) : Json(row.renderer)},
             {"ms", {{"median", time.value}, {"min", time.low}, {"max", time.high}}},
             {"passes", jsonOf(passesOf(row))},
             {"bytes",

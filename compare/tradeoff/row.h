@@ -46,6 +46,9 @@ struct TradeoffRow {
     std::string picture{};     // its file
     std::string errors_map{};  // file of the picture of FLIP
     std::vector<std::string> warnings{};
+    // Of another renderer its name and its file; such a row's time is its whole command's, so that it stands
+    // on no front and in no plot.
+    std::string renderer{}, renderer_file{};
 };
 
 // Over all visits: the mean of their medians, so that each visit counts equally; the least and greatest time;

@@ -20,6 +20,10 @@ constexpr const char* folderName = "sweep";
 std::string nameOf(const Settings& settings) {
     return fingerprint(toJson(settings, -1));
 }
+// Renderers of others are told the same Settings.
+std::string nameOf(const TradeoffRow& row) {
+    return row.renderer.empty() ? nameOf(row.settings) : fingerprint(toJson(row.settings, -1) + row.renderer);
+}
 std::string pictureOf(const Settings& settings) {
     return nameOf(settings) + ".png";
 }
@@ -64,15 +68,15 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
 
 void SweepState::keep(MeasuredRow& measured) {
     TradeoffRow& row = measured.row;
-    row.picture = pictureOf(row.settings);
-    row.errors_map = errorsOf(row.settings);
+    row.picture = nameOf(row) + ".png";
+    row.errors_map = nameOf(row) + ".flip.png";
     writePng(kept_ / row.picture, measured.picture);
     writePng(kept_ / row.errors_map, measured.errors);
     renew(row);
 }
 
 void SweepState::renew(const TradeoffRow& row) {
-    kept_.keep(nameOf(row.settings), jsonOf(row));
+    kept_.keep(nameOf(row), jsonOf(row));
 }
 
 void SweepState::remove() {

@@ -78,7 +78,7 @@ std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) con
     std::string line =
         joined({fmt::format("{}", index + 1), ms(time.value), ms(time.low), ms(time.high),
                 number(row.errors[0]), number(row.errors[1]), number(row.errors[2]), bytes(memoryOf(row))},
-               inWords(choicesOf(row.settings, tradeoff.given)));
+               inWords(row, tradeoff.given));
     if (commands_)
         line += fmt::format("{:>{}}{}\n", "", numbers[0].width + gap, measuringCommand(tradeoff, row));
     return line;

@@ -49,10 +49,16 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
 
 }  // namespace
 
+std::string inWords(const TradeoffRow& row, const Settings& given) {
+    return row.renderer.empty() ? inWords(choicesOf(row.settings, given))
+                                : fmt::format("{}, another renderer", row.renderer);
+}
+
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
-        if (!path || tradeoff.rows[i].settings.path == *path) rows.push_back(i);
+        if (tradeoff.rows[i].renderer.empty() && (!path || tradeoff.rows[i].settings.path == *path))
+            rows.push_back(i);
     return rows;
 }
 
@@ -73,6 +79,7 @@ std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, s
 std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
     std::vector<double> ratios;
     for (const TradeoffRow& row : tradeoff.rows) {
+        if (!row.renderer.empty()) continue;
         double first = 0, second = 0;
         for (const CameraRow& camera : row.cameras) {
             if (camera.visits.size() < 2) return {};
@@ -93,7 +100,21 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
     return paths;
 }
 
+namespace {
+
+// Of another renderer.
+std::string commandOfRenderer(const char* command, const Tradeoff& tradeoff, const TradeoffRow& row,
+                              const char* option, const char* value) {
+    const std::vector<std::string> words = withOption(
+        withCameras(commandWords(command, tradeoff.scene, tradeoff.given), tradeoff), option, value);
+    return shellLine(withOption(words, "--renderer", fmt::format("{}={}", row.renderer, row.renderer_file)));
+}
+
+}  // namespace
+
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    if (!row.renderer.empty())
+        return commandOfRenderer("tradeoff", tradeoff, row, "--grid", R"({"settings":{}})");
     const AgainstReference against = againstReference(tradeoff, row);
     std::vector<std::string> words = commandWords("tradeoff", tradeoff.scene, against.settings);
     words = withOption(withCameras(std::move(words), tradeoff), "--grid", against.grid);
@@ -102,6 +123,7 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
 }
 
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    if (!row.renderer.empty()) return commandOfRenderer("compare", tradeoff, row, "--baseline", "reference");
     const AgainstReference against = againstReference(tradeoff, row);
     if (!against.sameReference) return {};
     // compare draws both paths, and one of them may not support these Settings.
@@ -116,6 +138,7 @@ std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
 }
 
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    if (!row.renderer.empty()) return {};
     Settings settings = row.settings;
     if (tradeoff.cameras.size() > 1) settings.camera.clear();
     return shellLine(withCameras(commandWords("render", tradeoff.scene, settings), tradeoff));

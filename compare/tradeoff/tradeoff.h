@@ -36,7 +36,11 @@ struct Tradeoff {
     SweepCost cost;
 };
 
-// Indices of the rows of one path, or of all; and of those on the Pareto front of time and one error.
+// What a row is, in words: its Settings that differ from the given ones, or another renderer.
+std::string inWords(const TradeoffRow& row, const Settings& given);
+
+// Indices of the rows of one path, or of all but those of other renderers; and of those on the Pareto front
+// of time and one error.
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path);
 std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path = {});
 std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // that have rows, in the enumeration's order
@@ -47,7 +51,8 @@ std::optional<Spread> driftOf(const Tradeoff& tradeoff);
 
 // Commands for a shell. The first measures the row again by itself, the second draws its picture, the third
 // compares its errors with the other path's, channel by channel. The third is empty if the row's reference
-// would differ from the sweep's, e.g. by its size, or if the other path cannot draw the Settings.
+// would differ from the sweep's, e.g. by its size, or if the other path cannot draw the Settings. Of another
+// renderer the second is empty.
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);

@@ -136,12 +136,8 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     return report;
 }
 
-namespace {
-
-// Another renderer seldom says where it shows no surface, so that ours says it for both. There it shows our
-// picture: what is seen behind everything is not compared, and must not reach into what is by a filter, as
-// FLIP's does.
-void lendBackground(Frame& external, const Frame& ours, std::vector<std::string>& notes) {
+void showOurBackground(Frame& external, const Frame& ours) {
+    if (external.settings.size != ours.settings.size) return;
     const Coverage covered = coverage(ours, ours);
     if (!covered.known) return;
     for (const auto& [mode, image] : external.channels) external.requested.push_back(mode);
@@ -163,13 +159,11 @@ void lendBackground(Frame& external, const Frame& ours, std::vector<std::string>
         if (const auto found = ours.channels.find(static_cast<int>(mode)); found != ours.channels.end())
             external.channels.try_emplace(static_cast<int>(mode), found->second);
     if (shown > 0)
-        notes.push_back(fmt::format(
+        external.notes.push_back(fmt::format(
             "{} shows something at {} pixel(s) where {} shows no surface: its background, or edges "
             "that are elsewhere; they are not compared",
             external.name, shown, ours.name));
 }
-
-}  // namespace
 
 void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
                          const CompareOptions& options) {
@@ -180,9 +174,7 @@ void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
         CompareOptions here = options;
         here.progress = options.progress.part(done / all, (done + 1) / all).about(picture.frame.scene);
         ++done;
-        const Frame& ours = report.frames.at(picture.baseline);
-        if (picture.frame.settings.size == ours.settings.size)
-            lendBackground(picture.frame, ours, picture.frame.notes);
+        showOurBackground(picture.frame, report.frames.at(picture.baseline));
         report.frames.push_back(std::move(picture.frame));
         report.comparisons.push_back(
             compareFrames(report, picture.baseline, report.frames.size() - 1, picture.needs, here));

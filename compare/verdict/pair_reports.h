@@ -43,6 +43,12 @@ struct ExternalPicture {
     std::vector<std::string> words{};  // of the command line that name the renderer
 };
 
+// Another renderer seldom says where it shows no surface, so that `ours` says it for both, where it does.
+// There it shows our picture: what is seen behind everything is not compared, and must not reach into what is
+// by a filter, as FLIP's does. Its own channels become those that were asked for; a note of it says at how
+// many pixels it showed something there.
+void showOurBackground(Frame& external, const Frame& ours);
+
 // Adds the pictures to the report's Frames and compares each with its baseline.
 void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
                          const CompareOptions& options);

@@ -200,6 +200,34 @@ TEST(External, AFrameIsComparedReportedAndWritten) {
                     .failedOver("there are two of this name"));
 }
 
+// Where we show no surface nothing is compared, whatever is shown there, nor what a filter carries across.
+TEST(External, TheBackgroundIsNotCompared) {
+    const Folder folder;
+    const std::string ours = "builtin:triangle --size 32x18 --runs 0 -q ";
+    ASSERT_EQ(runTool(folder, "render " + ours + "--channels lit,material_id -o p.exr").code, 0);
+    const PictureFile file = readExr(folder / "p.exr");
+    Image lit = std::ranges::find(file.layers, "", &PictureLayer::name)->image;
+    const Image& ids = std::ranges::find(file.layers, "material_id", &PictureLayer::name)->image;
+    std::size_t behind = 0;
+    for (std::size_t i = 0; i < lit.pixels(); ++i)
+        if (ids.pixel(i)[0] < 0) {
+            ++behind;
+            std::fill_n(lit.pixel(i), 3, 7.0f);
+        }
+    ASSERT_GT(behind, 0u);
+    writeExr(folder / "theirs.exr", {{{"R", "G", "B"}, &lit}});
+    writeRenderer(folder, "fake", {"copy", (folder / "theirs.exr").string()});
+    EXPECT_EQ(
+        runTool(folder, "compare " + ours + "--channels lit --baseline forward_plus --renderer f=fake.json")
+            .code,
+        0);
+    const Json fake = comparisonWith(reportOf(folder), "f");
+    EXPECT_EQ(fake["channels"][0]["flip"], 0);
+    EXPECT_NE(reportOf(folder)["frames"].back()["notes"].dump().find("f shows something at " +
+                                                                     std::to_string(behind) + " pixel(s)"),
+              std::string::npos);
+}
+
 TEST(External, JsonStandsAloneOnStdoutAndChatterIsCutShort) {
     const Folder folder;
     writeRenderer(folder, "fake", {"chatter"});
@@ -281,6 +309,34 @@ TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {
     EXPECT_FLOAT_EQ(readWith({{"upside_down", true}}).at(16, 12), image.at(16, 5));
     EXPECT_FLOAT_EQ(readWith({{"mirrored", true}}).at(16, 12), image.at(15, 12));
     EXPECT_NEAR(readWith({{"transfer", "srgb"}}).at(16, 12), std::pow((0.136 + 0.055) / 1.055, 2.4), 1e-6);
+}
+
+TEST(External, ARendererHasARowOfATradeoff) {
+    const Folder folder;
+    const std::string ours = "builtin:points --size 32x18 -q ";
+    ASSERT_EQ(runTool(folder, "render " + ours + "--runs 0 --channels lit -o p.exr").code, 0);
+    writeRenderer(folder, "same", {"copy", (folder / "p.exr").string()});
+    writeRenderer(folder, "other", {"picture"});
+    writeRenderer(folder, "fails", {"exit"});
+    const Ran ran =
+        runTool(folder, "tradeoff " + ours +
+                            "--runs 2 --json --grid '{\"settings\":{\"path\":[\"forward_plus\"]}}' "
+                            "--renderer same=same.json --renderer other=other.json "
+                            "--renderer fails=fails.json");
+    EXPECT_EQ(ran.code, 2) << "one has failed";
+    EXPECT_NE(ran.err.find("no licence"), std::string::npos) << ran.err;
+    const Json sweep = Json::parse(ran.out);
+    ASSERT_EQ(sweep["rows"].size(), 3u);
+    EXPECT_EQ(sweep["rows"][0]["renderer"], nullptr);
+    EXPECT_EQ(sweep["rows"][1]["renderer"], "same");
+    EXPECT_EQ(sweep["rows"][1]["errors"], sweep["rows"][0]["errors"]) << "one picture, one error";
+    EXPECT_GT(sweep["rows"][2]["errors"]["flip"], sweep["rows"][1]["errors"]["flip"]);
+    EXPECT_GT(sweep["rows"][1]["ms"]["median"], 0);
+    for (const Json& front : sweep["fronts"])
+        EXPECT_EQ(front["rows"], Json({1})) << "a command's time is no frame's";
+    EXPECT_TRUE(fs::exists(folder / "diptych-tradeoff/row-003.png"));
+    EXPECT_NE(contentsOf(folder / "diptych-tradeoff/index.html").find("same, another renderer"),
+              std::string::npos);
 }
 
 TEST(External, FilesAreReadStrictly) {

@@ -73,6 +73,8 @@ constexpr std::array ROWS{
         builtin::background},
     Row{"range_edge", "lights whose range ends inside the view: falloff must be zero there", TEST,
         builtin::rangeEdge},
+    Row{"calibration", "charts that tell how a renderer of others means what it is told", TEST,
+        builtin::calibration},
     Row{"suns", "directional lights alone", TEST, builtin::suns},
     Row{"points", "point lights alone", TEST, builtin::points},
     Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},

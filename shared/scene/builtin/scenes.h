@@ -38,6 +38,9 @@ Scene triangle();
 Scene empty();
 Scene background();
 
+// calibration.cpp: what a renderer of others is held against
+Scene calibration();
+
 // turned_maps.cpp: normal maps under KHR_texture_transform
 Scene tangents();
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/external/calibration.h"
+#include "compare/external/external_frame.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/load.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+
+namespace diptych::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One picture of the charts by the renderer. Without lamps it must be had, for nothing can be told without;
+// under one, its absence says that such lamps are not drawn.
+external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const external::Renderer& renderer) {
+    external::Shown shown{lamp, external::truthUnder(charts, lamp), {}, {}};
+    const Scene scene = external::chartsUnder(charts, lamp);
+    Settings settings = external::chartSettings(lamp);
+    SceneViews views(scene);
+    external::Attempt attempt =
+        external::drawExternally(renderer, scene, views.at(viewRequest(settings)), settings);
+    const auto lit = static_cast<int>(gpu::DEBUG_lit);
+    if (attempt.frame && attempt.frame->channels.contains(lit))
+        shown.picture = std::move(attempt.frame->channels.at(lit));
+    else
+        shown.problem = attempt.frame ? "its picture has no R, G, B" : attempt.problem;
+    if (lamp == external::Lamp::none && shown.picture.empty())
+        throw std::runtime_error(fmt::format("renderer {}: {}", renderer.file.string(), shown.problem));
+    return shown;
+}
+
+Json grantsOf(const std::vector<external::Deviation>& deviations) {
+    Json granted = Json::object();
+    for (const external::Deviation& deviation : deviations) granted.update(deviation.grant);
+    return granted;
+}
+
+}  // namespace
+
+int runCalibrate(const Options& options) {
+    refuseOut(options);
+    const external::Renderer renderer = external::readRendererFile(options.scenes.front());
+    const std::vector<std::string> granted = external::inWords(renderer.granted);
+    Progress progress(progressOutput(options));
+    const Stage stage(progress, "calibrate");
+    const Scene charts = loadScene("builtin:calibration");
+    std::vector<external::Shown> pictures;
+    for (const external::Lamp lamp : external::lamps) {
+        const double done =
+            static_cast<double>(pictures.size()) / static_cast<double>(std::size(external::lamps));
+        stage.at(done, fmt::format("charts under {}", external::nameOf(lamp)));
+        pictures.push_back(shownUnder(charts, lamp, renderer));
+    }
+    const std::vector<external::Deviation> deviations = external::deviationsOf(charts, pictures);
+    progress.wipe();
+    const Json grants = grantsOf(deviations);
+    if (options.json) {
+        Json json{{"schema", 1},
+                  {"renderer", renderer.file.string()},
+                  {"verdict", deviations.empty() ? "pass" : "fail"},
+                  {"granted_already", granted},
+                  {"deviations", Json::array()},
+                  {"granted", grants}};
+        for (const external::Deviation& one : deviations)
+            json["deviations"].push_back({{"name", one.name}, {"words", one.words}, {"grant", one.grant}});
+        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    } else if (!options.quiet) {
+        std::string out;
+        for (const std::string& line : granted) out += fmt::format("granted {}\n", line);
+        for (const external::Deviation& one : deviations)
+            out += fmt::format("FAIL {}: {}{}\n", one.name, one.words,
+                               one.grant.empty() ? "; nothing can be granted for it" : "");
+        if (deviations.empty()) out += "pass: it means what it is told\n";
+        if (!grants.empty())
+            out += fmt::format("to grant it, in {}{}: \"granted\": {}\n", renderer.file.string(),
+                               granted.empty() ? ""
+                                               : ", on top of what is granted already (factors multiply, "
+                                                 "offsets add)",
+                               grants.dump());
+        printColored(options, out);
+    }
+    return deviations.empty() ? 0 : 1;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/placement.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace diptych::external {
+namespace {
+
+// Of one mark: where its middle is, pixels from the picture's, and how many pixels it has.
+struct Mark {
+    glm::dvec2 place{0};
+    double area = 0;
+};
+
+glm::dvec2 fromMiddle(const Image& image, int x, int y) {
+    return {x + 0.5 - image.width / 2.0, y + 0.5 - image.height / 2.0};
+}
+
+std::optional<Mark> markOf(const Image& ids, int material) {
+    Mark mark;
+    for (int y = 0; y < ids.height; ++y)
+        for (int x = 0; x < ids.width; ++x)
+            if (ids.at(x, y) == static_cast<float>(material)) {
+                mark.place += fromMiddle(ids, x, y);
+                ++mark.area;
+            }
+    if (mark.area == 0) return {};
+    mark.place /= mark.area;
+    return mark;
+}
+
+double brightness(const Image& picture, int x, int y) {
+    double most = 0;
+    for (int c = 0; c < std::min(picture.components, 3); ++c) {
+        const double value = picture.at(x, y, c);
+        if (std::isfinite(value)) most = std::max(most, value);
+    }
+    return most;
+}
+
+// What is brighter than half of the brightest around `place`, which no curve that grows changes.
+std::optional<Mark> shownAround(const Image& picture, const glm::dvec2& place, double reach) {
+    const glm::dvec2 corner = place + glm::dvec2(picture.width, picture.height) / 2.0;
+    const int left = std::max(0, static_cast<int>(corner.x - reach)),
+              right = std::min(picture.width, static_cast<int>(corner.x + reach) + 1),
+              top = std::max(0, static_cast<int>(corner.y - reach)),
+              bottom = std::min(picture.height, static_cast<int>(corner.y + reach) + 1);
+    double most = 0;
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) most = std::max(most, brightness(picture, x, y));
+    if (!(most > 1e-6)) return {};
+    Mark mark;
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x)
+            if (brightness(picture, x, y) > 0.5 * most) {
+                mark.place += fromMiddle(picture, x, y);
+                ++mark.area;
+            }
+    mark.place /= mark.area;
+    return mark;
+}
+
+// A straight line through points, b = slope a + offset, by least squares; slope 1 where all have one a.
+struct Line {
+    double slope = 1, offset = 0;
+};
+Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto n = static_cast<double>(a.size());
+    double ma = 0, mb = 0, saa = 0, sab = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ma += a[i] / n;
+        mb += b[i] / n;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        saa += (a[i] - ma) * (a[i] - ma);
+        sab += (a[i] - ma) * (b[i] - mb);
+    }
+    const double slope = saa > 0 ? sab / saa : 1;
+    return {slope, mb - slope * ma};
+}
+
+// The placement that is nearest to `guess`, with at least `least` marks; empty where one that must be in the
+// picture is not.
+std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& picture,
+                                const Placement& guess) {
+    constexpr std::size_t least = 4;
+    std::vector<double> told_x, told_y, shown_x, shown_y;
+    for (const Mark& mark : marks) {
+        const double radius = 1.3 * std::sqrt(mark.area / glm::pi<double>()) * guess.scale.x;
+        const double reach = radius + 5;
+        const glm::dvec2 place = guess(mark.place);
+        if (std::abs(place.x) + reach > picture.width / 2.0 ||
+            std::abs(place.y) + reach > picture.height / 2.0)
+            continue;  // may be cut off
+        const std::optional<Mark> shown = shownAround(picture, place, reach);
+        const double area = mark.area * guess.scale.x * guess.scale.y;
+        if (!shown || shown->area < 0.6 * area || shown->area > 1.6 * area) return {};
+        told_x.push_back(guess.mirrored ? -mark.place.x : mark.place.x);
+        told_y.push_back(guess.upside_down ? -mark.place.y : mark.place.y);
+        shown_x.push_back(shown->place.x);
+        shown_y.push_back(shown->place.y);
+    }
+    if (told_x.size() < least) return {};
+    const Line x = lineThrough(told_x, shown_x), y = lineThrough(told_y, shown_y);
+    Placement found = guess;
+    found.scale = {x.slope, y.slope};
+    found.shift = {x.offset, y.offset};
+    double squares = 0;
+    for (std::size_t i = 0; i < told_x.size(); ++i)
+        squares += std::pow(x.slope * told_x[i] + x.offset - shown_x[i], 2) +
+                   std::pow(y.slope * told_y[i] + y.offset - shown_y[i], 2);
+    found.residual = std::sqrt(squares / static_cast<double>(told_x.size()));
+    return found;
+}
+
+}  // namespace
+
+std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks,
+                                       const Image& picture) {
+    std::vector<Mark> told;
+    for (const int material : marks)
+        if (const std::optional<Mark> mark = markOf(ids, material)) told.push_back(*mark);
+    std::optional<Placement> best;
+    constexpr double step = 1.02;  // of scales: 4 pixels at the edge of a picture of 400
+    for (const bool upside_down : {false, true})
+        for (const bool mirrored : {false, true})
+            for (double scale = 0.5; scale < 2.05; scale *= step) {
+                Placement guess{upside_down, mirrored, glm::dvec2(scale), glm::dvec2(0), 0};
+                std::optional<Placement> found = fitted(told, picture, guess);
+                if (found) found = fitted(told, picture, *found);  // windows around where they are
+                if (found && (!best || found->residual < best->residual)) best = found;
+            }
+    constexpr double most = 1;  // pixels: squares that are sampled at pixels' middles are found to 0.1
+    return best && best->residual < most ? best : std::nullopt;
+}
+
+std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& picture,
+                                  const Placement& placement) {
+    constexpr int edge = 3;  // pixels that a filter may mix with what is beside
+    std::vector<double> values[3];
+    const auto isInside = [&](int x, int y) {
+        for (int v = -edge; v <= edge; ++v)
+            for (int u = -edge; u <= edge; ++u)
+                if (x + u < 0 || y + v < 0 || x + u >= ids.width || y + v >= ids.height ||
+                    ids.at(x + u, y + v) != static_cast<float>(material))
+                    return false;
+        return true;
+    };
+    for (int y = 0; y < ids.height; ++y)
+        for (int x = 0; x < ids.width; ++x) {
+            if (ids.at(x, y) != static_cast<float>(material) || !isInside(x, y)) continue;
+            const glm::dvec2 at =
+                placement(fromMiddle(ids, x, y)) + glm::dvec2(picture.width, picture.height) / 2.0;
+            const int px = static_cast<int>(std::floor(at.x)), py = static_cast<int>(std::floor(at.y));
+            if (px < 0 || py < 0 || px >= picture.width || py >= picture.height) continue;
+            for (int c = 0; c < 3; ++c)
+                values[c].push_back(picture.at(px, py, std::min(c, picture.components - 1)));
+        }
+    if (values[0].empty()) return {};
+    glm::dvec3 median;
+    for (int c = 0; c < 3; ++c) {
+        const auto middle = values[c].begin() + static_cast<std::ptrdiff_t>(values[c].size() / 2);
+        std::ranges::nth_element(values[c], middle);
+        median[c] = *middle;
+    }
+    return median;
+}
+
+}  // namespace diptych::external

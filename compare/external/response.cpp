@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/response.h"
+
+#include "shared/scene/image/srgb.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace diptych::external {
+namespace {
+
+constexpr double most_off = 0.06;  // of the logarithm; sRGB and a power of 1 / 2.2 differ by 0.1 at 0.02
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// What is written of Rec.709's primaries by a renderer that has others, column by column; white is alike.
+// Inverse of what external_frame.cpp converts by.
+const glm::dmat3 p3_from_rec709{
+    {0.8224622, 0.0331942, 0.0170827}, {0.1775378, 0.9668058, 0.0723974}, {0.0, 0.0, 0.9105199}};
+const glm::dmat3 rec2020_from_rec709{
+    {0.6274039, 0.0690973, 0.0163914}, {0.3292830, 0.9195404, 0.0880133}, {0.0433131, 0.0113623, 0.8955953}};
+
+double distance(const glm::dmat3& a, const glm::dmat3& b) {
+    double most = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) most = std::max(most, std::abs(a[c][r] - b[c][r]));
+    return most;
+}
+
+}  // namespace
+
+Response::Response(std::vector<RampStep> ramp) {
+    // Steps that are written alike, or the least of the ramp that is written as nothing, say nothing.
+    for (const RampStep& step : ramp)
+        if (step.shown > 1e-9 && (ramp_.empty() || step.shown > 1.02 * ramp_.back().shown))
+            ramp_.push_back(step);
+    if (ramp_.size() < 2) return;
+    if (ramp.back().shown <= 1.02 * ramp_.back().shown && ramp_.back().told < ramp.back().told)
+        cut_off_ = ramp_.back().told;
+    // The step at which all is cut off has been cut already.
+    const std::span<const RampStep> sound(ramp_.data(), ramp_.size() - (cut_off_ ? 1 : 0));
+    const auto fits = [&](const auto& decoded, std::size_t most_steps) {
+        std::vector<double> logs;
+        for (const RampStep& step : sound.first(std::min(most_steps, sound.size())))
+            logs.push_back(std::log(decoded(step.shown) / step.told));
+        const double middle = medianOf(logs);
+        if (!std::ranges::all_of(logs, [&](double log) { return std::abs(log - middle) < most_off; }))
+            return false;
+        exposure_ = std::exp(middle);
+        return true;
+    };
+    if (fits([](double shown) { return shown; }, sound.size())) {
+        kind_ = CurveKind::linear;
+    } else {
+        // Beyond 1 the curve is not defined: whoever writes it goes on with it, or cuts off.
+        std::size_t below = 0;
+        while (below < sound.size() && sound[below].shown <= 1.001) ++below;
+        if (below >= 4 && fits(linearFromSrgb, below)) kind_ = CurveKind::srgb;
+    }
+    if (kind_ == CurveKind::linear && cut_off_) cut_off_ = ramp_.back().shown / exposure_;
+}
+
+double Response::straight(double shown) const {
+    if (!(shown > 0) || ramp_.size() < 2) return 0;
+    if (kind_ == CurveKind::linear) return shown / exposure_;
+    if (kind_ == CurveKind::srgb) return linearFromSrgb(shown) / exposure_;
+    // Between two steps, and beyond the last ones as between them, a power of what is written.
+    auto next = std::ranges::lower_bound(ramp_, shown, {}, &RampStep::shown);
+    next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
+    const RampStep &a = *(next - 1), &b = *next;
+    const double share = std::log(shown / a.shown) / std::log(b.shown / a.shown);
+    return a.told * std::pow(b.told / a.told, share);
+}
+
+void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double told) {
+    glm::dmat3 measured(0.0);
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) measured[c][r] = straight(columns[static_cast<std::size_t>(c)][r]) / told;
+    primaries_.reset();
+    double least = 0.06;
+    const std::array candidates{std::pair{Primaries::rec709, glm::dmat3(1.0)},
+                                std::pair{Primaries::display_p3, p3_from_rec709},
+                                std::pair{Primaries::rec2020, rec2020_from_rec709}};
+    for (const auto& [primaries, matrix] : candidates)
+        if (const double far = distance(measured, matrix); far < least) {
+            least = far;
+            primaries_ = primaries;
+            told_from_shown_ = glm::inverse(matrix);
+        }
+    if (!primaries_ && std::abs(glm::determinant(measured)) > 1e-3) told_from_shown_ = glm::inverse(measured);
+}
+
+glm::dvec3 Response::radiance(const glm::dvec3& shown) const {
+    return told_from_shown_ * glm::dvec3(straight(shown.r), straight(shown.g), straight(shown.b));
+}
+
+}  // namespace diptych::external

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "compare/external/sky.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace diptych::external {
+namespace {
+
+constexpr double pi = glm::pi<double>();
+
+// The direction in which a sky that is mirrored and then turned shows what stood at the result's.
+glm::dvec3 before(const glm::dvec3& direction, const SkyMeaning& meaning) {
+    const double angle = glm::radians(-meaning.turned), c = std::cos(angle), s = std::sin(angle);
+    const glm::dvec3 unturned(c * direction.x + s * direction.z, direction.y,
+                              -s * direction.x + c * direction.z);
+    return {meaning.mirrored ? -unturned.x : unturned.x, unturned.y, unturned.z};
+}
+
+// The sky's pixels as lamps: directions, and what each adds to a face that looks there.
+class Texels {
+public:
+    explicit Texels(const Image& sky) {
+        for (int y = 0; y < sky.height; ++y) {
+            const double polar = pi * (y + 0.5) / sky.height;
+            const double solid_angle = 2 * pi / sky.width * pi / sky.height * std::sin(polar);
+            for (int x = 0; x < sky.width; ++x) {
+                const double azimuth = 2 * pi * (x + 0.5) / sky.width - pi;
+                const glm::dvec3 direction(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                           -std::sin(polar) * std::cos(azimuth));
+                const glm::dvec3 radiance(sky.at(x, y, 0), sky.at(x, y, 1), sky.at(x, y, 2));
+                texels_.push_back({direction, radiance * solid_angle / pi,
+                                   glm::min(radiance, glm::dvec3(1)) * solid_angle / pi});
+            }
+        }
+    }
+    glm::dvec3 lightOn(const glm::dvec3& normal, bool cut_off) const {
+        glm::dvec3 sum(0);
+        for (const Texel& texel : texels_)
+            if (const double cosine = glm::dot(texel.direction, normal); cosine > 0)
+                sum += (cut_off ? texel.cut_off : texel.light) * cosine;
+        return sum;
+    }
+
+private:
+    struct Texel {
+        glm::dvec3 direction, light, cut_off;
+    };
+    std::vector<Texel> texels_;
+};
+
+}  // namespace
+
+glm::dvec3 lightFrom(const Image& sky, const glm::dvec3& normal, bool cut_off) {
+    return Texels(sky).lightOn(normal, cut_off);
+}
+
+SkyMeaning skyMeaning(const Image& sky, std::span<const TiltedFace> faces) {
+    const Texels texels(sky);
+    double all = 0;
+    for (const TiltedFace& face : faces) all += glm::dot(face.shown, face.shown);
+    const auto tried = [&](SkyMeaning meaning) {
+        double products = 0, squares = 0;
+        std::vector<glm::dvec3> light;
+        for (const TiltedFace& face : faces) {
+            light.push_back(texels.lightOn(before(face.normal, meaning), meaning.cut_off));
+            products += glm::dot(face.shown, light.back());
+            squares += glm::dot(light.back(), light.back());
+        }
+        meaning.factor = squares > 0 ? products / squares : 1;
+        double rest = 0;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const glm::dvec3 off = faces[i].shown - meaning.factor * light[i];
+            rest += glm::dot(off, off);
+        }
+        meaning.residual = all > 0 ? std::sqrt(rest / all) : 0;
+        return meaning;
+    };
+    const SkyMeaning as_told = tried({});
+    SkyMeaning best = as_told;
+    for (const bool cut_off : {false, true})
+        for (const bool mirrored : {false, true})
+            for (int turned = -175; turned <= 180; turned += 5)
+                if (const SkyMeaning one = tried({mirrored, double(turned), cut_off, 1, 0});
+                    one.residual < best.residual)
+                    best = one;
+    if (!(best.residual < 0.5 * as_told.residual)) return as_told;
+    // What is simpler is believed where it leaves hardly more: the same without a cut, or a turn of a right
+    // angle.
+    constexpr double hardly = 1.25, noise = 0.01;
+    const auto isAsGood = [&](const SkyMeaning& one) {
+        return one.residual < hardly * best.residual + noise;
+    };
+    for (const double turned : {0.0, 90.0, 180.0, -90.0})
+        for (const bool mirrored : {false, true})
+            for (const bool cut_off : {false, true})
+                if (const SkyMeaning one = tried({mirrored, turned, cut_off, 1, 0}); isAsGood(one))
+                    return one;
+    return best;
+}
+
+}  // namespace diptych::external

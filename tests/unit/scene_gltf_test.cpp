@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What renderers of others are handed as glTF, read back by our own reader.
+#include "compare/external/scene_gltf.h"
+
+#include "shared/scene/load.h"
+#include "shared/scene/motion/pose.h"
+#include "shared/scene/motion/posed.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <fstream>
+
+namespace diptych::external {
+namespace {
+
+Scene readBack(const std::string& glb) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "written_scene.glb";
+    std::ofstream(file, std::ios::binary) << glb;
+    Scene scene = loadScene(file.string());
+    std::filesystem::remove(file);
+    return scene;
+}
+
+SceneView viewAt(const Scene& scene, double time) {
+    ViewRequest request;
+    request.time = time;
+    request.width = 64;
+    request.height = 36;
+    return makeSceneView(scene, request);
+}
+
+// Lights that glTF knows, in the order in which they are posed.
+std::vector<Light> punctual(std::vector<Light> lights) {
+    std::erase_if(lights, [](const Light& light) { return isArea(light.kind); });
+    return lights;
+}
+
+TEST(SceneGltf, ARigIsReadBackAsItIs) {
+    for (const std::string name :
+         {"builtin:suns", "builtin:points", "builtin:spots", "builtin:calibration"}) {
+        const Scene scene = loadScene(name);
+        const SceneView view = viewAt(scene, 0);
+        const WrittenScene rig = rigGltf(view);
+        const Scene back = readBack(rig.glb);
+        const Pose pose = poseAt(back, 0);
+        const std::vector<Light> told = punctual(view.lights);
+        ASSERT_EQ(pose.lights.size(), told.size()) << name;
+        for (std::size_t i = 0; i < told.size(); ++i) {
+            const Light &a = told[i], &b = pose.lights[i];
+            EXPECT_EQ(a.kind, b.kind);
+            EXPECT_EQ(a.intensity, b.intensity);
+            EXPECT_EQ(a.color, b.color);
+            if (a.kind != LightKind::directional) {
+                EXPECT_EQ(a.range, b.range);
+                EXPECT_LT(glm::distance(a.position, b.position), 1e-6);
+            }
+            if (a.kind != LightKind::point) {
+                EXPECT_LT(glm::distance(a.direction, b.direction), 1e-6);
+            }
+            if (a.kind == LightKind::spot) {
+                EXPECT_EQ(a.outer_cone, b.outer_cone);
+            }
+        }
+        EXPECT_EQ(rig.notes.empty(), told.size() == view.lights.size()) << "area lights are counted";
+        ASSERT_EQ(back.cameras.size(), 1u);
+        EXPECT_NEAR(back.cameras[0].yfov, view.view.camera.yfov, 1e-9);
+    }
+}
+
+TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
+    for (const std::string name :
+         {"builtin:motion", "builtin:mirrored", "builtin:gallery", "builtin:tangents"}) {
+        const Scene scene = loadScene(name);
+        const SceneView view = viewAt(scene, 0.7);
+        const Scene back = readBack(sceneGltf(scene, view).glb);
+        const Pose pose = poseAt(back, 0);
+        EXPECT_TRUE(back.animations.empty());
+        std::size_t drawn = 0;
+        for (const Instance& instance : view.pose.instances)
+            drawn += !primitiveOf(scene, instance).indices.empty();
+        ASSERT_EQ(pose.instances.size(), drawn) << name;
+        for (std::size_t i = 0, k = 0; i < view.pose.instances.size(); ++i) {
+            const Instance& told = view.pose.instances[i];
+            if (primitiveOf(scene, told).indices.empty()) continue;
+            const Instance& written = pose.instances[k++];
+            const std::vector<glm::dvec3> a = posedPositions(scene, view.pose, told),
+                                          b = posedPositions(back, pose, written);
+            ASSERT_EQ(a.size(), b.size());
+            double far = 0;
+            for (std::size_t v = 0; v < a.size(); ++v) far = std::max(far, glm::distance(a[v], b[v]));
+            EXPECT_LT(far, 1e-5) << name << " " << i;
+            const Material& one =
+                materialsOf(scene, view.pose)[static_cast<std::size_t>(primitiveOf(scene, told).material)];
+            const Material& other =
+                back.materials[static_cast<std::size_t>(primitiveOf(back, written).material)];
+            EXPECT_EQ(one.name, other.name);
+            EXPECT_EQ(one.roughness, other.roughness);
+            EXPECT_NEAR(one.normal_texture.u.x, other.normal_texture.u.x, 1e-6) << name;
+            EXPECT_NEAR(one.normal_texture.v.x, other.normal_texture.v.x, 1e-6) << name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::external
