@@ -33,6 +33,7 @@ const Command commands[] = {
      "diptych view helmet.glb"},
     {"bench", "Frame and pass times of several Settings side by side",
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9"},
+    {"merge", "One report of those that shards wrote, in any order", "diptych merge shard-*/ -o report"},
     {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices"},
 };
 
@@ -225,6 +226,20 @@ void hideUnread(CLI::App& app, const std::string& command) {
     if (command == "devices") hideGroup(app, pixel_group);
 }
 
+// Which of many scenes.
+void addShard(CLI::App& app, Options& options) {
+    app.option_defaults()->group(output_group);
+    app.add_option(
+           "--shard", options.shard,
+           "a part of the scenes: the I-th of N, from 1; slurm: as the task of a Slurm array, of N where the "
+           "array is irregular. merge joins their reports")
+        ->type_name("I/N|slurm[/N]");
+    app.add_option(
+           "--timings", options.timings,
+           "an earlier report, whose times say which scenes take long: those are dealt out first (by size)")
+        ->type_name("DIR|report.json");
+}
+
 // Which Settings are tried.
 void addGrid(CLI::App& app, Options& options, const char* usual) {
     app.add_option("--grid", options.grid,
@@ -376,8 +391,18 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         return addOutput(app, options);
     }
 
+    if (command == "merge") {
+        app.add_option("folders", options.scenes, "the reports of all shards")->type_name("DIR...");
+        addFiles(app, options, "folder of the report (diptych-report)");
+        return addOutput(app, options);
+    }
+
     app.add_option("scene", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
         ->type_name("SCENE...");
+    if (command == "compare" || command == "tradeoff" || command == "choose")
+        app.get_option("scene")->description(
+            "glTF files, builtin:NAME, folders, patterns as 'scenes/**/*.glb', lists as @scenes.txt "
+            "(builtin:gallery)");
     addSettings(app, parsed, command == "bench" ? "assign" : "");
     addPicture(app, options, parsed);
     addDevice(app, options);
@@ -397,6 +422,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "compared (deferred)")
             ->type_name("PATH|FILE.exr");
         addReport(app, options, parsed);
+        if (command == "compare") addShard(app, options);
         app.add_flag("--update-baseline", options.update_baseline,
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
         addSelection(app, options.selection, parsed);

@@ -41,7 +41,7 @@ int runCommand(const Options& options) {
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
         {"compare", runCompare}, {"render", runRender},   {"diff", runDiff},   {"tradeoff", runTradeoff},
         {"explain", runExplain}, {"choose", runChoose},   {"audit", runAudit}, {"bench", runBench},
-        {"plan", runPlan},       {"devices", runDevices}, {"view", runView}};
+        {"plan", runPlan},       {"devices", runDevices}, {"view", runView},   {"merge", runMerge}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::logic_error("no function of the command " + options.command);

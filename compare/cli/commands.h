@@ -32,6 +32,7 @@ int runPixel(const Options& options);  // compare --pixel
 int runRender(const Options& options);
 int runDiff(const Options& options);
 int runTradeoff(const Options& options);
+int runMerge(const Options& options);
 int runBench(const Options& options);
 int runExplain(const Options& options);
 int runChoose(const Options& options);

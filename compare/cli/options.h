@@ -83,6 +83,8 @@ struct Options {
     };
     std::optional<Pixel> pixel;  // compare: that whose story is told, from the top left
     bool update_baseline = false;
+    std::string shard;                 // --shard, as given; empty: the whole
+    std::filesystem::path timings;     // --timings: an earlier report; empty: none
     bool strict = false;               // compare, diff
     bool allow_empty = false;          // compare, diff
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none

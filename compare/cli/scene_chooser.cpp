@@ -194,7 +194,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 
 std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
                                                        const Stage& progress) {
-    const Choice& choice = report.choice;
+    const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
     std::vector<std::size_t> others;
@@ -264,7 +264,7 @@ UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const C
 CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, fmt::format("all {} scenes", reports.size()));
-    std::vector<const Choice*> own;
+    std::vector<const choose::Choice*> own;
     CommonReport all;
     for (const ChoiceReport& report : reports) {
         own.push_back(&report.choice);

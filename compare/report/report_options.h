@@ -5,6 +5,9 @@
 #include "compare/picture/picture.h"
 #include "compare/run/progress.h"
 
+#include <optional>
+#include <string>
+
 namespace diptych {
 
 // The comparisons whose pictures, values and EXRs a report keeps.
@@ -16,6 +19,9 @@ struct ReportOptions {
     Keep keep = Keep::all;
     bool force = false;  // also into a folder that is not a report of ours
     Stage progress{};    // of writing it
+    // Of one scene among many: the folder of its files, with a slash at the end, or "" where the report's own
+    // is (sceneFolders() in folders.h). Nothing: the report is whole.
+    std::optional<std::string> scene_folder{};
 };
 
 }  // namespace diptych
