@@ -59,6 +59,7 @@ int runCompare(const Options& given) {
             baseline = frameFromExr(options.baseline_file);
     }
     checkSamples(options, settings, baseline);
+    checkSince(options);
     if (options.scenes.size() > 1 || !options.shard.empty()) return compareMany(options, settings, folder);
 
     const PictureChoice picture = pictureChoice(options);
@@ -94,17 +95,21 @@ int runCompare(const Options& given) {
         explained = 0.5 * (1 + comparing);
         addExplanations(options, device, report, stage.part(comparing, explained));
     }
-    const std::string json =
-        writeReport(report, folder,
-                    {picture, options.single_file, options.keep, options.force, stage.part(explained, 1)});
+    std::vector<IndexRow> rows;
+    for (const Comparison& comparison : report.comparisons) rows.push_back(indexRowOf(report, comparison));
+    const auto since = sinceOf(options, report, rows);
+    const std::string json = writeReport(report, folder,
+                                         {picture, options.single_file, options.keep, options.force,
+                                          stage.part(explained, 1), std::nullopt, since});
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);
     if (options.json)
         fmt::print("{}", json);
     else if (!options.quiet)
-        printColored(options, fmt::format("{}pictures: {}\nreport: {}\n", reportTable(report),
-                                          exposureLine(report, picture), (folder / "index.html").string()));
+        printColored(options, fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report),
+                                          sinceText(since.get(), report), exposureLine(report, picture),
+                                          (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
     // The old baseline's verdict is no longer the question.
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;

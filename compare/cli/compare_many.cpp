@@ -189,11 +189,13 @@ private:
             whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items_.plan, items_.shard,
                                                   items_.all, whole.errors});
         const Report summary = summaryOf(whole);
-        writeWhole(whole, summary, folder_, reportOptions(std::nullopt, {}));
+        ReportOptions report = reportOptions(std::nullopt, {});
+        report.since = sinceOf(options_, summary, rowsOf(whole));
+        writeWhole(whole, summary, folder_, report);
         kept_.remove();
         progress_.wipe();
         noteLeftByOthers(options_, KeptReferences(folder_, true));
-        showWhole(options_, whole, summary, folder_, true);
+        showWhole(options_, whole, summary, folder_, report.since.get(), true);
         sayErrors(summary.errors);
         return exitCodeOf(summary);
     }
@@ -227,7 +229,7 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
 }
 
 void showWhole(const Options& options, const WholeReport& whole, const Report& summary,
-               const fs::path& folder, bool all) {
+               const fs::path& folder, const Trends* since, bool all) {
     if (options.json) {
         std::ifstream stream(folder / "report.json", std::ios::binary);
         std::string piece(1 << 16, '\0');
@@ -235,7 +237,8 @@ void showWhole(const Options& options, const WholeReport& whole, const Report& s
             std::fwrite(piece.data(), 1, static_cast<std::size_t>(stream.gcount()), stdout);
     } else if (!options.quiet) {
         const std::string exposures = wholeExposureLine(whole);
-        printColored(options, fmt::format("{}{}report: {}\n", wholeTable(whole, summary, all),
+        printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),
+                                          sinceText(since, summary),
                                           exposures.empty() ? "" : fmt::format("pictures: {}\n", exposures),
                                           (folder / "index.html").string()));
     }

@@ -19,7 +19,7 @@ int compareMany(const Options& options, const std::vector<Settings>& settings,
 // Prints what a report of many scenes that was written to `folder` says; `all`: also of comparisons that
 // pass.
 void showWhole(const Options& options, const WholeReport& whole, const Report& summary,
-               const std::filesystem::path& folder, bool all);
+               const std::filesystem::path& folder, const Trends* since, bool all);
 int exitCodeOf(const Report& summary);
 
 }  // namespace diptych::cli

@@ -115,6 +115,7 @@ Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn
                 std::optional<Frame> baseline, const ReportDevice& device, const std::string& again,
                 const Stage& progress) {
     compare.progress = progress;
+    compare.rules = rulesOfScene(compare.rules, drawn.frames.front().scene);
     compare.texels = drawn.texels;
     Report report = comparisonsOf(options, compare, std::move(drawn), std::move(baseline), device);
     for (Comparison& comparison : report.comparisons)

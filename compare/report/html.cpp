@@ -4,6 +4,7 @@
 #include "compare/page/page.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
+#include "compare/report/trends.h"
 
 #include <fmt/format.h>
 
@@ -154,6 +155,15 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
                                     markup(line.substr(0, colon)), markup(line.substr(colon))));
     }
     return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
+}
+
+// What has changed since an earlier report.
+std::string sinceBox(const Report& report, const ReportTexts& texts) {
+    if (!texts.since) return {};
+    std::string items;
+    for (const std::string& line : trendLines(*texts.since, report)) items += "<li>" + markup(line) + "</li>";
+    return fmt::format("<section class=\"box notes since\"><h4>Since {}</h4><ul>{}</ul></section>\n",
+                       markup(texts.since->report), items);
 }
 
 // The keys and gestures that compare/page/gestures.js handles.
@@ -325,7 +335,7 @@ std::string reportHtml(const Report& report, const ReportLayout& layout) {
 
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     std::string body = header(report, layout, texts) + firstNotes(report) + failures(report, layout) +
-                       warnings(report, layout) + checksLinks(report, layout) +
+                       sinceBox(report, texts) + warnings(report, layout) + checksLinks(report, layout) +
                        closerPathSection(report, layout, texts) + indexTable(report, layout, texts) +
                        notes(report, layout) + legend + "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)

@@ -2,6 +2,7 @@
 // Several comparisons: one line each, failures first.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
+#include "compare/report/trends.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -54,6 +55,17 @@ std::string rowTitle(const Report& report, const Comparison& comparison) {
     return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
 }
 
+// The first figure that moved, and all of them where the pointer is.
+std::string sinceCell(const Trend& trend) {
+    std::string all;
+    for (const MovedFigure& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
+    const std::string first = trend.moved.empty() ? ""
+                                                  : fmt::format(" <span class=\"soft\">{}</span>",
+                                                                markup(movedText(trend.moved[0])));
+    return fmt::format("<td class=\"wide\" title=\"{}\">{}{}</td>", markup(all),
+                       trend.kind == TrendKind::same ? "" : nameOf(trend.kind), first);
+}
+
 std::string line(const Report& report, const ReportLayout& layout, const ReportTexts& texts,
                  std::size_t index) {
     const Comparison& comparison = report.comparisons[index];
@@ -66,6 +78,7 @@ std::string line(const Report& report, const ReportLayout& layout, const ReportT
     if (!file.empty())
         data += fmt::format(" data-section=\"{}\" data-title=\"{}\"", markup(file),
                             sectionTitle(report, layout, index));
+    if (texts.since) data += fmt::format(" data-since=\"{}\"", nameOf(texts.since->comparisons[index].kind));
     if (!row.cause.empty()) data += fmt::format(" data-cause=\"{}\"", markup(row.cause));
     std::string cells = fmt::format(
         "<td><span class=\"verdict {0}\">{0}</span></td><td class=\"wide\"><a href=\"#s{1}\" "
@@ -74,7 +87,15 @@ std::string line(const Report& report, const ReportLayout& layout, const ReportT
         markup(camera), worstCell(row, layout.ids[index]), litCell(row));
     if (isTimed(texts))
         cells += timeCell(row.left_ms, row.left_timed) + timeCell(row.right_ms, row.right_timed);
+    if (texts.since) cells += sinceCell(texts.since->comparisons[index]);
     if (texts.devices.size() > 1) cells += fmt::format("<td class=\"wide\">{}</td>", markup(row.device));
+    if (!comparison.passed())
+        cells += fmt::format(
+            "<td><button type=\"button\" data-do=\"accept\" data-scene=\"{}\" title=\"copies the "
+            "command that grants what differs here\">accept</button></td>",
+            markup(left.scene));
+    else
+        cells += "<td></td>";
     return fmt::format("<tr data-comparison=\"{}\"{}>{}</tr>\n", layout.ids[index], data, cells);
 }
 
@@ -149,17 +170,22 @@ std::string indexTable(const Report& report, const ReportLayout& layout, const R
         columns.emplace_back((pairs ? "left" : report.baseline(first).name) + ", ms", true);
         columns.emplace_back((pairs ? "right" : report.test(first).name) + ", ms", true);
     }
+    if (texts.since) columns.emplace_back("since then", false);
     if (texts.devices.size() > 1) columns.emplace_back("device", false);
+    columns.emplace_back("", false);
     std::string heads;
     for (const auto& [name, isNumber] : columns)
         heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
                              isNumber ? " class=\"n optional\"" : "", markup(name));
-    std::vector<std::string> cameras, causes;
+    std::vector<std::string> cameras, causes, kinds;
+    if (texts.since)
+        for (const Trend& trend : texts.since->comparisons) kinds.emplace_back(nameOf(trend.kind));
     for (std::size_t i = 0; i < texts.rows.size(); ++i) {
         cameras.push_back(rowTitle(report, report.comparisons[i]));
         causes.push_back(texts.rows[i].cause);
     }
-    const std::string choices = choiceOf("camera", std::move(cameras)) + choiceOf("cause", std::move(causes));
+    const std::string choices = choiceOf("camera", std::move(cameras)) +
+                                choiceOf("cause", std::move(causes)) + choiceOf("since", std::move(kinds));
     return fmt::format(
         "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
         "<p class=\"narrow\"><input type=\"search\" placeholder=\"filter: scene, camera, time, channel, "

@@ -3,6 +3,7 @@
 
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
+#include "compare/report/trends.h"
 
 namespace diptych {
 namespace {
@@ -199,7 +200,7 @@ Json truthJson(const Report& report) {
 }
 
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const JsonArrays& arrays, const JsonSink& sink) {
+                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink) {
     Json times = Json::array();
     for (const DrawnOn& one : devices) {
         times.push_back(jsonOf(one.device));
@@ -223,6 +224,7 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
         tail[key] = Json::array();
         for (const SceneError& of : *all) tail[key].push_back({{"scene", of.scene}, {"message", of.message}});
     }
+    if (since) tail["since"] = jsonOf(*since, report);
     if (layout) {
         tail["encode_ms"] = only(&DrawnOn::encode_ms);
         tail["files"] = layout->files();
@@ -245,9 +247,9 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
     sink(",\n" + last.substr(2) + "\n");
 }
 
-std::string reportJson(const Report& report, const ReportLayout* layout) {
+std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since) {
     std::string text;
-    writeReportJson(report, layout, {drawnOn(report, layout)},
+    writeReportJson(report, layout, {drawnOn(report, layout)}, since,
                     {[&](const JsonSink& add) { add(innerJson(framesJson(report, layout))); },
                      [&](const JsonSink& add) { add(innerJson(comparisonsJson(report))); },
                      [&](const JsonSink& add) { add(innerJson(truthJson(report))); }},

@@ -18,7 +18,7 @@ namespace diptych {
 
 // report.json, schema 1. JSON has no infinity: a statistic that is infinite is null, and infinite_pixels then
 // says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
-std::string reportJson(const Report& report, const ReportLayout* layout);
+std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since = nullptr);
 
 // The three arrays of it that Frames are needed for, and the text of one's elements as it stands in there,
 // without brackets.
@@ -34,7 +34,7 @@ struct JsonArrays {
     std::function<void(const JsonSink&)> frames, comparisons, truth;
 };
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const JsonArrays& arrays, const JsonSink& sink);
+                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink);
 
 // One test case per scene x camera x channel; one more where a comparison fails for another reason than a
 // channel. The pictures of a failing channel are named as attachments in `folder`. CI servers resolve them

@@ -199,13 +199,6 @@ std::string sectionIn(const fs::path& script) {
     return words[1];
 }
 
-void link(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::create_hard_link(from, to, error);
-    if (error) fs::copy_file(from, to, error);
-    if (error) throw std::runtime_error(fmt::format("{}: {}", from.string(), error.message()));
-}
-
 // The parts' devices, in their order.
 std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
     std::vector<DrawnOn> devices;
@@ -328,6 +321,13 @@ ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
     }
 }
 
+std::vector<IndexRow> rowsOf(const WholeReport& whole) {
+    std::vector<IndexRow> rows;
+    for (const PlacedPart& placed : whole.parts)
+        rows.insert(rows.end(), placed.part.rows.begin(), placed.part.rows.end());
+    return rows;
+}
+
 Report summaryOf(const WholeReport& whole) {
     Report all;
     for (const PlacedPart& placed : whole.parts) {
@@ -363,9 +363,10 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
     ReportTexts texts;
     JunitSuite totals;
     texts.devices = devices;
+    texts.rows = rowsOf(whole);
+    texts.since = options.since;
     for (const PlacedPart& placed : whole.parts) {
         const ReportPart& part = placed.part;
-        texts.rows.insert(texts.rows.end(), part.rows.begin(), part.rows.end());
         texts.closer_boxes.insert(texts.closer_boxes.end(), part.closer_boxes.begin(),
                                   part.closer_boxes.end());
         for (const std::string& section : part.sections) places.push_back({&placed, section});
@@ -397,14 +398,14 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         for (const std::vector<std::string>& names :
              {placed.part.files, placed.part.sections, placed.part.texts()})
             for (const std::string& name : names)
-                if (listed.contains(name)) link(placed.root / name, folder / name);
+                if (listed.contains(name)) linkOrCopy(placed.root / name, folder / name);
     const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
         AtomicFile file(folder / name);
         make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });
         file.commit();
     };
     write(manifest, [&](const JsonSink& sink) {
-        writeReportJson(summary, &layout, devices, {array(0), array(1), array(2)}, sink);
+        writeReportJson(summary, &layout, devices, options.since.get(), {array(0), array(1), array(2)}, sink);
     });
     write("junit.xml", [&](const JsonSink& sink) {
         writeJunit(

@@ -60,6 +60,9 @@ struct WholeReport {
 };
 inline constexpr const char* shardManifest = "shard.json";
 
+// The rows of all its comparisons, in order.
+std::vector<IndexRow> rowsOf(const WholeReport& whole);
+
 // Put together, without pixels: for titles, lists and the verdict.
 Report summaryOf(const WholeReport& whole);
 

@@ -35,13 +35,15 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     layout.encode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-    std::string json = reportJson(report, &layout);
+    ReportTexts texts = textsOf(report, layout);
+    texts.since = options.since;
+    std::string json = reportJson(report, &layout, options.since.get());
     writeFile(folder / manifest, json);
     writeFile(folder / "junit.xml", reportJunit(report, onDisk(layout), path));
     for (std::size_t i = 0; i < layout.sections.size(); ++i)
         if (!layout.sections[i].empty())
             writeFile(folder / layout.sections[i], sectionScript(report, layout, i));
-    writeFile(folder / "index.html", reportHtml(report, layout));
+    writeFile(folder / "index.html", reportHtml(report, layout, texts));
     folder.put(layout.files(), earlier);
     return json;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/texts.h"
 
+#include "compare/files/frame_json.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +38,11 @@ std::string firstCause(const Comparison& comparison) {
     return json["causes"][0].value("name", "");
 }
 
+double noiseOf(const Frame& frame, const ChannelDiff& channel) {
+    const auto found = frame.noise.find(channel.mode->number);
+    return found == frame.noise.end() ? 0 : sortable(found->second.max);
+}
+
 }  // namespace
 
 IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
@@ -44,7 +51,9 @@ IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
         row.worst = worst->mode;
         row.used = sortable(usedShare(*worst));
     }
-    const FrameTime &left = report.baseline(comparison).time, &right = report.test(comparison).time;
+    const Frame &left_frame = report.baseline(comparison), &right_frame = report.test(comparison);
+    const FrameTime &left = left_frame.time, &right = right_frame.time;
+    row.key = rowKey(left_frame.scene, left_frame.name, right_frame.name, jsonOf(left_frame.camera).dump());
     row.left_ms = left.median;
     row.right_ms = right.median;
     row.left_timed = left.runs > 0;
@@ -57,7 +66,8 @@ IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
         row.channels.push_back({std::string(channel.mode->name), std::string(nameOf(channel.verdict)),
                                 sortable(usedShare(channel)), sortable(s.max), sortable(s.mean),
                                 sortable(s.rmse), sortable(s.p99), sortable(s.p999),
-                                channel.flip ? sortable(*channel.flip) : -1});
+                                channel.flip ? sortable(*channel.flip) : -1,
+                                noiseOf(left_frame, channel) + noiseOf(right_frame, channel)});
     }
     return row;
 }
@@ -65,13 +75,15 @@ IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
 Json jsonOf(const IndexRow& row) {
     Json channels = Json::array();
     for (const IndexChannel& c : row.channels)
-        channels.push_back({c.name, c.verdict, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip});
+        channels.push_back(
+            {c.name, c.verdict, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip, c.noise});
     return {{"worst", row.worst ? Json(row.worst->number) : Json(nullptr)},
             {"used", row.used},
             {"ms", {row.left_ms, row.right_ms}},
             {"timed", {row.left_timed, row.right_timed}},
             {"cause", row.cause},
             {"device", row.device},
+            {"key", row.key},
             {"channels", channels}};
 }
 
@@ -85,10 +97,16 @@ IndexRow indexRowFromJson(const nlohmann::json& json) {
     row.right_timed = json.at("timed").at(1);
     row.cause = json.at("cause");
     row.device = json.at("device");
+    row.key = json.at("key");
     for (const auto& c : json.at("channels"))
         row.channels.push_back(
-            {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), c.at(6), c.at(7), c.at(8)});
+            {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), c.at(6), c.at(7), c.at(8), c.at(9)});
     return row;
+}
+
+std::string rowKey(const std::string& scene, const std::string& baseline, const std::string& test,
+                   const std::string& camera_json) {
+    return scene + "\n" + baseline + "\n" + test + "\n" + camera_json;
 }
 
 DrawnOn drawnOn(const Report& report, const ReportLayout* layout) {

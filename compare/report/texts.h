@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct IndexChannel {
     std::string name, verdict;  // as nameOf(Verdict)
     // Of the limit, a share; what is infinite is 1e300, as JSON and sorting have it; FLIP below 0: none.
     double used = 0, max = 0, mean = 0, rmse = 0, p99 = 0, p999 = 0, flip = -1;
+    double noise = 0;  // the largest difference of two runs, of both paths together
 };
 
 // A comparison in that table.
@@ -30,6 +32,7 @@ struct IndexRow {
     bool left_timed = false, right_timed = false;
     std::string cause;   // that explains most of a difference of lit, where that was looked for
     std::string device;  // that drew it
+    std::string key;     // rowKey()
     std::vector<IndexChannel> channels;  // that were compared
 };
 nlohmann::ordered_json jsonOf(const IndexRow& row);
@@ -51,11 +54,16 @@ struct DrawnOn {
 };
 
 struct ReportTexts {
+    std::shared_ptr<const Trends> since;  // nullptr: none
     std::vector<DrawnOn> devices;
     std::vector<IndexRow> rows;                       // per comparison
     std::vector<std::string> closer_boxes;            // of the page, per Report::closer_paths
     std::function<std::string(std::size_t)> section;  // of a comparison, in the page
 };
+
+// What a comparison is called by from report to report: scene, pair and camera.
+std::string rowKey(const std::string& scene, const std::string& baseline, const std::string& test,
+                   const std::string& camera_json);
 
 IndexRow indexRowOf(const Report& report, const Comparison& comparison);
 

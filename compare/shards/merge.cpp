@@ -81,63 +81,81 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
 
 }  // namespace
 
-Joined join(const std::vector<fs::path>& folders) {
+std::optional<SceneError> Chosen::errorOf(const Item& item) const {
+    if (!folders.contains(item.shard))
+        return SceneError{
+            item.scene, fmt::format("is of shard {}/{}, which is missing", item.shard, manifest.shard.count)};
+    const auto& all = errors.at(item.shard);
+    const auto error = std::ranges::find(all, item.scene, &SceneError::scene);
+    return error == all.end() ? std::nullopt : std::optional(*error);
+}
+
+Chosen choose(const std::vector<fs::path>& folders, const char* file) {
+    Chosen chosen;
     std::vector<Found> all;
-    std::set<fs::path> seen;
     for (const fs::path& folder : folders) {
-        Found found{folder, readManifest(folder, shardManifest), {}};
+        Found found{folder, {}, {}};
+        try {
+            found.manifest = readManifest(folder, file);
+        } catch (const std::runtime_error& error) {
+            chosen.problems.emplace_back(error.what());  // its scenes may be missing, which is said as well
+            continue;
+        }
         found.identity =
             found.manifest.build + "\n" + found.manifest.command + "\n" + planHash(found.manifest.plan);
         all.push_back(std::move(found));
     }
+    if (all.empty()) throw std::runtime_error(chosen.problems.front());
     // The result does not depend on the order of the command line.
     std::ranges::stable_sort(all, {}, &Found::folder);
     const std::string identity = chosenOf(all);
-    Joined joined;
-    std::map<int, const Found*> shards;
     for (const Found& found : all) {
         if (found.identity != identity) continue;
-        if (shards.empty()) joined.manifest = found.manifest;
-        const auto [at, fresh] = shards.emplace(found.manifest.shard.index, &found);
-        if (!fresh)
-            joined.problems.push_back(fmt::format(
-                "{}: shard {}/{} is there twice, in {} too; the first is taken", found.folder.string(),
-                found.manifest.shard.index, found.manifest.shard.count, at->second->folder.string()));
+        if (chosen.folders.empty()) chosen.manifest = found.manifest;
+        const Shard& shard = found.manifest.shard;
+        const auto [at, fresh] = chosen.folders.emplace(shard.index, found.folder);
+        if (fresh)
+            chosen.errors[shard.index] = found.manifest.errors;
+        else
+            chosen.problems.push_back(
+                fmt::format("{}: shard {}/{} is there twice, in {} too; the first is taken",
+                            found.folder.string(), shard.index, shard.count, at->second.string()));
     }
     for (const Found& found : all)
         if (found.identity != identity)
-            joined.problems.push_back(fmt::format("{}: {}; it is left out", found.folder.string(),
-                                                  differenceOf(found.manifest, joined.manifest)));
-    const int count = joined.manifest.shard.count;
+            chosen.problems.push_back(fmt::format("{}: {}; it is left out", found.folder.string(),
+                                                  differenceOf(found.manifest, chosen.manifest)));
+    const int count = chosen.manifest.shard.count;
     for (int index = 1; index <= count; ++index)
-        if (!shards.contains(index))
-            joined.problems.push_back(
-                fmt::format("shard {}/{} is missing; give the folder that it wrote, or run "
-                            "--shard {}/{}",
+        if (!chosen.folders.contains(index))
+            chosen.problems.push_back(
+                fmt::format("shard {}/{} is missing; give the folder that it wrote, or run --shard {}/{}",
                             index, count, index, count));
-    for (const Item& item : joined.manifest.items) {
-        const auto found = shards.find(item.shard);
-        if (found == shards.end()) {
-            joined.report.errors.push_back(
-                {item.scene, fmt::format("is of shard {}/{}, which is missing", item.shard, count)});
-            continue;
-        }
-        const Found& from = *found->second;
-        const auto error = std::ranges::find(from.manifest.errors, item.scene, &SceneError::scene);
-        if (error != from.manifest.errors.end()) {
+    chosen.manifest.errors.clear();
+    return chosen;
+}
+
+Joined join(const std::vector<fs::path>& folders) {
+    Joined joined;
+    Chosen chosen = choose(folders, shardManifest);
+    for (const Item& item : chosen.manifest.items) {
+        if (const std::optional<SceneError> error = chosen.errorOf(item)) {
             joined.report.errors.push_back(*error);
             continue;
         }
+        const fs::path& from = chosen.folders.at(item.shard);
         try {
-            ReportPart part = readPart(from.folder, item.folder);
-            checkFiles(from.folder, part);
-            joined.report.parts.push_back({std::move(part), from.folder});
+            ReportPart part = readPart(from, item.folder);
+            checkFiles(from, part);
+            joined.report.parts.push_back({std::move(part), from});
         } catch (const std::runtime_error& problem) {
-            joined.problems.push_back(
-                fmt::format("{}: the report is incomplete: {}", from.folder.string(), problem.what()));
+            chosen.problems.push_back(
+                fmt::format("{}: the report is incomplete: {}", from.string(), problem.what()));
             joined.report.errors.push_back({item.scene, problem.what()});
         }
     }
+    joined.manifest = std::move(chosen.manifest);
+    joined.problems = std::move(chosen.problems);
     return joined;
 }
 

@@ -6,10 +6,25 @@
 #include "compare/shards/manifest.h"
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace diptych::shards {
+
+// Of folders that shards wrote, those of one command.
+struct Chosen {
+    Manifest manifest;                             // of the command; without errors
+    std::map<int, std::filesystem::path> folders;  // by shard
+    std::map<int, std::vector<SceneError>> errors;
+    std::vector<std::string> problems;  // as of Joined
+
+    // Why there is nothing of the scene: its shard is missing, or could not do it.
+    std::optional<SceneError> errorOf(const Item& item) const;
+};
+// By the manifest that is called `file`. As join().
+Chosen choose(const std::vector<std::filesystem::path>& folders, const char* file);
 
 struct Joined {
     Manifest manifest;  // of the command: that of the shards that were joined
@@ -21,7 +36,7 @@ struct Joined {
 
 // Joins the reports in `folders`, in any order. Of different commands those are joined that most folders are
 // of (of as many, that of the first by name); what is missing of it becomes an error of each of its scenes.
-// Throws std::runtime_error naming a folder that is no report of a shard.
+// Throws std::runtime_error where no folder is the report of a shard.
 Joined join(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace diptych::shards

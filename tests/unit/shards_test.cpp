@@ -29,7 +29,7 @@ Variables task(int id, int first, int last, int step) {
                   {"SLURM_ARRAY_TASK_STEP", std::to_string(step)}});
 }
 
-std::string faultOf(const std::string& word, const Variables& environment = setTo({})) {
+std::string shardWords(const std::string& word, const Variables& environment = setTo({})) {
     try {
         const Shard shard = shardOf(word, environment);
         return fmt::format("{}/{}", shard.index, shard.count);
@@ -39,21 +39,21 @@ std::string faultOf(const std::string& word, const Variables& environment = setT
 }
 
 TEST(Shards, AreCountedFromOne) {
-    EXPECT_EQ(faultOf("1/1"), "1/1");
-    EXPECT_EQ(faultOf("16/16"), "16/16");
-    EXPECT_EQ(faultOf("0/3"), "--shard 0/3: there is no shard 0 of 3; the first is 1");
-    EXPECT_EQ(faultOf("4/3"), "--shard 4/3: there is no shard 4 of 3; the first is 1");
+    EXPECT_EQ(shardWords("1/1"), "1/1");
+    EXPECT_EQ(shardWords("16/16"), "16/16");
+    EXPECT_EQ(shardWords("0/3"), "--shard 0/3: there is no shard 0 of 3; the first is 1");
+    EXPECT_EQ(shardWords("4/3"), "--shard 4/3: there is no shard 4 of 3; the first is 1");
     for (const char* word : {"", "3", "1/", "/3", "a/3", "1/3/5", "1 /3", "1.5/3", "slurm/x"})
-        EXPECT_NE(faultOf(word).find("is I/N, the I-th of N from 1"), std::string::npos) << word;
+        EXPECT_NE(shardWords(word).find("is I/N, the I-th of N from 1"), std::string::npos) << word;
 }
 
 TEST(Shards, ARegularArrayOfSlurmSaysItself) {
-    EXPECT_EQ(faultOf("slurm", task(1, 1, 16, 1)), "1/16");
-    EXPECT_EQ(faultOf("slurm", task(15, 0, 15, 1)), "16/16");
-    EXPECT_EQ(faultOf("slurm", task(10, 4, 16, 3)), "3/5") << "4, 7, 10, 13, 16";
-    EXPECT_EQ(faultOf("slurm", task(7, 7, 7, 1)), "1/1");
-    EXPECT_NE(faultOf("slurm").find("SLURM_ARRAY_TASK_ID is not set"), std::string::npos);
-    EXPECT_NE(faultOf("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is no number: x"),
+    EXPECT_EQ(shardWords("slurm", task(1, 1, 16, 1)), "1/16");
+    EXPECT_EQ(shardWords("slurm", task(15, 0, 15, 1)), "16/16");
+    EXPECT_EQ(shardWords("slurm", task(10, 4, 16, 3)), "3/5") << "4, 7, 10, 13, 16";
+    EXPECT_EQ(shardWords("slurm", task(7, 7, 7, 1)), "1/1");
+    EXPECT_NE(shardWords("slurm").find("SLURM_ARRAY_TASK_ID is not set"), std::string::npos);
+    EXPECT_NE(shardWords("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is no number: x"),
               std::string::npos);
 }
 
@@ -63,12 +63,12 @@ TEST(Shards, AnIrregularArrayNeedsItsNumber) {
         return std::string(name) == "SLURM_ARRAY_TASK_COUNT" ? std::optional<std::string>("3")
                                                              : uncounted(name);
     };
-    EXPECT_NE(faultOf("slurm", counted).find("the array is irregular"), std::string::npos) << "1, 5, 7";
-    EXPECT_NE(faultOf("slurm", task(5, 1, 8, 2)).find("the array is irregular"), std::string::npos);
-    EXPECT_NE(faultOf("slurm", task(4, 1, 7, 2)).find("the array is irregular"), std::string::npos);
-    EXPECT_NE(faultOf("slurm", task(1, 1, 7, 0)).find("the array is irregular"), std::string::npos);
-    EXPECT_EQ(faultOf("slurm/7", counted), "5/7");
-    EXPECT_NE(faultOf("slurm/4", counted).find("there is no shard 5 of 4"), std::string::npos);
+    EXPECT_NE(shardWords("slurm", counted).find("the array is irregular"), std::string::npos) << "1, 5, 7";
+    EXPECT_NE(shardWords("slurm", task(5, 1, 8, 2)).find("the array is irregular"), std::string::npos);
+    EXPECT_NE(shardWords("slurm", task(4, 1, 7, 2)).find("the array is irregular"), std::string::npos);
+    EXPECT_NE(shardWords("slurm", task(1, 1, 7, 0)).find("the array is irregular"), std::string::npos);
+    EXPECT_EQ(shardWords("slurm/7", counted), "5/7");
+    EXPECT_NE(shardWords("slurm/4", counted).find("there is no shard 5 of 4"), std::string::npos);
 }
 
 TEST(Shards, EverySceneIsOfOneShard) {
