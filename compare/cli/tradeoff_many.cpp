@@ -113,9 +113,10 @@ std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>&
         rows, page::tables);
 }
 
-// The page and the manifest, once every scene's folder is there.
-int finish(const Options& options, const fs::path& folder, shards::Manifest manifest,
-           const std::vector<const shards::Item*>& done) {
+// The page and the manifest: at first of no scene, so that the folder is ours from then on, and of all once
+// they are there. Returns the manifest.
+std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+                      const std::vector<const shards::Item*>& done) {
     std::vector<Swept> swept;
     for (const shards::Item* item : done) swept.push_back(sweptOf(*item, tradeoffIn(folder / item->folder)));
     ListedFolder out(folder, tradeoffsManifest, options.force);
@@ -130,11 +131,16 @@ int finish(const Options& options, const fs::path& folder, shards::Manifest mani
                                   {"front", one.front},
                                   {"fastest", {{"ms", one.fastest_ms}, {"flip", one.fastest_flip}}},
                                   {"most_accurate", {{"ms", one.best_ms}, {"flip", one.best_flip}}}});
-    const std::string text = out.finish(std::move(json));
+    return out.finish(std::move(json));
+}
+
+int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+           const std::vector<const shards::Item*>& done) {
+    const std::string text = writePage(options, folder, manifest, done);
     if (options.json)
         fmt::print("{}", text);
     else if (!options.quiet)
-        fmt::print("{} scenes: {}\n", swept.size(), (folder / "index.html").string());
+        fmt::print("{} scenes: {}\n", done.size(), (folder / "index.html").string());
     sayErrors(manifest.errors);
     return manifest.errors.empty() ? 0 : 2;
 }
@@ -147,6 +153,7 @@ int tradeoffMany(const Options& options, const fs::path& folder,
     KeptFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
+    if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
     for (const shards::Item* item : items.mine) {
         const std::string folder_name =
             item->folder.empty() ? sceneFolders({item->scene}).front() : item->folder;
@@ -175,7 +182,7 @@ int tradeoffMany(const Options& options, const fs::path& folder,
     if (done.empty() && !manifest.errors.empty() && options.shard.empty())
         throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
                                              items.all.size(), manifest.errors.front().message));
-    const int code = finish(options, folder, std::move(manifest), done);
+    const int code = finish(options, folder, manifest, done);
     kept.remove();
     return code;
 }
@@ -184,6 +191,7 @@ int mergeTradeoffs(const Options& options) {
     const fs::path folder = outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest);
     shards::Chosen chosen = shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoffsManifest);
     std::vector<const shards::Item*> done;
+    writePage(options, folder, chosen.manifest, {});
     for (const shards::Item& item : chosen.manifest.items) {
         const auto from = chosen.folders.find(item.shard);
         if (const std::optional<SceneError> error = chosen.errorOf(item)) {

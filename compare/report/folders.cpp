@@ -107,7 +107,8 @@ std::vector<std::string> sceneFolders(const std::vector<std::string>& scenes) {
     std::map<std::string, int> asked;
     for (const std::string& scene : scenes) {
         std::string name = sceneFolder(scene);
-        if (const int again = ++asked[name]; again > 1) name += fmt::format("-{}", again);
+        const int met = ++asked[name];
+        if (met > 1) name += fmt::format("-{}", met);
         folders.push_back(name + "/");
     }
     return folders;

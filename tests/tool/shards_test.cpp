@@ -104,6 +104,26 @@ TEST(ManyScenes, ADifferenceOfReportsIsSeen) {
     EXPECT_FALSE(alike(folder / "a", folder / "b"));
 }
 
+// Where CI servers look for them: from the folder that merge was called in.
+TEST(ManyScenes, FailuresOfManyScenesAreAttached) {
+    const Folder folder;
+    folder.write("strict.json", R"({"rules":[{"channel":"lit","max":0,"because":"none"}]})");
+    for (const int i : {1, 2})
+        runTool(folder, fmt::format("compare -q builtin:points builtin:spots{} --keep failing --tolerances "
+                                    "strict.json --shard {}/2 -o {}",
+                                    how, i, i));
+    EXPECT_EQ(runTool(folder, "merge -q 1 2 -o out/all").code, 1);
+    const std::string junit = contentsOf(folder / "out/all/junit.xml");
+    std::size_t found = 0;
+    for (std::size_t at = junit.find("[[ATTACHMENT|"); at != junit.npos;
+         at = junit.find("[[ATTACHMENT|", at + 1)) {
+        const std::string name = junit.substr(at + 13, junit.find("]]", at) - at - 13);
+        EXPECT_TRUE(name.starts_with("out/all/") && fs::exists(folder / name)) << name;
+        ++found;
+    }
+    EXPECT_GE(found, 2u);
+}
+
 TEST(ManyScenes, MergeNamesWhatItMust) {
     const Folder folder;
     const std::string few = "compare -q builtin:points builtin:triangle builtin:spots" + how;
@@ -248,6 +268,29 @@ TEST(ManyScenes, FoldersAndListsMeanTheirScenes) {
     ASSERT_EQ(json["errors"].size(), 1u) << "it is named twice and stands once";
     EXPECT_EQ(json["errors"][0]["scene"], "scenes/a/bad.gltf");
     EXPECT_TRUE(runTool(folder, "compare nothing/*.glb").failedOver("matches no .gltf or .glb file"));
+}
+
+// Of each scene a tradeoff of its own, whichever shard makes it.
+TEST(ManyScenes, TradeoffsOfShardsStandBesideEachOther) {
+    const Folder folder;
+    const std::string tradeoff =
+        "tradeoff -q builtin:points builtin:triangle gone.glb --size 32x18 --runs 1 --grid "
+        "'{\"settings\":{\"gbuffer\":[\"compact\",\"full\"]}}' ";
+    for (const int i : {1, 2}) runTool(folder, fmt::format("{}--shard {}/2 -o t{}", tradeoff, i, i));
+    const Ran merged = runTool(folder, "merge t2 t1 -o all");
+    EXPECT_EQ(merged.code, 2) << "one cannot be drawn";
+    EXPECT_NE(merged.err.find("gone.glb"), std::string::npos) << merged.err;
+    const auto json = nlohmann::json::parse(contentsOf(folder / "all/tradeoffs.json"));
+    ASSERT_EQ(json["scenes"].size(), 2u);
+    for (const char* scene : {"points", "triangle"}) {
+        EXPECT_TRUE(fs::exists(folder / "all" / scene / "index.html")) << scene;
+        EXPECT_NE(contentsOf(folder / "all/index.html").find(fmt::format("href=\"{}/index.html\"", scene)),
+                  std::string::npos);
+    }
+    EXPECT_EQ(runTool(folder, "merge -q t1 -o half").code, 2) << "a shard is missing";
+    EXPECT_EQ(runTool(folder, tradeoff + "-o one").code, 2);
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(folder / "one/tradeoffs.json"))["scenes"].size(), 2u);
+    EXPECT_EQ(runTool(folder, tradeoff + "-o one").code, 2) << "its own folder may be replaced";
 }
 
 TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {

@@ -28,8 +28,9 @@ Names below(const fs::path& root, const Names& words) {
     for (const std::string& word : words)
         names.push_back(word.starts_with("builtin:") ? word : (root / word).generic_string());
     for (const std::string& scene : scenesOf(names))
-        found.push_back(scene.starts_with("builtin:") ? scene
-                                                      : fs::path(scene).lexically_relative(root).string());
+        found.push_back(scene.starts_with("builtin:")
+                            ? scene
+                            : fs::path(scene).lexically_normal().lexically_relative(root).string());
     return found;
 }
 
