@@ -8,10 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -50,19 +48,11 @@ void checkChooseOptions(const Options& options) {
         throw std::runtime_error(*problem);
 }
 
-// Each once, in the order in which they were named.
-std::vector<std::string> scenesToChooseFor(const Options& options) {
-    std::vector<std::string> scenes = withFoldersOpened(options.scenes);
-    std::set<std::string> seen;
-    std::erase_if(scenes, [&](const std::string& scene) { return !seen.insert(scene).second; });
-    return scenes;
-}
-
 }  // namespace
 
 int runChoose(const Options& options) {
     checkChooseOptions(options);
-    const std::vector<std::string> scenes = scenesToChooseFor(options);
+    const std::vector<std::string> scenes = scenesOf(options.scenes);
     SceneChooser chooser(options);
     Choices choices;
     const auto tell = [&](const std::string& words) {

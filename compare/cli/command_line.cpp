@@ -352,8 +352,15 @@ std::string meantOption(const std::string& error, const CLI::App& app) {
 
 }  // namespace
 
-Options parseCommandLine(const std::vector<std::string>& words) {
+Options parseCommandLine(const std::vector<std::string>& given) {
     Options options;
+    // Of submit, what stands behind -- is a command of its own.
+    std::vector<std::string> words = given;
+    if (!given.empty() && given.front() == "submit") {
+        const auto end = std::ranges::find(words, "--");
+        if (end != words.end()) options.submit.words.assign(end + 1, words.end());
+        words.erase(end, words.end());
+    }
     options.scenes.clear();
     ParsedOptions parsed;
 

@@ -35,6 +35,11 @@ const Command commands[] = {
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9"},
     {"calibrate", "How another renderer means what it is told: what it shows of charts whose answer is known",
      "diptych calibrate three.json"},
+    {"merge", "One report of those that shards wrote, in any order", "diptych merge shard-*/ -o report"},
+    {"submit", "A command over many scenes as an array of Slurm jobs, and one that joins their reports",
+     "diptych submit slurm --shards 16 --at-once 4 -- compare scenes/ -o report"},
+    {"accept", "Writes rules that grant what a report shows to differ",
+     "diptych accept diptych-report Box.glb --channel lit -o accepted.json"},
     {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices"},
 };
 
@@ -227,6 +232,28 @@ void hideUnread(CLI::App& app, const std::string& command) {
     if (command == "devices") hideGroup(app, pixel_group);
 }
 
+// Which of many scenes.
+void addShard(CLI::App& app, Options& options) {
+    app.option_defaults()->group(output_group);
+    app.add_option(
+           "--shard", options.shard,
+           "a part of the scenes: the I-th of N, from 1; slurm: as the task of a Slurm array, of N where the "
+           "array is irregular. merge joins their reports")
+        ->type_name("I/N|slurm[/N]");
+    app.add_option(
+           "--timings", options.timings,
+           "an earlier report, whose times say which scenes take long: those are dealt out first (by size)")
+        ->type_name("DIR|report.json");
+}
+
+void addSince(CLI::App& app, Options& options) {
+    app.option_defaults()->group(output_group);
+    app.add_option(
+           "--since", options.since,
+           "an earlier report: new failures, mended ones, and figures that moved by more than their noise")
+        ->type_name("DIR|report.json");
+}
+
 // Which Settings are tried.
 void addGrid(CLI::App& app, Options& options, const char* usual) {
     app.add_option("--grid", options.grid,
@@ -398,8 +425,46 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         return addOutput(app, options);
     }
 
+    if (command == "submit") {
+        app.add_option("engine", options.submit.engine, "what runs the jobs")->type_name("slurm")->required();
+        app.add_option("--shards", options.submit.shards,
+                       "how many parts the scenes are cut into (one each, at most 16)")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1000000));
+        app.add_option("--at-once", options.submit.at_once, "how many of them run at a time (no limit)")
+            ->type_name("K")
+            ->check(CLI::Range(1, 1000000));
+        app.add_option("--sbatch", options.submit.options,
+                       "an option of sbatch for the shards, as --sbatch=--partition=long; several times")
+            ->type_name("OPTION")
+            ->allow_extra_args(false);
+        app.add_flag("--dry-run", options.submit.dry_run, "print both scripts, and write and submit nothing");
+        addFiles(app, options, "refused: the command behind -- says where its report is");
+        return addOutput(app, options);
+    }
+    if (command == "accept") {
+        app.add_option("report", options.scenes, "a report, and one of its scenes (all that fail)")
+            ->type_name("DIR [SCENE]");
+        app.add_option("--channel", options.accept.channel, "the one channel (all that fail)")
+            ->type_name("NAME");
+        app.add_option("--because", options.accept.because, "the reason, which reports print")
+            ->type_name("TEXT");
+        addFiles(app, options, "the file of rules, to which these are added (accepted.json)");
+        return addOutput(app, options);
+    }
+    if (command == "merge") {
+        app.add_option("folders", options.scenes, "the reports of all shards")->type_name("DIR...");
+        addFiles(app, options, "folder of the report (diptych-report)");
+        addSince(app, options);
+        return addOutput(app, options);
+    }
+
     app.add_option("scene", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
         ->type_name("SCENE...");
+    if (command == "compare" || command == "tradeoff" || command == "choose")
+        app.get_option("scene")->description(
+            "glTF files, builtin:NAME, folders, patterns as 'scenes/**/*.glb', lists as @scenes.txt "
+            "(builtin:gallery)");
     addSettings(app, parsed, command == "bench" ? "assign" : "");
     addPicture(app, options, parsed);
     addDevice(app, options);
@@ -420,6 +485,8 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             ->type_name("PATH|FILE.exr");
         addRenderers(app, parsed, "another renderer, whose picture is compared with the left panel");
         addReport(app, options, parsed);
+        if (command == "compare") addShard(app, options);
+        if (command == "compare") addSince(app, options);
         app.add_flag("--update-baseline", options.update_baseline,
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
         addSelection(app, options.selection, parsed);
@@ -441,6 +508,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
     } else if (command == "tradeoff") {
         addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
+        addShard(app, options);
         addGrid(app, options, "each by itself, and declared pairs");
         addRenderers(app, parsed, "another renderer, which gets a row");
     } else if (command == "choose") {

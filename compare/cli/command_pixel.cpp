@@ -58,6 +58,7 @@ int runPixel(const Options& options) {
     say(options, "on " + device.info().name);
     SceneViews views(scene);
     Renderer renderer(device, views);
+    const std::vector<Rule> rules = rulesOfScene(compare.rules, where);
     const PixelStory story = pixelStory(renderer, views,
                                         {.x = options.pixel->x,
                                          .y = options.pixel->y,
@@ -65,7 +66,7 @@ int runPixel(const Options& options) {
                                          .test = settings[2],
                                          .reference = settings[0],
                                          .device = reportDevice(device),
-                                         .rules = compare.rules,
+                                         .rules = rules,
                                          .progress = stage.part(0.1, 1)});
     checkValidation(device);
     wipeProgress();

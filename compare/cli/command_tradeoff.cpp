@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/cli/tradeoff_many.h"
 #include "compare/external/external_frame.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
+#include "compare/files/scene_folders.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/color.h"
@@ -40,9 +42,6 @@ double msSince(Clock::time_point start) {
 }
 
 void checkTradeoffOptions(const Options& options) {
-    if (options.scenes.size() != 1)
-        throw std::runtime_error(
-            fmt::format("{}: a tradeoff is of one scene; run it once for each", options.scenes[1]));
     if (options.runs < 1) throw std::runtime_error("--runs 0: a tradeoff needs times; 1 or more");
     if (options.settings.path == Path::reference)
         throw std::runtime_error("--path reference: is what the others are measured against; use another");
@@ -280,14 +279,18 @@ private:
 
 }  // namespace
 
-int runTradeoff(const Options& options) {
+int runTradeoff(const Options& words) {
+    Options options = words;
+    options.scenes = scenesOf(words.scenes);
     checkTradeoffOptions(options);
     const Settings& given = options.settings;
-    SweepRows sweep =
+    const SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are of lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
-    return Sweep(options, std::move(sweep)).run();
+    if (options.scenes.size() == 1 && options.shard.empty()) return Sweep(options, sweep).run();
+    return tradeoffMany(options, outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest),
+                        [&](const Options& one) { Sweep(one, sweep).run(); });
 }
 
 }  // namespace diptych::cli

@@ -39,9 +39,11 @@ int listChannels(const Options& options) {
 int runCommand(const Options& options) {
     if (options.list_channels) return listChannels(options);
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
-        {"compare", runCompare}, {"render", runRender},   {"diff", runDiff},   {"tradeoff", runTradeoff},
-        {"explain", runExplain}, {"choose", runChoose},   {"audit", runAudit}, {"bench", runBench},
-        {"plan", runPlan},       {"devices", runDevices}, {"view", runView},   {"calibrate", runCalibrate}};
+        {"compare", runCompare},   {"render", runRender},   {"diff", runDiff},
+        {"tradeoff", runTradeoff}, {"explain", runExplain}, {"choose", runChoose},
+        {"audit", runAudit},       {"bench", runBench},     {"plan", runPlan},
+        {"devices", runDevices},   {"view", runView},       {"merge", runMerge},
+        {"accept", runAccept},     {"submit", runSubmit},   {"calibrate", runCalibrate}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::logic_error("no function of the command " + options.command);
@@ -137,6 +139,27 @@ void sayErrors(const std::vector<SceneError>& errors) {
 
 void printColored(const Options& options, const std::string& text) {
     fmt::print("{}", hasColor(options.color, stdout) ? colored(text) : text);
+}
+
+std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,
+                                      const std::vector<IndexRow>& rows) {
+    return options.since.empty() ? nullptr
+                                 : std::make_shared<const Trends>(trendsSince(options.since, report, rows));
+}
+
+void checkSince(const Options& options) {
+    if (options.since.empty()) return;
+    if (!options.shard.empty())
+        throw std::runtime_error("--since: a shard has not all scenes; give it to merge");
+    trendsSince(options.since, {}, {});
+}
+
+std::string sinceText(const Trends* since, const Report& report) {
+    std::string text;
+    if (since)
+        for (const std::string& line : trendLines(*since, report))
+            text += fmt::format("since {}: {}\n", since->report, line);
+    return text;
 }
 
 void noteLeftByOthers(const Options& options, const KeptReferences& kept) {

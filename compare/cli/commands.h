@@ -8,12 +8,14 @@
 #include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
 #include "compare/render/shown_scene.h"
+#include "compare/report/trends.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +34,9 @@ int runPixel(const Options& options);  // compare --pixel
 int runRender(const Options& options);
 int runDiff(const Options& options);
 int runTradeoff(const Options& options);
+int runMerge(const Options& options);
+int runAccept(const Options& options);
+int runSubmit(const Options& options);
 int runBench(const Options& options);
 int runExplain(const Options& options);
 int runChoose(const Options& options);
@@ -81,6 +86,14 @@ void sayErrors(const std::vector<SceneError>& errors);
 
 // Prints on stdout what people read, in colour where --color or the terminal says so.
 void printColored(const Options& options, const std::string& text);
+
+// What has changed since the report of --since, read where one is given: of comparisons with these rows. And
+// whether it is one at all, before anything long is done: throws std::runtime_error naming it where it is
+// none.
+std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,
+                                      const std::vector<IndexRow>& rows);
+void checkSince(const Options& options);
+std::string sinceText(const Trends* since, const Report& report);  // lines for a terminal
 
 // note() on references that other commands with this output have left half done.
 void noteLeftByOthers(const Options& options, const KeptReferences& kept);

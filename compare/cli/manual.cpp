@@ -81,7 +81,7 @@ std::string optionEntry(const CLI::Option& option) {
 
 // ---- completions ------------------------------------------------------------------------------------------
 
-std::string quoted(const std::string& word) {
+std::string singleQuoted(const std::string& word) {
     std::string out = "'";
     for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
@@ -104,9 +104,10 @@ std::string bashCompletion(const CLI::App& app, const Words& scenes) {
                 values +=
                     fmt::format("        {}:{}) choices={} ;;\n", command->get_name(),
                                 fmt::join(spellingsOf(*option), fmt::format("|{}:", command->get_name())),
-                                quoted(list(words)));
+                                singleQuoted(list(words)));
         }
-        cases += fmt::format("        {}) options={} ;;\n", command->get_name(), quoted(list(spellings)));
+        cases +=
+            fmt::format("        {}) options={} ;;\n", command->get_name(), singleQuoted(list(spellings)));
     }
     return fmt::format(
         R"(# bash completion of diptych
@@ -136,10 +137,10 @@ _diptych() {{
 }}
 complete -o filenames -o nospace -F _diptych diptych
 )",
-        quoted(list(names) + " --help --version"), values, cases, [&] {
+        singleQuoted(list(names) + " --help --version"), values, cases, [&] {
             Words bare;
             for (const std::string& scene : scenes) bare.push_back(scene.substr(scene.find(':') + 1));
-            return quoted(list(bare));
+            return singleQuoted(list(bare));
         }());
 }
 
@@ -157,8 +158,8 @@ std::string zshText(std::string text) {
 std::string zshCompletion(const CLI::App& app, const Words& scenes) {
     std::string commands, cases;
     for (const CLI::App* command : commandsOf(app)) {
-        commands += fmt::format("        {}\n",
-                                quoted(command->get_name() + ":" + oneParagraph(command->get_description())));
+        commands += fmt::format("        {}\n", singleQuoted(command->get_name() + ":" +
+                                                             oneParagraph(command->get_description())));
         cases += fmt::format("        {}) _arguments -s \\\n", command->get_name());
         for (const CLI::Option* option : optionsOf(*command))
             for (const std::string& spelling : spellingsOf(*option)) {
@@ -167,12 +168,12 @@ std::string zshCompletion(const CLI::App& app, const Words& scenes) {
                     const Words words = valuesOf(*option);
                     spec += words.empty() ? ":value:_files" : fmt::format(":value:({})", list(words));
                 }
-                cases += fmt::format("            {} \\\n", quoted(spec));
+                cases += fmt::format("            {} \\\n", singleQuoted(spec));
             }
         cases += "            '*:scene:_diptych_scenes' ;;\n";
     }
     Words escaped;
-    for (const std::string& scene : scenes) escaped.push_back(quoted(scene));
+    for (const std::string& scene : scenes) escaped.push_back(singleQuoted(scene));
     return fmt::format(R"(#compdef diptych
 _diptych_scenes() {{
     compadd -- {}

@@ -44,6 +44,21 @@ struct ViewOptions {
     bool watch = false;            // --watch
 };
 
+// accept
+struct AcceptOptions {
+    std::string channel;  // empty: every one that fails
+    std::string because;  // empty: what it was accepted from
+};
+
+// submit
+struct SubmitOptions {
+    std::string engine;                // "slurm"
+    std::vector<std::string> words;    // of the command, behind --
+    std::vector<std::string> options;  // --sbatch
+    int shards = 0, at_once = 0;       // 0: as many as there are scenes, at most 16; no limit
+    bool dry_run = false;
+};
+
 struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
     std::string command;  // "compare"
@@ -86,6 +101,8 @@ struct Options {
     };
     std::optional<Pixel> pixel;  // compare: that whose story is told, from the top left
     bool update_baseline = false;
+    std::string shard;                 // --shard, as given; empty: the whole
+    std::filesystem::path timings;     // --timings: an earlier report; empty: none
     bool strict = false;               // compare, diff
     bool allow_empty = false;          // compare, diff
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
@@ -94,8 +111,11 @@ struct Options {
     ChooseOptions choose;
     AuditOptions audit;
     ViewOptions view;
-    bool probe = false;  // devices: runs the probes of compare/probe
-    std::string grid;    // tradeoff, choose: a file or JSON; empty: usualGrids()
+    AcceptOptions accept;
+    SubmitOptions submit;
+    std::filesystem::path since;  // compare, merge: an earlier report; empty: none
+    bool probe = false;           // devices: runs the probes of compare/probe
+    std::string grid;             // tradeoff, choose: a file or JSON; empty: usualGrids()
 };
 
 // The animation time, s, of picture `frame` of --frames, from 0 on.

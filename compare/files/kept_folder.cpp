@@ -72,7 +72,7 @@ void KeptFolder::clear() {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
         if (entry.path().filename() != keyFile) files.push_back(entry.path());
     std::error_code ignored;
-    for (const fs::path& file : files) fs::remove(file, ignored);
+    for (const fs::path& file : files) fs::remove_all(file, ignored);
     fs::remove(folder_ / keyFile, ignored);
 }
 

@@ -23,6 +23,7 @@ public:
     // A part's JSON; null where there is none or it is incomplete.
     nlohmann::ordered_json find(const std::string& name) const;
     void keep(const std::string& name, const nlohmann::ordered_json& part) const;
+    const std::filesystem::path& path() const { return folder_; }
     // The path of a file of a part.
     std::filesystem::path operator/(const std::string& file) const { return folder_ / file; }
     void remove();  // all of it: the command has made its output

@@ -151,6 +151,14 @@ void OutputFolder::put(const std::vector<std::string>& files,
     moveFiles(folder_, *temporary_, {files, old});
 }
 
+void linkOrCopy(const fs::path& from, const fs::path& to) {
+    const auto held = holdTemporaries();  // or an interruption could not remove the folder
+    std::error_code error;
+    fs::create_hard_link(from, to, error);
+    if (error) fs::copy_file(from, to, error);
+    if (error) throw std::runtime_error(writingFailed(finalName(to), error.value()));
+}
+
 void finishOutput(const fs::path& folder) {
     const fs::path path = nameOf(folder);
     if (!isMoveBegun(path)) return;

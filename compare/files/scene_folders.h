@@ -6,9 +6,16 @@
 
 namespace diptych {
 
-// Scenes as the command line names them, in its order; a folder stands for the .gltf and .glb files in it and
-// below, sorted by name, hidden ones left out. Throws std::runtime_error, one line, where a folder cannot be
-// read or holds none.
-std::vector<std::string> withFoldersOpened(const std::vector<std::string>& scenes);
+// The scenes that the words of a command line mean, in their order, each once.
+//   a folder        the .gltf and .glb files in it and below, sorted by name, hidden ones left out
+//   a pattern       those whose names match: * and ? and [...] within a name, ** any folders; a folder that
+//                   matches stands for what is in it. What is there under the very name is no pattern, and
+//                   FILE?scene=NAME is none
+//   @LIST           the lines of a file: each is any of these, relative to the list's folder; empty lines and
+//                   what follows a # at the beginning of a line or behind a space are left out
+//   anything else   itself: a file, whether or not it is there, or builtin:NAME
+// Throws std::runtime_error, one line, where a folder or list cannot be read or names no scene, a pattern
+// matches none, or a list contains itself.
+std::vector<std::string> scenesOf(const std::vector<std::string>& words);
 
 }  // namespace diptych

@@ -10,3 +10,18 @@ async function copy(button) {
     button.textContent = 'selected';
   }
 }
+
+// Copies the command that writes rules for what differs in a scene; without access to the clipboard it shows it.
+async function accept(button) {
+  const quoted = text => /^[\w+=:,./@%-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
+  const report = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, '') : 'diptych-report';
+  const command = `diptych accept ${quoted(report)} ${quoted(button.dataset.scene)} -o accepted.json`;
+  try {
+    await navigator.clipboard.writeText(command);
+    button.textContent = 'copied';
+  } catch {
+    const code = Object.assign(document.createElement('code'), { textContent: command });
+    button.replaceWith(code);
+    getSelection().selectAllChildren(code);  // the user only has to press Ctrl+C
+  }
+}

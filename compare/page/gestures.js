@@ -93,6 +93,7 @@ addEventListener('click', event => {
   if (!button) return;
   if (button.dataset.show) card.show(button.dataset.show, button.dataset.show === 'wipe' ? 50 : undefined);
   else if (button.dataset.do === 'copy') copy(button);
+  else if (button.dataset.do === 'accept') accept(button);
   else if (button.dataset.do) actions[button.dataset.do](card);
 });
 

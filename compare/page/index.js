@@ -3,7 +3,14 @@
 
 const arriving = new Map();  // comparison -> what to do once its section is there
 
-window.diptychSection = (index, html) => {
+const escaped = text => text.replace(/[&<>"]/g, c => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
+
+// `which`: a comparison's number; or, of a report that was put together of parts, the file that the section is in,
+// which does not know number and title.
+window.diptychSection = (which, html) => {
+  const line = isNaN(which) && document.querySelector(`tr[data-section="${CSS.escape(which)}"]`);
+  const index = line ? +line.dataset.comparison : which;
+  if (line) html = html.replaceAll('\x01', index).replaceAll('\x02', escaped(line.dataset.title));
   const sections = document.getElementById('sections');
   sections.insertAdjacentHTML('beforeend', html);
   prepare(sections.lastElementChild);
@@ -24,23 +31,85 @@ function fetchSection(index, then) {
 fillShared(document);
 arrive();
 
-const index = document.querySelector('.index');
-if (index) {
-  const lines = [...index.querySelectorAll('tbody tr')], shown = index.querySelector('.shown');
-  const filter = index.querySelector('[type=search]');
-  const narrow = () => {
-    const words = filter.value.toLowerCase().split(/\s+/);
+// ---- The table of comparisons: what is looked for, and the figures of a channel in a column of their own.
+
+// Of a channel in the page's figures: its verdict, then these.
+const figures = ['of its limit', 'max', 'mean', 'rmse', 'p99', 'p99.9', 'FLIP'];
+const threeDigits = value => value >= 1e300 ? 'inf' : value === 0 || Math.abs(value) >= 1e-4 && Math.abs(value) < 1e4 ? String(+value.toPrecision(3)) : value.toExponential(2).replace(/\.?0+e/, 'e');
+
+class Index {
+  constructor(element) {
+    this.element = element;
+    this.table = element.querySelector('table');
+    this.lines = [...element.querySelectorAll('tbody tr')];
+    this.shown = element.querySelector('.shown');
+    this.filter = element.querySelector('[type=search]');
+    this.heads = [...this.table.tHead.rows[0].cells];
+    this.column = this.heads.findIndex(head => head.textContent === 'lit max');
+    this.selects = Object.fromEntries([...element.querySelectorAll('select')].map(select => [select.dataset.by, select]));
+    for (const [name, select] of Object.entries(this.selects)) {
+      if (choices.has(name)) select.value = choices.get(name);
+      select.addEventListener('change', () => this.chosen());
+    }
+    this.filter.value = choices.get('filter') ?? '';
+    this.filter.addEventListener('input', () => this.narrow());
+    if (this.selects.channel.value || this.selects.figure.value !== 'max') this.fill();
+    if ([...choices.keys()].some(name => name === 'filter' || this.selects[name])) this.narrow();
+  }
+
+  // Parsed when it is asked for.
+  get all() { return this.figures ??= JSON.parse(document.getElementById('figures').textContent); }
+
+  // What a column of its own shows of the channel; without one, of lit.
+  get channel() { return this.selects.channel.value || 'lit'; }
+
+  of(line) { return this.all[line.dataset.comparison]?.channels[this.channel]; }
+
+  chosen() {
+    for (const [name, select] of Object.entries(this.selects)) choose(name, name === 'figure' && select.value === 'max' ? '' : select.value);
+    this.fill();
+    this.narrow();
+  }
+
+  fill() {
+    if (this.column < 0) return;
+    const figure = this.selects.figure.value, at = figures.indexOf(figure) + 1;
+    const name = figure === 'of its limit' ? `${this.channel}, of its limit` : `${this.channel} ${figure}`;
+    this.heads[this.column].querySelector('button').textContent = name;
+    for (const line of this.lines) {
+      const cell = line.cells[this.column], value = this.of(line)?.[at] ?? 0;
+      cell.dataset.value = Math.max(value, 0);
+      cell.dataset.head = name;
+      cell.textContent = value < 0 ? '' : figure === 'of its limit' ? (value < 1e300 ? threeDigits(100 * value) + ' %' : 'beyond') : threeDigits(value);
+    }
+    if (this.heads[this.column].hasAttribute('aria-sort')) this.sorted?.();
+  }
+
+  // With a channel, pass and fail are the channel's.
+  has(line, verdict) {
+    if (!verdict) return true;
+    const channel = this.selects.channel.value;
+    const fails = channel ? this.of(line)?.[0] === 1 : line.querySelector('.verdict').textContent === 'fail';
+    return fails === (verdict === 'fail');
+  }
+
+  narrow() {
+    const words = this.filter.value.toLowerCase().split(/\s+/), verdict = this.selects.verdict.value;
+    const wanted = ['scene', 'camera', 'cause', 'since'].filter(name => this.selects[name]?.value).map(name => [name, this.selects[name].value]);
     let count = 0;
-    for (const line of lines) {
+    for (const line of this.lines) {
       line.search_text ??= line.textContent.toLowerCase();
-      line.hidden = !words.every(word => line.search_text.includes(word));
+      line.hidden = !words.every(word => line.search_text.includes(word)) || !this.has(line, verdict) ||
+        !wanted.every(([name, value]) => line.dataset[name] === value);
       count += !line.hidden;
     }
-    shown.textContent = count === lines.length ? '' : `${count} of ${lines.length}`;
-    choose('filter', filter.value);
-  };
-  filter.addEventListener('input', narrow);
-  filter.value = choices.get('filter') ?? '';
-  if (filter.value) narrow();
-  sortable(index.querySelector('table'), true);
+    this.shown.textContent = count === this.lines.length ? '' : `${count} of ${this.lines.length}`;
+    choose('filter', this.filter.value);
+  }
+}
+
+const index = document.querySelector('.index');
+if (index) {
+  const table = new Index(index);
+  table.sorted = sortable(index.querySelector('table'), true);
 }

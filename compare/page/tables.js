@@ -124,6 +124,8 @@ function sortable(table, down) {
   });
   const asked = choices.get('sort') ?? '', head = heads.find(head => head.textContent === asked.replace(/^-/, ''));
   if (head) sort(head, asked.startsWith('-') ? -1 : 1);
+  // Again by the head that it is sorted by, after its values have changed.
+  return () => heads.filter(head => head.hasAttribute('aria-sort')).forEach(head => sort(head, head.getAttribute('aria-sort') === 'ascending' ? 1 : -1));
 }
 
 prepare(document);

@@ -28,7 +28,15 @@ std::string exposureLine(const Frame& frame, const PictureChoice& choice) {
 std::string exposureLine(const Report& report, const PictureChoice& choice) {
     std::vector<Exposure> all;
     for (const Comparison& comparison : report.comparisons)
-        all.push_back(exposureOf(report.baseline(comparison), comparison.coverage, choice));
+        all.push_back(exposureOf(report, comparison, choice));
+    return exposureLine(all);
+}
+
+Exposure exposureOf(const Report& report, const Comparison& comparison, const PictureChoice& choice) {
+    return exposureOf(report.baseline(comparison), comparison.coverage, choice);
+}
+
+std::string exposureLine(const std::vector<Exposure>& all) {
     if (all.empty()) return {};
     const auto [least, most] = std::ranges::minmax(all, {}, &Exposure::factor);
     if (least.factor == most.factor) return all.front().because;

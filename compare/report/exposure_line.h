@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace diptych {
 
@@ -14,6 +15,8 @@ namespace diptych {
 // their own the range, and how all get the same.
 std::string exposureLine(const Frame& frame, const PictureChoice& choice);
 std::string exposureLine(const Report& report, const PictureChoice& choice);
+std::string exposureLine(const std::vector<Exposure>& all);  // one per comparison
+Exposure exposureOf(const Report& report, const Comparison& comparison, const PictureChoice& choice);
 
 // The factor that a picture of this linear file gets by itself: of lit, or of the first colours of another
 // renderer's file. Throws std::runtime_error where the file cannot be read or holds no radiance.

@@ -102,13 +102,27 @@ std::string nameOfFile(std::string_view name) {
     return fmt::format("{}~~{:016x}", safe.substr(0, longestFile / 2), hash);
 }
 
-ReportFolders reportFolders(const Report& report) {
+std::vector<std::string> sceneFolders(const std::vector<std::string>& scenes) {
+    std::vector<std::string> folders;
+    std::map<std::string, int> asked;
+    for (const std::string& scene : scenes) {
+        std::string name = sceneFolder(scene);
+        const int met = ++asked[name];
+        if (met > 1) name += fmt::format("-{}", met);
+        folders.push_back(name + "/");
+    }
+    return folders;
+}
+
+ReportFolders reportFolders(const Report& report, const std::optional<std::string>& scene_folder) {
     const Views views = viewsOf(report);
     std::vector<std::string> folders(views.shown.size());
     std::map<std::string, int> asked;
-    for (std::size_t i = 0; i < folders.size() && folders.size() > 1; ++i) {
+    const bool several = scene_folder ? !scene_folder->empty() : folders.size() > 1;
+    for (std::size_t i = 0; i < folders.size() && several; ++i) {
         const Frame& frame = *views.shown[i];
-        std::string& name = folders[i] = sceneFolder(frame.scene);
+        std::string& name = folders[i] =
+            scene_folder ? scene_folder->substr(0, scene_folder->size() - 1) : sceneFolder(frame.scene);
         if (!frame.settings.camera.empty())
             name += "/" + nameOfFolder(frame.settings.camera, frame.settings.camera);
         if (saysTime(report, frame)) name += "/" + timeFolder(frame.settings.time);

@@ -4,6 +4,7 @@
 
 #include "compare/verdict/comparison.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,13 @@ struct ReportFolders {
 // was asked for has one, and in that every time that a title says: "entrance/0_5s/". Where these have several
 // comparisons, each has one of its own in there: "forward_plus-against-reference/". Who asks for one scene,
 // camera and time twice finds the second under "NAME-2/".
-ReportFolders reportFolders(const Report& report);
+// `scene_folder`: of a report of one scene among many, the folder that the scene has there, with a slash at
+// the end, or ""; nothing: the report is whole.
+ReportFolders reportFolders(const Report& report,
+                            const std::optional<std::string>& scene_folder = std::nullopt);
+
+// The folder of each of many different scenes, with a slash at the end: called after the scene alone, but of
+// two that would be called the same the second has "-2" behind it.
+std::vector<std::string> sceneFolders(const std::vector<std::string>& scenes);
 
 }  // namespace diptych

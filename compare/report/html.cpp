@@ -4,6 +4,7 @@
 #include "compare/page/page.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
+#include "compare/report/trends.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
     return title;
 }
 
-std::string header(const Report& report, const ReportLayout& layout) {
+std::string header(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     const char* verdict = report.passed() && report.errors.empty() ? "pass" : "fail";
     const std::size_t count = report.comparisons.size();
     const std::string title =
@@ -47,12 +48,22 @@ std::string header(const Report& report, const ReportLayout& layout) {
         if (!report.device.name.empty())
             drawn += fmt::format(" \u00b7 {} G-buffer \u00b7 ", nameOf(frame.settings.gbuffer));
     }
-    if (!report.device.name.empty())
-        drawn += fmt::format("{} ({}), {}", report.device.name, report.device.type, report.device.driver);
+    std::string devices;
+    for (const DrawnOn& one : texts.devices)
+        if (!one.device.name.empty())
+            devices += fmt::format("{}{} ({}), {}", devices.empty() ? "" : "; ", one.device.name,
+                                   one.device.type, one.device.driver);
+    drawn += devices;
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
         "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
         verdict, markup(title), markup(drawn), markup(verdictLine(report)));
+}
+
+double total(const ReportTexts& texts, double DrawnOn::*ms) {
+    double sum = 0;
+    for (const DrawnOn& one : texts.devices) sum += one.*ms;
+    return sum;
 }
 
 std::string listBox(const char* style, const char* heading, const std::string& items) {
@@ -101,8 +112,8 @@ std::string failures(const Report& report, const ReportLayout& layout) {
         for (const std::string& failure : comparison.failures) items.push_back(where + markup(failure));
         for (const ChannelDiff& channel : comparison.channels)
             if (channel.verdict == Verdict::fail)
-                items.push_back(
-                    fmt::format("{}{}: {}", where, cardLink(i, *channel.mode), markup(channel.reason)));
+                items.push_back(fmt::format("{}{}: {}", where, cardLink(layout.ids[i], *channel.mode),
+                                            markup(channel.reason)));
     }
     return listBox("failures", "Failures",
                    firstOf(items, "the comparisons below begin with those that fail"));
@@ -115,7 +126,7 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
         for (const ChannelDiff& channel : report.comparisons[i].channels)
             if (!channel.warning.empty())
                 items.push_back(fmt::format("{}{}: {}", whereOf(report, layout, report.comparisons[i]),
-                                            cardLink(i, *channel.mode), markup(channel.warning)));
+                                            cardLink(layout.ids[i], *channel.mode), markup(channel.warning)));
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
@@ -148,10 +159,19 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
         if (line.empty()) continue;
         const std::size_t colon = line.find(':');
         items.push_back(fmt::format("{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span>",
-                                    whereOf(report, layout, comparison), i, markup(line.substr(0, colon)),
-                                    markup(line.substr(colon))));
+                                    whereOf(report, layout, comparison), layout.ids[i],
+                                    markup(line.substr(0, colon)), markup(line.substr(colon))));
     }
     return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
+}
+
+// What has changed since an earlier report.
+std::string sinceBox(const Report& report, const ReportTexts& texts) {
+    if (!texts.since) return {};
+    std::string items;
+    for (const std::string& line : trendLines(*texts.since, report)) items += "<li>" + markup(line) + "</li>";
+    return fmt::format("<section class=\"box notes since\"><h4>Since {}</h4><ul>{}</ul></section>\n",
+                       markup(texts.since->report), items);
 }
 
 // The keys and gestures that compare/page/gestures.js handles.
@@ -205,7 +225,7 @@ std::string metricAndUnit(const DebugMode& mode) {
     return std::string(nameOf(mode.metric)) + (unit.empty() ? "" : ", " + unit);
 }
 
-std::string overview(const Comparison& comparison, std::size_t index) {
+std::string overview(const Comparison& comparison, const std::string& id) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
         "class=\"optional\">metric</th><th class=\"n optional\">max</th><th class=\"n "
@@ -216,8 +236,8 @@ std::string overview(const Comparison& comparison, std::size_t index) {
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
-                           cardId(index, *channel->mode), breakable(channel->mode->name),
-                           judgedBelow(*channel), metricAndUnit(*channel->mode));
+                           cardId(id, *channel->mode), breakable(channel->mode->name), judgedBelow(*channel),
+                           metricAndUnit(*channel->mode));
         if (!isCompared(channel->verdict))
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
@@ -244,7 +264,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
            "most.</p></div>\n";
 }
 
-std::string footer(const Report& report, const ReportLayout& layout) {
+std::string footer(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     const std::string several =
         report.comparisons.size() > 1 ? fmt::format("; {} files in all", layout.files().size()) : "";
     return fmt::format(
@@ -254,7 +274,7 @@ std::string footer(const Report& report, const ReportLayout& layout) {
         "channels; "
         "colour maps come after. Background pixels are outside every statistic; percentiles are by nearest "
         "rank.</p></footer>\n",
-        several, report.diff_ms, layout.encode_ms);
+        several, total(texts, &DrawnOn::compare_ms), total(texts, &DrawnOn::encode_ms));
 }
 
 std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
@@ -266,59 +286,82 @@ std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
     return "<p class=\"soft camera\">Every channel as float32:" + links + "</p>\n";
 }
 
+}  // namespace
+
+std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index) {
+    return report.comparisons.size() > 1 ? markup(titleOf(report, layout, report.comparisons[index]))
+                                         : "Channels";
+}
+
 std::string section(const Report& report, const ReportLayout& layout, std::size_t index) {
     const Comparison& comparison = report.comparisons[index];
-    const bool several = report.comparisons.size() > 1;
-    return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
-                       several ? markup(titleOf(report, layout, comparison)) : "Channels") +
-           overview(comparison, index) +
+    return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", layout.ids[index],
+                       layout.part ? std::string(titleLater) : sectionTitle(report, layout, index)) +
+           overview(comparison, layout.ids[index]) +
            (comparison.explained ? comparison.explained->html(layout.source(layout.cause_maps[index])) : "") +
            channelCards(report, layout, index) + checksSection(report, layout, index) +
            "<h2>What was compared</h2>\n" + frameTables(report, comparison) + exrLinks(layout, comparison) +
            "</section>\n";
 }
 
+namespace {
+
 // With --single-file the later sections are text, from which the browser builds nothing until one is opened.
-std::string laterSections(const Report& report, const ReportLayout& layout) {
+std::string laterSections(const ReportLayout& layout, const ReportTexts& texts) {
     std::string out;
     if (layout.single_file)
         for (std::size_t at = comparisonsInPage; at < layout.order.size(); ++at)
             out += fmt::format("<script type=\"text/plain\" id=\"section-{}\">{}</script>\n",
-                               layout.order[at], section(report, layout, layout.order[at]));
+                               layout.order[at], texts.section(layout.order[at]));
     return out;
 }
 
 }  // namespace
 
-std::string cardId(std::size_t comparison, const DebugMode& mode) {
+std::string cardId(const std::string& comparison, const DebugMode& mode) {
     return fmt::format("c{}-{}", comparison, nameOfFile(mode.name));
 }
 
-std::string cardLink(std::size_t comparison, const DebugMode& mode) {
+std::string cardLink(const std::string& comparison, const DebugMode& mode) {
     return fmt::format("<a href=\"#{}\">{}</a>", cardId(comparison, mode), markup(mode.name));
 }
 
+ReportTexts textsOf(const Report& report, const ReportLayout& layout) {
+    ReportTexts texts;
+    texts.devices.push_back(drawnOn(report, &layout));
+    for (const Comparison& comparison : report.comparisons)
+        texts.rows.push_back(indexRowOf(report, comparison));
+    for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
+        texts.closer_boxes.push_back(closerPathBox(report, layout, i));
+    texts.section = [&](std::size_t index) { return section(report, layout, index); };
+    return texts;
+}
+
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report, layout) + firstNotes(report) + failures(report, layout) +
-                       warnings(report, layout) + checksLinks(report, layout) +
-                       closerPathSection(report, layout) + indexTable(report, layout) +
+    return reportHtml(report, layout, textsOf(report, layout));
+}
+
+std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
+    std::string body = header(report, layout, texts) + firstNotes(report) + failures(report, layout) +
+                       sinceBox(report, texts) + warnings(report, layout) + checksLinks(report, layout) +
+                       closerPathSection(report, layout, texts) + indexTable(report, layout, texts) +
                        notes(report, layout) + legend + "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
-        body += section(report, layout, layout.order[at]);
-    body += "</div>\n" + laterSections(report, layout);
+        body += texts.section(layout.order[at]);
+    body += "</div>\n" + laterSections(layout, texts);
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
         "</head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
         "channels</a>{}{}<script>{}{}{}</script>\n</body></html>\n",
-        markup(verdictLine(report)), page::style, body, footer(report, layout), page::tables, page::copying,
-        page::script);
+        markup(verdictLine(report)), page::style, body, footer(report, layout, texts), page::tables,
+        page::copying, page::script);
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {
     using Json = nlohmann::json;
     return fmt::format(
-        "diptychSection({},{});\n", index,
+        "diptychSection({},{});\n", layout.part ? Json(layout.sections[index]).dump() : layout.ids[index],
         Json(section(report, layout, index)).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -35,7 +35,7 @@ public:
           channel_(channel),
           pictures_(layout.pictures[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
-          id_(cardId(comparison, *channel.mode)) {}
+          id_(cardId(layout.ids[comparison], *channel.mode)) {}
 
     std::string html() const {
         const DebugMode& mode = *channel_.mode;

@@ -42,16 +42,14 @@ public:
           right_(report.test(comparison_)),
           layout_(layout),
           pictures_(layout.pictures[index]),
-          index_(index),
+          id_(layout.ids[index]),
           lit_(channelOr(gpu::DEBUG_lit, anyChannel())),
-          dark_(channelOr(gpu::DEBUG_albedo, lit_)) {
-        for (std::size_t i = 0; i < index; ++i) first_ += countOf(report.comparisons[i]);
-    }
+          dark_(channelOr(gpu::DEBUG_albedo, lit_)) {}
 
     std::string html() const {
         if (comparison_.visual_checks.empty()) return {};
         std::string views, rows;
-        std::size_t number = first_;
+        std::size_t number = 0;
         for (const FeatureChecks& feature : comparison_.visual_checks) {
             rows += rowsOf(feature, number);
             for (const VisualCheck& check : feature.checks) views += view(feature, check, number++);
@@ -63,7 +61,7 @@ public:
             "<div class=\"box scroll\"><table><tr><th>feature</th><th>right "
             "if</th><th>places</th></tr>\n{}</table>"
             "</div></section>\n",
-            index_, lit_ == npos ? "" : " Each place leads to its picture.", sources(), views, rows);
+            id_, lit_ == npos ? "" : " Each place leads to its picture.", sources(), views, rows);
     }
 
 private:
@@ -123,7 +121,7 @@ private:
             images);
     }
     std::string idOf(std::size_t channel, char side) const {
-        return fmt::format("eye-{}-{}-{}", index_, comparison_.channels[channel].mode->name, side);
+        return fmt::format("eye-{}-{}-{}", id_, comparison_.channels[channel].mode->name, side);
     }
 
     std::string panel(std::size_t channel, char which, const Frame& frame, const VisualCheck& check) const {
@@ -144,9 +142,11 @@ private:
                        : fmt::format("{} \u00b7 {}", frame.name, comparison_.channels[channel].mode->name)));
     }
 
+    std::string checkId(std::size_t number) const { return fmt::format("check-{}-{}", id_, number); }
+
     std::string step(std::size_t number, const char* word) const {
-        const bool there = number >= first_ && number < first_ + countOf(comparison_);
-        return there ? fmt::format("<a href=\"#check-{}\">{}</a>", number, word) : "";
+        return number < countOf(comparison_) ? fmt::format("<a href=\"#{}\">{}</a>", checkId(number), word)
+                                             : "";
     }
 
     std::string view(const FeatureChecks& feature, const VisualCheck& check, std::size_t number) const {
@@ -156,10 +156,10 @@ private:
         // squares.
         const bool near = regionAround(check.box, left_.settings.size).width < 320;
         return fmt::format(
-            "<figure class=\"box view{}\" id=\"check-{}\"><div class=\"pair side\">{}{}</div>"
+            "<figure class=\"box view{}\" id=\"{}\"><div class=\"pair side\">{}{}</div>"
             "<figcaption><span><b>{}</b> {}</span><span class=\"walk\">{} {}</span>"
             "<span class=\"legend mono\">{} \u00b7 pixels {}, {} to {}, {}{}</span></figcaption></figure>\n",
-            near ? " near" : "", number, panel(channel, 'a', left_, check),
+            near ? " near" : "", checkId(number), panel(channel, 'a', left_, check),
             panel(channel, 'b', right_, check), feature.feature, markup(check.what),
             number > 0 ? step(number - 1, "previous") : "", step(number + 1, "next"), markup(check.where),
             check.box.x0, check.box.y0, check.box.x1 - 1, check.box.y1 - 1,
@@ -177,7 +177,7 @@ private:
     };
 
     std::string link(const VisualCheck& check, std::size_t number, const std::string& text) const {
-        return lit_ != npos ? fmt::format("<a href=\"#check-{}\" title=\"{}\">{}</a>", number,
+        return lit_ != npos ? fmt::format("<a href=\"#{}\" title=\"{}\">{}</a>", checkId(number),
                                           markup(check.where), markup(text))
                             : fmt::format("<span title=\"{}\">{}</span>", markup(check.where), markup(text));
     }
@@ -214,8 +214,8 @@ private:
     const Frame &left_, &right_;
     const ReportLayout& layout_;
     const std::vector<ChannelPictures>& pictures_;  // per channel
-    std::size_t index_, lit_, dark_;                // dark_: the channel shown where lit is black
-    std::size_t first_ = 0;                         // the number of its first check
+    const std::string& id_;                         // of the comparison in the page
+    std::size_t lit_, dark_;                        // dark_: the channel shown where lit is black
     static constexpr std::size_t npos = ~std::size_t{0};
 };
 

@@ -84,7 +84,19 @@ std::string picture(const Report& report, const ReportLayout& layout, const Clos
 
 }  // namespace
 
-std::string closerPathSection(const Report& report, const ReportLayout& layout) {
+std::string closerPathBox(const Report& report, const ReportLayout& layout, std::size_t index) {
+    const CloserPath& closer = report.closer_paths[index];
+    std::string lines;
+    for (const CloserPathChannel& channel : closer.channels)
+        lines += "<li>" + markup(closerPathLine(closer, channel, report.frames)) + "</li>";
+    std::string out = "<ul>" + lines + "</ul>\n<div class=\"columns\">\n";
+    if (!closer.channels.empty())
+        out += "<div>" + picture(report, layout, closer, index, 0) +
+               materials(report, closer, closer.channels.front()) + "</div>\n";
+    return out + "<div>" + figures(report, closer) + "</div></div>";
+}
+
+std::string closerPathSection(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     if (report.closer_paths.empty()) return {};
     std::string out = "<h2 id=\"reference\">Against the reference</h2>\n";
     for (std::size_t i = 0; i < report.closer_paths.size(); ++i) {
@@ -95,14 +107,7 @@ std::string closerPathSection(const Report& report, const ReportLayout& layout) 
             out +=
                 fmt::format("<h3>{} \u00b7 {}</h3>\n", markup(page::inFolder(reference.scene, layout.folder)),
                             markup(viewTitle(report, reference)));
-        std::string lines;
-        for (const CloserPathChannel& channel : closer.channels)
-            lines += "<li>" + markup(closerPathLine(closer, channel, report.frames)) + "</li>";
-        out += "<ul>" + lines + "</ul>\n<div class=\"columns\">\n";
-        if (!closer.channels.empty())
-            out += "<div>" + picture(report, layout, closer, i, 0) +
-                   materials(report, closer, closer.channels.front()) + "</div>\n";
-        out += "<div>" + figures(report, closer) + "</div></div></section>\n";
+        out += texts.closer_boxes[i] + "</section>\n";
     }
     return out;
 }

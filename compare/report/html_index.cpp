@@ -2,12 +2,13 @@
 // Several comparisons: one line each, failures first.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
+#include "compare/report/trends.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,29 +19,11 @@ using page::number;
 
 namespace {
 
-// The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
-// channels judged by what the encoding explains, whose tolerance is each pixel's own.
-const ChannelDiff* worstOf(const Comparison& comparison) {
-    const ChannelDiff* worst = nullptr;
-    for (const bool failing : {true, false}) {
-        for (const ChannelDiff& channel : comparison.channels) {
-            if ((channel.verdict == Verdict::fail) != failing || !isCompared(channel.verdict)) continue;
-            if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
-            if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
-        }
-        if (worst) return worst;
-    }
-    return nullptr;
-}
-
-std::string worstCell(const Comparison& comparison, std::size_t index) {
-    const ChannelDiff* worst = worstOf(comparison);
-    if (!worst) return "<td></td><td class=\"n optional\" data-value=\"0\"></td>";
-    const double share = usedShare(*worst);
-    return fmt::format(
-        "<td>{}</td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", cardLink(index, *worst->mode),
-        share < std::numeric_limits<double>::infinity() ? share : 1e300,
-        share < std::numeric_limits<double>::infinity() ? fmt::format("{:.3g} %", 100 * share) : "beyond");
+std::string worstCell(const IndexRow& row, const std::string& id) {
+    if (!row.worst) return "<td></td><td class=\"n optional\" data-value=\"0\"></td>";
+    return fmt::format("<td>{}</td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>",
+                       cardLink(id, *row.worst), row.used,
+                       row.used < 1e300 ? fmt::format("{:.3g} %", 100 * row.used) : "beyond");
 }
 
 std::string numberCell(double value, const std::string& text) {
@@ -48,18 +31,20 @@ std::string numberCell(double value, const std::string& text) {
                        text);
 }
 
-std::string litCell(const Comparison& comparison) {
-    for (const ChannelDiff& channel : comparison.channels)
-        if (channel.mode->name == "lit") return numberCell(channel.stats.max, number(channel.stats.max));
+std::string litCell(const IndexRow& row) {
+    for (const IndexChannel& channel : row.channels)
+        if (channel.name == "lit")
+            return numberCell(channel.max, channel.max < 1e300 ? number(channel.max) : "inf");
     return numberCell(0, "");
 }
 
-bool isTimed(const Report& report) {
-    return std::ranges::any_of(report.frames, [](const Frame& frame) { return frame.time.runs > 0; });
+bool isTimed(const ReportTexts& texts) {
+    return std::ranges::any_of(texts.rows,
+                               [](const IndexRow& row) { return row.left_timed || row.right_timed; });
 }
 
-std::string timeCell(const Frame& frame) {
-    return numberCell(frame.time.median, frame.time.runs > 0 ? fmt::format("{:.1f}", frame.time.median) : "");
+std::string timeCell(double ms, bool timed) {
+    return numberCell(ms, timed ? fmt::format("{:.1f}", ms) : "");
 }
 
 // Of a comparison among others of its scene.
@@ -70,26 +55,106 @@ std::string rowTitle(const Report& report, const Comparison& comparison) {
     return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
 }
 
-std::string line(const Report& report, const ReportLayout& layout, std::size_t index) {
+// The first figure that moved, and all of them where the pointer is.
+std::string sinceCell(const Trend& trend) {
+    std::string all;
+    for (const MovedFigure& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
+    const std::string first = trend.moved.empty() ? ""
+                                                  : fmt::format(" <span class=\"soft\">{}</span>",
+                                                                markup(movedText(trend.moved[0])));
+    return fmt::format("<td class=\"wide\" title=\"{}\">{}{}</td>", markup(all),
+                       trend.kind == TrendKind::same ? "" : nameOf(trend.kind), first);
+}
+
+std::string line(const Report& report, const ReportLayout& layout, const ReportTexts& texts,
+                 std::size_t index) {
     const Comparison& comparison = report.comparisons[index];
-    const Frame &left = report.baseline(comparison), &right = report.test(comparison);
+    const IndexRow& row = texts.rows[index];
+    const Frame& left = report.baseline(comparison);
     const char* verdict = comparison.passed() ? "pass" : "fail";
     const std::string& file = layout.sections[index];
-    return fmt::format(
-        "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
-        "href=\"#s{0}\" title=\"{8}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}</tr>\n",
-        index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
-        markup(page::inFolder(left.scene, layout.folder)), markup(rowTitle(report, comparison)),
-        worstCell(comparison, index), litCell(comparison),
-        isTimed(report) ? timeCell(left) + timeCell(right) : "", markup(left.scene));
+    const std::string camera = rowTitle(report, comparison);
+    std::string data = fmt::format(" data-camera=\"{}\"", markup(camera));
+    if (!file.empty())
+        data += fmt::format(" data-section=\"{}\" data-title=\"{}\"", markup(file),
+                            sectionTitle(report, layout, index));
+    if (texts.since) data += fmt::format(" data-since=\"{}\"", nameOf(texts.since->comparisons[index].kind));
+    if (!row.cause.empty()) data += fmt::format(" data-cause=\"{}\"", markup(row.cause));
+    std::string cells = fmt::format(
+        "<td><span class=\"verdict {0}\">{0}</span></td><td class=\"wide\"><a href=\"#s{1}\" "
+        "title=\"{2}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}",
+        verdict, layout.ids[index], markup(left.scene), markup(page::inFolder(left.scene, layout.folder)),
+        markup(camera), worstCell(row, layout.ids[index]), litCell(row));
+    if (isTimed(texts))
+        cells += timeCell(row.left_ms, row.left_timed) + timeCell(row.right_ms, row.right_timed);
+    if (texts.since) cells += sinceCell(texts.since->comparisons[index]);
+    if (texts.devices.size() > 1) cells += fmt::format("<td class=\"wide\">{}</td>", markup(row.device));
+    if (!comparison.passed())
+        cells += fmt::format(
+            "<td><button type=\"button\" data-do=\"accept\" data-scene=\"{}\" title=\"copies the "
+            "command that grants what differs here\">accept</button></td>",
+            markup(left.scene));
+    else
+        cells += "<td></td>";
+    return fmt::format("<tr data-comparison=\"{}\"{}>{}</tr>\n", layout.ids[index], data, cells);
+}
+
+// The figures of every comparison by channel, from which the page fills a column: { "lit": [failed, used,
+// max, mean, rmse, p99, p999, flip], ... }. A channel that is equal on both sides is left out, and a number
+// has four digits.
+std::string figuresOf(const ReportLayout& layout, const ReportTexts& texts) {
+    std::string out = "{";
+    for (std::size_t i = 0; i < texts.rows.size(); ++i) {
+        const IndexRow& row = texts.rows[i];
+        std::string channels;
+        for (const IndexChannel& c : row.channels) {
+            if (c.max == 0 && c.verdict == "pass") continue;
+            channels += fmt::format(
+                "{}{}:[{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}]", channels.empty() ? "" : ",",
+                nlohmann::json(c.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
+                c.verdict == "fail" ? 1 : 0, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip);
+        }
+        if (channels.empty() && row.cause.empty()) continue;
+        out += fmt::format(
+            "{}\"{}\":{{\"cause\":{},\"channels\":{{{}}}}}", out.size() > 1 ? ",\n" : "", layout.ids[i],
+            nlohmann::json(row.cause).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
+            channels);
+    }
+    std::string text = out + "}";
+    // No text ends its element early.
+    for (std::size_t at = text.find("</"); at != text.npos; at = text.find("</", at + 3))
+        text.insert(at + 1, "\\");
+    return text;
+}
+
+// A choice of what any line has, where they have several: of one there is nothing to choose.
+std::string choiceOf(const char* name, std::vector<std::string> values) {
+    std::ranges::sort(values);
+    values.erase(std::ranges::unique(values).begin(), values.end());
+    if (values.size() < 2) return {};
+    std::string out;
+    for (const std::string& value : values)
+        out += value.empty() ? "" : fmt::format("<option>{}</option>", markup(value));
+    return fmt::format("<label>{0} <select data-by=\"{0}\"><option></option>{1}</select></label>", name, out);
+}
+
+// What can be chosen: channels in the order of their numbers, as the rows have them.
+std::string channelOptions(const ReportTexts& texts) {
+    std::vector<std::string> names;
+    for (const IndexRow& row : texts.rows)
+        for (const IndexChannel& channel : row.channels)
+            if (std::ranges::count(names, channel.name) == 0) names.push_back(channel.name);
+    std::string out;
+    for (const std::string& name : names) out += fmt::format("<option>{}</option>", markup(name));
+    return out;
 }
 
 }  // namespace
 
-std::string indexTable(const Report& report, const ReportLayout& layout) {
+std::string indexTable(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     if (report.comparisons.size() < 2) return {};
     std::string lines;
-    for (const std::size_t i : layout.order) lines += line(report, layout, i);
+    for (const std::size_t i : layout.order) lines += line(report, layout, texts, i);
     const Comparison& first = report.comparisons[0];
     const bool pairs = hasSeveralPairs(report);
     const bool times = std::ranges::any_of(
@@ -101,21 +166,43 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
         {"worst channel", false},
         {"of its limit", true},
         {"lit max", true}};
-    if (isTimed(report)) {
+    if (isTimed(texts)) {
         columns.emplace_back((pairs ? "left" : report.baseline(first).name) + ", ms", true);
         columns.emplace_back((pairs ? "right" : report.test(first).name) + ", ms", true);
     }
+    if (texts.since) columns.emplace_back("since then", false);
+    if (texts.devices.size() > 1) columns.emplace_back("device", false);
+    columns.emplace_back("", false);
     std::string heads;
     for (const auto& [name, isNumber] : columns)
         heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
                              isNumber ? " class=\"n optional\"" : "", markup(name));
+    std::vector<std::string> cameras, causes, kinds;
+    if (texts.since)
+        for (const Trend& trend : texts.since->comparisons) kinds.emplace_back(nameOf(trend.kind));
+    for (std::size_t i = 0; i < texts.rows.size(); ++i) {
+        cameras.push_back(rowTitle(report, report.comparisons[i]));
+        causes.push_back(texts.rows[i].cause);
+    }
+    const std::string choices = choiceOf("camera", std::move(cameras)) +
+                                choiceOf("cause", std::move(causes)) + choiceOf("since", std::move(kinds));
     return fmt::format(
         "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
-        "<p><input type=\"search\" placeholder=\"filter: scene, camera, time, channel, fail\" "
-        "aria-label=\"filter\"></p>"
+        "<p class=\"narrow\"><input type=\"search\" placeholder=\"filter: scene, camera, time, channel, "
+        "fail\" "
+        "aria-label=\"filter\">"
+        "<label>verdict <select "
+        "data-by=\"verdict\"><option></option><option>fail</option><option>pass</option>"
+        "</select></label>{}"
+        "<label>channel <select data-by=\"channel\"><option></option>{}</select></label>"
+        "<label>figure <select "
+        "data-by=\"figure\"><option>max</option><option>mean</option><option>rmse</option>"
+        "<option>p99</option><option>p99.9</option><option>FLIP</option><option>of its "
+        "limit</option></select>"
+        "</label></p>"
         "<div class=\"box scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>{}</tbody>"
-        "</table></div></section>\n",
-        heads, lines);
+        "</table></div><script type=\"application/json\" id=\"figures\">{}</script></section>\n",
+        choices, channelOptions(texts), heads, lines, figuresOf(layout, texts));
 }
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
+#include "compare/report/trends.h"
 
 namespace diptych {
 namespace {
@@ -154,42 +155,110 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"marks_found", found}};
 }
 
+std::string textOf(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Json jsonOf(const ReportDevice& device) {
+    return {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
+}
+
 }  // namespace
 
-std::string reportJson(const Report& report, const ReportLayout* layout) {
-    Json frames = Json::array(), comparisons = Json::array();
+std::string innerJson(const Json& array) {
+    if (array.empty()) return {};
+    std::string text, all = textOf(array);
+    all = all.substr(2, all.size() - 4);  // without the brackets and their lines
+    for (const char c : "  " + all) {
+        text += c;
+        if (c == '\n') text += "  ";
+    }
+    return text;
+}
+
+Json framesJson(const Report& report, const ReportLayout* layout) {
+    Json frames = Json::array();
     for (std::size_t i = 0; i < report.frames.size(); ++i) {
         frames.push_back(jsonOf(report.frames[i]));
+        if (report.frames[i].origin.file.empty() && !report.device.name.empty())
+            frames.back()["drawn_on"] = report.device.name + ", " + report.device.driver;
         if (layout) frames.back()["exr"] = layout->exr[i];
     }
+    return frames;
+}
+
+Json comparisonsJson(const Report& report) {
+    Json comparisons = Json::array();
     for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
+    return comparisons;
+}
+
+Json truthJson(const Report& report) {
     Json closer = Json::array();
     for (const CloserPath& of : report.closer_paths) closer.push_back(jsonOf(report, of));
-    Json json{
-        {"schema", 1},
-        {"software", softwareName},
-        {"verdict", report.passed() && report.errors.empty() ? "pass" : "fail"},
-        {"device",
-         {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
-        {"said_first", report.first_notes},
-        {"frames", frames},
-        {"comparisons", comparisons},
-        {"truth", closer},
-        {"compare_ms", report.diff_ms}};
+    return closer;
+}
+
+void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
+                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink) {
+    Json times = Json::array();
+    for (const DrawnOn& one : devices) {
+        times.push_back(jsonOf(one.device));
+        times.back()["comparisons"] = one.comparisons;
+        times.back()["compare_ms"] = one.compare_ms;
+        if (layout) times.back()["encode_ms"] = one.encode_ms;
+    }
+    Json head{{"schema", 1},
+              {"software", softwareName},
+              {"verdict", report.passed() && report.errors.empty() ? "pass" : "fail"},
+              {"device", jsonOf(report.device)},
+              {"devices", times},
+              {"said_first", report.first_notes}};
+    // Times of several devices are no one's.
+    const auto only = [&](double DrawnOn::*ms) {
+        return devices.size() == 1 ? Json(devices.front().*ms) : Json(nullptr);
+    };
+    Json tail{{"compare_ms", only(&DrawnOn::compare_ms)}};
     for (const auto& [key, all] :
          {std::pair{"errors", &report.errors}, std::pair{"failures", &report.failures}}) {
-        json[key] = Json::array();
+        tail[key] = Json::array();
         for (const SceneError& of : *all) {
             Json one{{"scene", of.scene}, {"message", of.message}};
             if (!of.renderer.empty()) one.update({{"renderer", of.renderer}, {"output", of.output}});
-            json[key].push_back(std::move(one));
+            tail[key].push_back(std::move(one));
         }
     }
+    if (since) tail["since"] = jsonOf(*since, report);
     if (layout) {
-        json["encode_ms"] = layout->encode_ms;
-        json["files"] = layout->files();
+        tail["encode_ms"] = only(&DrawnOn::encode_ms);
+        tail["files"] = layout->files();
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string first = textOf(head), last = textOf(tail);
+    sink(first.substr(0, first.size() - 2));
+    for (const auto& [key, write] : {std::pair{"frames", &arrays.frames},
+                                     {"comparisons", &arrays.comparisons},
+                                     {"truth", &arrays.truth}}) {
+        sink(",\n  \"" + std::string(key) + "\": [");
+        bool any = false;
+        (*write)([&](std::string_view inner) {
+            if (inner.empty()) return;
+            sink(any ? ",\n" : "\n");
+            sink(inner);
+            any = true;
+        });
+        sink(any ? "\n  ]" : "]");
+    }
+    sink(",\n" + last.substr(2) + "\n");
+}
+
+std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since) {
+    std::string text;
+    writeReportJson(report, layout, {drawnOn(report, layout)}, since,
+                    {[&](const JsonSink& add) { add(innerJson(framesJson(report, layout))); },
+                     [&](const JsonSink& add) { add(innerJson(comparisonsJson(report))); },
+                     [&](const JsonSink& add) { add(innerJson(truthJson(report))); }},
+                    [&](std::string_view piece) { text += piece; });
+    return text;
 }
 
 }  // namespace diptych

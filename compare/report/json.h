@@ -3,21 +3,50 @@
 #pragma once
 
 #include "compare/report/layout.h"
+#include "compare/report/texts.h"
 #include "compare/verdict/comparison.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace diptych {
 
 // report.json, schema 1. JSON has no infinity: a statistic that is infinite is null, and infinite_pixels then
 // says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
-std::string reportJson(const Report& report, const ReportLayout* layout);
+std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since = nullptr);
+
+// The three arrays of it that Frames are needed for, and the text of one's elements as it stands in there,
+// without brackets.
+nlohmann::ordered_json framesJson(const Report& report, const ReportLayout* layout);
+nlohmann::ordered_json comparisonsJson(const Report& report);
+nlohmann::ordered_json truthJson(const Report& report);
+std::string innerJson(const nlohmann::ordered_json& array);
+
+// The same from pieces: each function gives all that there is of its array, element by element or several at
+// once, to a sink that it is given.
+using JsonSink = std::function<void(std::string_view)>;
+struct JsonArrays {
+    std::function<void(const JsonSink&)> frames, comparisons, truth;
+};
+void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
+                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink);
 
 // One test case per scene x camera x channel; one more where a comparison fails for another reason than a
 // channel. The pictures of a failing channel are named as attachments in `folder`. CI servers resolve them
 // against the working directory of the job, so a relative folder stays relative.
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder);
+
+// One comparison's suite; `folder` with a slash at the end, escaped, or folderLater. And the whole of suites.
+JunitSuite junitSuite(const Report& report, const ReportLayout& layout, const std::string& folder,
+                      std::size_t index);
+std::string junitFolder(const std::filesystem::path& folder);
+void writeJunit(const Report& report, const JunitSuite& totals,
+                const std::function<void(const JsonSink&)>& suites, const JsonSink& sink);
 
 }  // namespace diptych

@@ -48,8 +48,7 @@ std::string unpairedSuite(const SceneError& of, std::string_view outcome) {
 
 class Suite {
 public:
-    Suite(const Report& report, const ReportLayout& layout, const std::filesystem::path& folder,
-          std::size_t index)
+    Suite(const Report& report, const ReportLayout& layout, const std::string& folder, std::size_t index)
         : report_(report),
           comparison_(report.comparisons[index]),
           pictures_(layout.pictures.at(index)),
@@ -145,7 +144,7 @@ private:
         std::set<std::string> attached;  // both sides of equal channels share a picture
         for (const std::string* picture : {&pictures.difference, &pictures.baseline, &pictures.test})
             if (!picture->empty() && attached.insert(*picture).second)
-                lines += fmt::format("[[ATTACHMENT|{}]]\n", markup((folder_ / *picture).generic_string()));
+                lines += fmt::format("[[ATTACHMENT|{}]]\n", folder_ + markup(*picture));
         if (!comparison_.command.empty())
             lines += markup("again: " + shellLine(withOption(comparison_.command, "--channels",
                                                              std::string(channel.mode->name)))) +
@@ -163,32 +162,51 @@ private:
     const Report& report_;
     const Comparison& comparison_;
     const std::vector<ChannelPictures>& pictures_;  // per channel
-    const std::filesystem::path& folder_;
+    const std::string& folder_;
     const Frame &left_, &right_;
     std::string title_;
 };
 
 }  // namespace
 
+JunitSuite junitSuite(const Report& report, const ReportLayout& layout, const std::string& folder,
+                      std::size_t index) {
+    const Suite suite(report, layout, folder, index);
+    return {suite.xml(), suite.tests(), suite.failures(), suite.seconds()};
+}
+
+std::string junitFolder(const std::filesystem::path& folder) {
+    return markup((folder / "").generic_string());
+}
+
+void writeJunit(const Report& report, const JunitSuite& totals,
+                const std::function<void(const JsonSink&)>& suites, const JsonSink& sink) {
+    sink(
+        fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"diptych\" tests=\"{}\" "
+                    "failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
+                    totals.tests + report.errors.size() + report.failures.size(),
+                    totals.failures + report.failures.size(), report.errors.size(), totals.seconds));
+    for (const SceneError& error : report.errors) sink(unpairedSuite(error, "error"));
+    for (const SceneError& failure : report.failures) sink(unpairedSuite(failure, "failure"));
+    suites(sink);
+    sink("</testsuites>\n");
+}
+
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder) {
-    std::string suites;
-    std::size_t tests = report.errors.size() + report.failures.size(), failures = report.failures.size();
-    double seconds = 0;
-    for (const SceneError& error : report.errors) suites += unpairedSuite(error, "error");
-    for (const SceneError& failure : report.failures) suites += unpairedSuite(failure, "failure");
+    JunitSuite all;
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
-        const Suite suite(report, layout, folder, i);
-        suites += suite.xml();
-        tests += suite.tests();
-        failures += suite.failures();
-        seconds += suite.seconds();
+        const JunitSuite suite = junitSuite(report, layout, junitFolder(folder), i);
+        all.xml += suite.xml;
+        all.tests += suite.tests;
+        all.failures += suite.failures;
+        all.seconds += suite.seconds;
     }
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"diptych\" tests=\"{}\" "
-        "failures=\"{}\" "
-        "errors=\"{}\" time=\"{:.3f}\">\n{}</testsuites>\n",
-        tests, failures, report.errors.size(), seconds, suites);
+    std::string text;
+    writeJunit(
+        report, all, [&](const JsonSink& sink) { sink(all.xml); },
+        [&](std::string_view piece) { text += piece; });
+    return text;
 }
 
 }  // namespace diptych

@@ -123,6 +123,7 @@ const std::string& ReportLayout::source(const std::string& picture) const {
 ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
     ReportLayout layout;
     layout.single_file = options.single_file;
+    layout.part = options.scene_folder.has_value();
     layout.keep = options.keep;
     layout.folder = folderOfAll(report);
     layout.order = failingFirst(report);
@@ -130,8 +131,9 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
     for (std::size_t i = 0; i < places.size(); ++i) places[layout.order[i]] = i;
     layout.sections.resize(report.comparisons.size());
     layout.exr.resize(report.frames.size());
-    const ReportFolders folders = reportFolders(report);
+    const ReportFolders folders = reportFolders(report, options.scene_folder);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        layout.ids.push_back(layout.part ? std::string(numberLater) : std::to_string(i));
         const Comparison& comparison = report.comparisons[i];
         const Frame& left = report.baseline(comparison);
         const bool kept = isKept(comparison, options.keep);
@@ -153,7 +155,7 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
             for (const std::size_t frame : {comparison.baseline, comparison.test})
                 letGo(report.frames[frame], channel.mode->number);
         }
-        if (!options.single_file && places[i] >= comparisonsInPage)
+        if (layout.part || (!options.single_file && places[i] >= comparisonsInPage))
             layout.sections[i] = folders.comparisons[i] + "comparison.section.js";
     }
     for (const CloserPath& closer : report.closer_paths) {
@@ -165,6 +167,14 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
                     : fmt::format("{}{}.nearer.png", folders.frames[closer.reference], channel.mode->name));
     }
     return layout;
+}
+
+ReportLayout onDisk(const ReportLayout& layout) {
+    ReportLayout files;
+    files.pictures = layout.pictures;
+    for (auto& channels : files.pictures)
+        if (layout.single_file) std::ranges::fill(channels, ChannelPictures());
+    return files;
 }
 
 }  // namespace diptych

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych {
@@ -37,8 +38,17 @@ inline constexpr int worstApart = 8;  // pixels
 // the page.
 inline constexpr std::size_t comparisonsInPage = 4;
 
+// A report of many scenes is put together of parts (parts.h), which are written before it is known where in
+// the page they will stand. What that decides is written as a character that no text of a page holds:
+// page::markup() has made U+FFFD of it.
+inline constexpr std::string_view numberLater = "\x01";  // the comparison's number
+inline constexpr std::string_view titleLater = "\x02";   // its title
+inline constexpr std::string_view folderLater = "\x03";  // the report's folder and a slash, in junit.xml
+
 struct ReportLayout {
-    std::vector<std::string> exr;                        // per frame; empty: it gets none
+    std::vector<std::string> ids;  // per comparison: its number, by which its places in the page are called
+    bool part = false;             // of a report of many scenes: numbers and titles come later
+    std::vector<std::string> exr;  // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
     std::vector<std::string> cause_maps;  // per comparison: of Comparison::explained; empty: it has none
     // A picture's name per Report::closer_paths and channel of it.
@@ -57,8 +67,11 @@ struct ReportLayout {
 
 // Names are "deferred.exr", "lit.deferred.png", "lit.values.js"; of several scenes or cameras each stands in
 // a folder, "gallery/entrance/comparison.section.js" (ReportFolders). Pictures and EXRs that are not to be
-// kept have no name. A single file has neither EXRs, values nor sections beside it, and its pictures are
-// embedded.
+// kept have no name. Of a part (ReportOptions::scene_folder) every comparison has a section. A single file
+// has neither EXRs, values nor sections beside it, and its pictures are embedded.
 ReportLayout layoutOf(const Report& report, const ReportOptions& options);
+
+// What junit.xml may name as a file: of a single page no picture.
+ReportLayout onDisk(const ReportLayout& layout);
 
 }  // namespace diptych

@@ -26,4 +26,10 @@ std::string againFolder(const std::filesystem::path& folder);
 // For a terminal: a table per comparison, failures first, then one line of verdict. Ends in a newline.
 std::string reportTable(const Report& report);
 
+// Its parts: of one comparison; of a scene, camera and time against the reference, named where there are
+// `several`; and what stands below all.
+std::string comparisonTable(const Report& report, const Comparison& comparison);
+std::string closerTable(const Report& report, const CloserPath& closer, bool several);
+std::string tableEnd(const Report& report);
+
 }  // namespace diptych

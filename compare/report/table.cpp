@@ -77,60 +77,74 @@ std::string notesText(const Report& report) {
 
 }  // namespace
 
+std::string comparisonTable(const Report& report, const Comparison& comparison) {
+    std::string out;
+    const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
+    out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, viewTitle(report, baseline),
+                       baseline.settings.size.width, baseline.settings.size.height,
+                       pairTitle(report, comparison));
+    out += frameLine(baseline) + frameLine(test);
+
+    std::vector<TableRow> rows{
+        {"channel", "metric", "max", "mean", "p99.9", "judged by", "measured", "limit", "verdict"}};
+    for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
+    std::array<std::size_t, 9> widths{};
+    for (const TableRow& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (const TableRow& row : rows) {
+        std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
+        for (std::size_t i = 2; i < 8; ++i)
+            line += i == 5 ? fmt::format("  {:<{}}", row[i], widths[i])
+                           : fmt::format("  {:>{}}", row[i], widths[i]);
+        out += line + "  " + row[8] + "\n";
+    }
+    for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
+    const std::string place = placeOf(report, comparison);
+    for (const std::string& failure : comparison.failures)
+        out += fmt::format("  FAIL {}: {}\n", place, failure);
+    for (const ChannelDiff& channel : comparison.channels)
+        if (channel.verdict == Verdict::fail) {
+            out += fmt::format("  FAIL {}, {}: {}", place, channel.mode->name, channel.reason);
+            if (channel.stats.worst_x >= 0)
+                out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
+            out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
+                               channel.tolerance.because);
+        }
+    if (comparison.explained) out += "  " + comparison.explained->words + "\n";
+    for (const ChannelDiff& channel : comparison.channels)
+        if (!channel.rule.empty() && channel.verdict == Verdict::pass)
+            out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);
+    for (const ChannelDiff& channel : comparison.channels)
+        if (!channel.warning.empty())
+            out += fmt::format("  warning {}, {}: {} ({})\n", place, channel.mode->name, channel.warning,
+                               channel.rule);
+    if (const std::string checks = checksLine(comparison); !checks.empty()) out += "  " + checks + "\n";
+    return out;
+}
+
+std::string closerTable(const Report& report, const CloserPath& closer, bool several) {
+    std::string out;
+    if (several)
+        out += fmt::format("{}, {}:\n", report.frames[closer.reference].scene,
+                           viewTitle(report, report.frames[closer.reference]));
+    for (const CloserPathChannel& channel : closer.channels)
+        out += closerPathLine(closer, channel, report.frames) + "\n";
+    return out;
+}
+
+std::string tableEnd(const Report& report) {
+    std::string out;
+    for (const SceneError& error : report.errors) out += fmt::format("ERROR {}\n", errorText(error));
+    return out + notesText(report) + verdictLine(report) + "\n";
+}
+
 std::string reportTable(const Report& report) {
     std::string out;
     for (const std::string& line : report.first_notes) out += line + "\n";
-    for (const Comparison& comparison : report.comparisons) {
-        const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
-        out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, viewTitle(report, baseline),
-                           baseline.settings.size.width, baseline.settings.size.height,
-                           pairTitle(report, comparison));
-        out += frameLine(baseline) + frameLine(test);
-
-        std::vector<TableRow> rows{
-            {"channel", "metric", "max", "mean", "p99.9", "judged by", "measured", "limit", "verdict"}};
-        for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
-        std::array<std::size_t, 9> widths{};
-        for (const TableRow& row : rows)
-            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-        for (const TableRow& row : rows) {
-            std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-            for (std::size_t i = 2; i < 8; ++i)
-                line += i == 5 ? fmt::format("  {:<{}}", row[i], widths[i])
-                               : fmt::format("  {:>{}}", row[i], widths[i]);
-            out += line + "  " + row[8] + "\n";
-        }
-        for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
-        const std::string place = placeOf(report, comparison);
-        for (const std::string& failure : comparison.failures)
-            out += fmt::format("  FAIL {}: {}\n", place, failure);
-        for (const ChannelDiff& channel : comparison.channels)
-            if (channel.verdict == Verdict::fail) {
-                out += fmt::format("  FAIL {}, {}: {}", place, channel.mode->name, channel.reason);
-                if (channel.stats.worst_x >= 0)
-                    out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
-                out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
-                                   channel.tolerance.because);
-            }
-        if (comparison.explained) out += "  " + comparison.explained->words + "\n";
-        for (const ChannelDiff& channel : comparison.channels)
-            if (!channel.rule.empty() && channel.verdict == Verdict::pass)
-                out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);
-        for (const ChannelDiff& channel : comparison.channels)
-            if (!channel.warning.empty())
-                out += fmt::format("  warning {}, {}: {} ({})\n", place, channel.mode->name, channel.warning,
-                                   channel.rule);
-        if (const std::string checks = checksLine(comparison); !checks.empty()) out += "  " + checks + "\n";
-    }
-    for (const CloserPath& closer : report.closer_paths) {
-        if (report.closer_paths.size() > 1)
-            out += fmt::format("{}, {}:\n", report.frames[closer.reference].scene,
-                               viewTitle(report, report.frames[closer.reference]));
-        for (const CloserPathChannel& channel : closer.channels)
-            out += closerPathLine(closer, channel, report.frames) + "\n";
-    }
-    for (const SceneError& error : report.errors) out += fmt::format("ERROR {}\n", errorText(error));
-    return out + notesText(report) + verdictLine(report) + "\n";
+    for (const Comparison& comparison : report.comparisons) out += comparisonTable(report, comparison);
+    for (const CloserPath& closer : report.closer_paths)
+        out += closerTable(report, closer, report.closer_paths.size() > 1);
+    return out + tableEnd(report);
 }
 
 }  // namespace diptych

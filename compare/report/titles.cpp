@@ -99,23 +99,23 @@ std::string withoutNumbers(const std::string& text) {
 std::vector<GroupedNote> groupedNotes(const Report& report) {
     std::vector<GroupedNote> grouped;
     std::vector<std::map<std::string, std::string>> texts;  // of each group, by scene
+    std::map<std::string, std::vector<std::size_t>> alike;  // the groups of a text without numbers
     for (const Comparison& comparison : report.comparisons)
         for (const std::string& note : notesOf(report, comparison)) {
             const std::string& scene = report.baseline(comparison).scene;
             // Two texts of one scene are two notes, whatever they differ in.
-            const auto groupOf = [&](const auto& isAlike) {
-                std::size_t i = 0;
-                while (i < grouped.size() && !(isAlike(grouped[i].text) &&
-                                               (!texts[i].contains(scene) || texts[i].at(scene) == note)))
-                    ++i;
-                return i;
-            };
-            std::size_t at = groupOf([&](const std::string& text) { return text == note; });
-            if (at == grouped.size())
-                at = groupOf([key = withoutNumbers(note)](const std::string& text) {
-                    return withoutNumbers(text) == key;
+            std::vector<std::size_t>& groups = alike[withoutNumbers(note)];
+            const auto groupOf = [&](bool same) {
+                const auto found = std::ranges::find_if(groups, [&](std::size_t i) {
+                    return (!same || grouped[i].text == note) &&
+                           (!texts[i].contains(scene) || texts[i].at(scene) == note);
                 });
+                return found == groups.end() ? grouped.size() : *found;
+            };
+            std::size_t at = groupOf(true);
+            if (at == grouped.size()) at = groupOf(false);
             if (at == grouped.size()) {
+                groups.push_back(at);
                 grouped.push_back({note, {}});
                 texts.emplace_back();
             }

@@ -12,8 +12,8 @@ bool isPlain(char c) {
            std::string_view("_-+=:,./@%").find(c) != std::string_view::npos;
 }
 
-// Puts a word in single quotes if the shell would interpret any character of it. A single quote cannot stand
-// inside single quotes, so it is escaped outside of them.
+}  // namespace
+
 std::string shellWord(const std::string& word) {
     if (!word.empty() && std::ranges::all_of(word, isPlain)) return word;
     std::string quoted = "'";
@@ -24,8 +24,6 @@ std::string shellWord(const std::string& word) {
             quoted += c;
     return quoted + "'";
 }
-
-}  // namespace
 
 std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
                                       const Settings& settings) {

@@ -22,6 +22,10 @@ std::vector<std::string> withOption(std::vector<std::string> words, const std::s
 // `words` with several words added: options and their values.
 std::vector<std::string> withWords(std::vector<std::string> words, const std::vector<std::string>& more);
 
+// Puts a word in single quotes if the shell would interpret any character of it. A single quote cannot stand
+// inside single quotes, so it is escaped outside of them.
+std::string shellWord(const std::string& word);
+
 // "diptych" and the words, quoted so that a POSIX shell reads them back.
 std::string shellLine(const std::vector<std::string>& words);
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace diptych {
@@ -107,8 +108,10 @@ Rule readRule(const Json& json, const Presets& presets) {
     if (!json.is_object()) fail("is no object");
     Rule rule;
     rule.channel = textOf(json, "channel", "the name or pattern of what it is about");
+    if (json.contains("scene"))
+        rule.scene = textOf(json, "scene", "the name or pattern of a scene: it is no text, or empty");
     rule.because = textOf(json, "because", "the reason for it");
-    rule.fail = ConditionReader(presets).read(json, {"channel", "because", "warn"});
+    rule.fail = ConditionReader(presets).read(json, {"channel", "scene", "because", "warn"});
     if (json.contains("warn")) rule.warn = ConditionReader(presets).read(json["warn"]);
     if (rule.fail.kind == Condition::Kind::all && rule.fail.parts.empty() && !rule.warn)
         fail(fmt::format("bounds nothing; there are {}", figureNames()));
@@ -254,6 +257,13 @@ const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel) {
     for (std::size_t i = rules.size(); i-- > 0;)
         if (matches(rules[i].channel, channel)) return &rules[i];
     return nullptr;
+}
+
+std::vector<Rule> rulesOfScene(std::span<const Rule> rules, std::string_view scene) {
+    std::vector<Rule> of;
+    std::ranges::copy_if(rules, std::back_inserter(of),
+                         [&](const Rule& rule) { return matches(rule.scene, scene); });
+    return of;
 }
 
 bool namesChannels(const Rule& rule) {

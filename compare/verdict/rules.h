@@ -62,6 +62,7 @@ std::string conditionText(const Condition& condition);
 
 struct Rule {
     std::string channel = "*";      // a name, or with * and ? several
+    std::string scene = "*";        // likewise, as the command line names it; of compare
     Condition fail;                 // what must hold, or the channel fails
     std::optional<Condition> warn;  // what must hold, or there is a warning
     std::string because;
@@ -81,6 +82,9 @@ Decision decide(const Rule& rule, const Measured& measured);
 
 // The last rule whose pattern the channel matches, as in a list of exceptions; nullptr: none.
 const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
+
+// Those that are about the scene.
+std::vector<Rule> rulesOfScene(std::span<const Rule> rules, std::string_view scene);
 
 // Whether the rule is about channels that it names, and not about all ("*").
 bool namesChannels(const Rule& rule);

@@ -70,6 +70,7 @@ const std::vector<Module> modules = {
     {"compare/audit", 70},
     {"compare/bench", 70},
     {"compare/probe", 70},
+    {"compare/shards", 72},
     {"compare/viewer", 75},
     {"compare/external", 75},
     {"compare/library", 75},

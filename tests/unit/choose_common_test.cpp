@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One Settings for several scenes, whose times and errors are known.
 #include "compare/choose/common.h"
-#include "compare/files/scene_folders.h"
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
@@ -179,22 +178,6 @@ TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {
 
 namespace diptych {
 
-namespace {
-
-TEST(SceneFolders, AFolderStandsForItsSceneFilesSorted) {
-    const std::filesystem::path root = folder();
-    for (const char* name : {"b/two.gltf", "a.GLB", "b/.hidden/three.glb", "notes.txt", ".four.gltf"}) {
-        std::filesystem::create_directories((root / name).parent_path());
-        std::ofstream(root / name) << "x";
-    }
-    std::filesystem::create_directories(root / "empty");
-    const std::vector<std::string> found =
-        withFoldersOpened({"builtin:spots", root.generic_string(), "missing.glb"});
-    EXPECT_EQ(found, (std::vector<std::string>{"builtin:spots", (root / "a.GLB").generic_string(),
-                                               (root / "b/two.gltf").generic_string(), "missing.glb"}));
-    EXPECT_THROW(withFoldersOpened({(root / "empty").string()}), std::runtime_error);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 }  // namespace diptych

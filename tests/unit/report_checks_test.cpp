@@ -49,9 +49,9 @@ void expectLinksLead(const std::string& page) {
     for (const std::string& target : quotedAfter(page, "href=\"#"))
         EXPECT_TRUE(unique.contains(target)) << target;
 }
-// Of the figure of check `number`.
-std::string figureOf(const std::string& page, int number) {
-    const std::size_t start = page.find("id=\"check-" + std::to_string(number) + "\"");
+// Of the figure of a comparison's check `number`.
+std::string figureOf(const std::string& page, int number, int comparison = 0) {
+    const std::size_t start = page.find(fmt::format("id=\"check-{}-{}\"", comparison, number));
     return start == std::string::npos ? "" : page.substr(start, page.find("</figure>", start) - start);
 }
 
@@ -73,7 +73,7 @@ TEST(ReportChecks, EveryCheckHasALinkAndAFigure) {
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_NE(page.find("href=\"#check-" + std::to_string(i) + "\" title="), std::string::npos) << i;
+        EXPECT_NE(page.find("href=\"#check-0-" + std::to_string(i) + "\" title="), std::string::npos) << i;
         EXPECT_EQ(countOf(figureOf(page, i), "<svg "), 2u) << "both paths";
     }
     EXPECT_EQ(figureOf(page, 3), "");
@@ -127,15 +127,15 @@ TEST(ReportChecks, ASinglePageHoldsThem) {
     EXPECT_EQ(countOf(page, "href=\"data:image/png;base64,"), 4u) << "lit and base colour of both paths";
 }
 
-TEST(ReportChecks, SeveralComparisonsNumberThemThrough) {
+TEST(ReportChecks, SeveralComparisonsHaveTheirOwn) {
     std::vector<Frame> frames = bothFrames("one.glb");
     for (Frame& frame : bothFrames("two.glb")) frames.push_back(std::move(frame));
     const std::string page = pageOf(reportOf(std::move(frames), {someChecks(), someChecks()}));
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);
-    for (int i = 0; i < 6; ++i) EXPECT_NE(figureOf(page, i), "") << i;
-    EXPECT_NE(figureOf(page, 3).find("#eye-1-lit-a"), std::string::npos);
-    EXPECT_EQ(figureOf(page, 3).find(">previous<"), std::string::npos) << "another scene's";
+    for (int i = 0; i < 6; ++i) EXPECT_NE(figureOf(page, i % 3, i / 3), "") << i;
+    EXPECT_NE(figureOf(page, 0, 1).find("#eye-1-lit-a"), std::string::npos);
+    EXPECT_EQ(figureOf(page, 0, 1).find(">previous<"), std::string::npos) << "another scene's";
 }
 
 TEST(ReportChecks, NamesOfFilesAreEscaped) {

@@ -80,7 +80,7 @@ TEST(ReportIndex, ASinglePageBringsAllAsText) {
     const std::string page = contentsOf(out / "index.html");
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     EXPECT_EQ(countOf(page, "<script type=\"text/plain\" id=\"section-"), 2u);
-    EXPECT_EQ(countOf(page, "</script>"), 3u) << "no text ends its element early";
+    EXPECT_EQ(countOf(page, "</script>"), 4u) << "no text ends its element early";
     EXPECT_EQ(countOf(page, "class=\"comparison\" id=\"s"), 6u);
     EXPECT_EQ(page.find(".png\""), std::string::npos);
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/cli/compare_many.h"
+#include "compare/cli/tradeoff_many.h"
+#include "compare/shards/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych::cli {
+
+int runMerge(const Options& options) {
+    if (!options.scene_given)
+        throw std::runtime_error(
+            "merge: the folders of shards are missing; as diptych merge shard-*/ -o report");
+    const bool tradeoffs = std::ranges::any_of(options.scenes, [](const std::string& shard) {
+        return std::filesystem::exists(std::filesystem::path(shard) / tradeoffsManifest);
+    });
+    if (tradeoffs) return mergeTradeoffs(options);
+    const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
+    checkSince(options);
+    shards::Joined joined = shards::join({options.scenes.begin(), options.scenes.end()});
+    if (joined.report.parts.empty() && joined.report.errors.empty() && !joined.problems.empty())
+        throw std::runtime_error(joined.problems.front());
+    if (joined.report.parts.empty() && !joined.report.errors.empty())
+        throw std::runtime_error(fmt::format("none of the {} scenes was drawn; the first: {}",
+                                             joined.manifest.items.size(),
+                                             joined.report.errors.front().message));
+    ReportOptions report;
+    report.keep = static_cast<Keep>(joined.manifest.plan.at("asked").value("keep", 0));
+    report.force = options.force;
+    const Report summary = summaryOf(joined.report);
+    report.since = sinceOf(options, summary, rowsOf(joined.report));
+    writeWhole(joined.report, summary, folder, report);
+    showWhole(options, joined.report, summary, folder, report.since.get(), false);
+    if (joined.problems.empty()) {
+        sayErrors(summary.errors);
+        return exitCodeOf(summary);
+    }
+    // The first in a line of its own, which is what stderr has of exit code 2; all with -v.
+    for (std::size_t i = 1; i < joined.problems.size(); ++i) say(options, joined.problems[i]);
+    sayErrors({{"", fmt::format("{}{}; {} has what is there", joined.problems.front(),
+                                joined.problems.size() == 1
+                                    ? ""
+                                    : fmt::format(" (and {} more, see -v)", joined.problems.size() - 1),
+                                (folder / "index.html").string())}});
+    return 2;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/compare_many.h"
+
+#include "compare/cli/commands.h"
+#include "compare/cli/explanations.h"
+#include "compare/cli/scene_comparison.h"
+#include "compare/cli/scene_items.h"
+#include "compare/cli/verdict_words.h"
+#include "compare/files/kept_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/render/reference_frame.h"
+#include "compare/report/folders.h"
+#include "compare/report/parts.h"
+#include "compare/report/report.h"
+#include "compare/run/interruption.h"
+#include "compare/shards/manifest.h"
+#include "compare/verdict/pair_reports.h"
+#include "shared/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace diptych::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The commands that the report names draw one of its scenes again, beside it and not in its place.
+std::string againBeside(const fs::path& folder) {
+    constexpr const char* name = "diptych-again";
+    return folder.filename() == name ? std::string(name) + "-again" : name;
+}
+
+class Collection {
+public:
+    Collection(const Options& options, const std::vector<Settings>& settings, const fs::path& folder)
+        : options_(options),
+          settings_(settings),
+          folder_(folder),
+          picture_(pictureChoice(options)),
+          compare_(compareOptions(options)),
+          items_(itemsOf(options, settings)),
+          kept_(folder, "scenes", resumeKey(options, settings)),
+          render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}))),
+          progress_(progressOutput(options)),
+          device_(deviceOptions(options)) {}
+
+    int run() {
+        say(options_, "on " + device_.info().name);
+        checkDevice();
+        findKept();
+        checkHeaders();
+        sayWhenInterrupted(fmt::format(
+            "the scenes so far are kept in {}: the same command goes on from there", kept_.path().string()));
+        compareAll();
+        sayWhenInterrupted("");
+        return finish();
+    }
+
+private:
+    // Parts of one report are of one device.
+    void checkDevice() {
+        const ReportDevice here = reportDevice(device_);
+        const Json device{here.name, here.driver, here.type};
+        const Json there = kept_.find("device");
+        if (there.is_object() && there.value("device", Json()) != device)
+            throw std::runtime_error(fmt::format(
+                "{}: holds scenes that were drawn on another device ({}); remove it, or give that --device",
+                kept_.path().string(), there["device"].dump()));
+        kept_.keep("device", {{"device", device}});
+    }
+
+    std::string nameOf(const shards::Item& item) const {
+        return item.folder.empty() ? "scene" : item.folder.substr(0, item.folder.size() - 1) + "-scene";
+    }
+
+    void findKept() {
+        for (const shards::Item* item : items_.mine) {
+            if (kept_.find(nameOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
+                continue;
+            parts_.emplace(item, readPart(kept_.path(), item->folder));
+        }
+        if (!parts_.empty())
+            note(options_, fmt::format("{} of {} scenes were compared before the last run ended",
+                                       parts_.size(), items_.mine.size()));
+    }
+
+    // Runs what is about one scene. One that cannot be read or drawn becomes an error of the report, and the
+    // others are compared.
+    void attempt(const shards::Item* item, const std::function<void()>& work) {
+        try {
+            work();
+        } catch (const std::system_error&) {
+            throw;  // of this machine
+        } catch (const std::runtime_error& error) {
+            errors_.emplace(item, SceneError{item->scene, error.what()});
+            say(options_, fmt::format("{}; the other scenes are compared", error.what()));
+        }
+    }
+
+    // Before anything is drawn, which may take long.
+    void checkHeaders() {
+        for (const shards::Item* item : items_.mine)
+            if (!parts_.contains(item)) attempt(item, [&] { checkScene(item->scene); });
+    }
+
+    void compareAll() {
+        std::vector<const shards::Item*> left;
+        for (const shards::Item* item : items_.mine)
+            if (!parts_.contains(item) && !errors_.contains(item)) left.push_back(item);
+        const auto all = static_cast<double>(items_.mine.size());
+        auto done = all - static_cast<double>(left.size());
+        // One scene is loaded while another is drawn.
+        const auto load = [&](std::size_t i) {
+            return std::async(std::launch::async, [this, name = left[i]->scene] {
+                return loadShown(name, options_.settings, {});
+            });
+        };
+        std::future<Scene> next;
+        if (!left.empty()) next = load(0);
+        for (std::size_t i = 0; i < left.size(); ++i, ++done) {
+            const shards::Item* item = left[i];
+            say(options_, item->scene);
+            const Stage stage =
+                Stage(progress_, item->scene).part(0.99 * done / all, 0.99 * (done + 1) / all);
+            stage.at(0, "load");
+            attempt(item, [&] {
+                std::future<Scene> loading = std::move(next);
+                loading.wait();
+                if (i + 1 < left.size()) next = load(i + 1);
+                const Scene scene = loading.get();
+                parts_.emplace(item, compareOne(*item, scene, stage));
+            });
+        }
+    }
+
+    ReportPart compareOne(const shards::Item& item, const Scene& scene, const Stage& stage) {
+        KeptReferences references(folder_, true);
+        RenderOptions render = render_;
+        render.keep = [&](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+            return references.open(key, floats);
+        };
+        const auto [drawing, comparing] = sharesOf(render);
+        const double ours = ourShare(options_) * drawing;
+        render.progress = stage.part(0, ours);
+        DrawnScene drawn =
+            drawScene(scene, options_, settings_, device_, render, probe_, stage.part(ours, drawing));
+        checkValidation(device_);
+        Report report = reportOf(options_, compare_, std::move(drawn), {}, reportDevice(device_),
+                                 againBeside(folder_), stage.part(drawing, comparing));
+        double explained = comparing;
+        if (isExplained(options_, report)) {
+            explained = 0.5 * (1 + comparing);
+            addExplanations(options_, device_, report, stage.part(comparing, explained));
+        }
+        ReportPart part =
+            writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));
+        // Where another renderer failed, the next run tries again.
+        if (report.errors.empty()) kept_.keep(nameOf(item), stampOf(item.scene));
+        for (const SceneError& error : report.errors) errors_.emplace(&item, error);
+        references.remove();
+        return part;
+    }
+
+    ReportOptions reportOptions(const std::optional<std::string>& scene_folder, const Stage& stage) const {
+        return {picture_, options_.single_file, options_.keep, options_.force, stage, scene_folder};
+    }
+
+    int finish() {
+        WholeReport whole;
+        for (const shards::Item* item : items_.mine) {
+            const auto [first, last] = errors_.equal_range(item);
+            for (auto error = first; error != last; ++error) whole.errors.push_back(error->second);
+            if (const auto part = parts_.find(item); part != parts_.end())
+                whole.parts.push_back({std::move(part->second), kept_.path()});
+        }
+        if (whole.parts.empty() && options_.shard.empty())
+            throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
+                                                 items_.all.size(), whole.errors.front().message));
+        if (!options_.shard.empty())
+            whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items_.plan, items_.shard,
+                                                  items_.all, whole.errors});
+        const Report summary = summaryOf(whole);
+        ReportOptions report = reportOptions(std::nullopt, {});
+        report.since = sinceOf(options_, summary, rowsOf(whole));
+        writeWhole(whole, summary, folder_, report);
+        kept_.remove();
+        progress_.wipe();
+        noteLeftByOthers(options_, KeptReferences(folder_, true));
+        showWhole(options_, whole, summary, folder_, report.since.get(), true);
+        sayErrors(summary.errors);
+        return exitCodeOf(summary);
+    }
+
+    const Options& options_;
+    const std::vector<Settings>& settings_;
+    const fs::path folder_;
+    const PictureChoice picture_;
+    const CompareOptions compare_;
+    const SceneItems items_;
+    KeptFolder kept_;
+    const RenderOptions render_;
+    Progress progress_;
+    Device device_;
+    TextureProbe probe_;
+    std::map<const shards::Item*, ReportPart> parts_;
+    std::multimap<const shards::Item*, SceneError> errors_;  // of the scene, or of other renderers
+};
+
+}  // namespace
+
+int compareMany(const Options& options, const std::vector<Settings>& settings, const fs::path& folder) {
+    if (!options.baseline_file.empty())
+        throw std::runtime_error(fmt::format("--shard {}: --baseline {} is of one picture; leave out --shard",
+                                             options.shard, options.baseline_file.string()));
+    if (options.single_file && !options.shard.empty())
+        throw std::runtime_error(
+            "--single-file: a shard's pictures stand beside its page, from where merge takes them; leave it "
+            "out");
+    return Collection(options, settings, folder).run();
+}
+
+void showWhole(const Options& options, const WholeReport& whole, const Report& summary,
+               const fs::path& folder, const Trends* since, bool all) {
+    if (options.json) {
+        std::ifstream stream(folder / "report.json", std::ios::binary);
+        std::string piece(1 << 16, '\0');
+        while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0)
+            std::fwrite(piece.data(), 1, static_cast<std::size_t>(stream.gcount()), stdout);
+    } else if (!options.quiet) {
+        const std::string exposures = wholeExposureLine(whole);
+        printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),
+                                          sinceText(since, summary),
+                                          exposures.empty() ? "" : fmt::format("pictures: {}\n", exposures),
+                                          (folder / "index.html").string()));
+    }
+}
+
+int exitCodeOf(const Report& summary) {
+    return !summary.errors.empty() ? 2 : summary.passed() ? 0 : 1;
+}
+
+}  // namespace diptych::cli

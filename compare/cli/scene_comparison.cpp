@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/scene_comparison.h"
+
+#include "compare/cli/commands.h"
+#include "compare/external/external_frame.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/reference_frame.h"
+#include "compare/render/renderer.h"
+#include "compare/run/command_text.h"
+#include "compare/verdict/baseline.h"
+#include "compare/verdict/pair_reports.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::cli {
+namespace {
+
+std::vector<std::string> materialNames(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials) names.push_back(material.name);
+    return names;
+}
+
+// What a reference in mode scene grants the device of a scene that has textures.
+std::optional<TextureSampling> texelsFor(const Options& options, const std::vector<Settings>& settings,
+                                         Device& device, bool textures, TextureProbe& probe) {
+    const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
+        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+    });
+    if (!textures || !againstReference(options) || !scenes) return {};
+    if (!probe) probe = probeTextures(device, settings.front().textures);  // of all alike
+    return probe;
+}
+
+// The left panel's place among a report's Frames, of those of one view that begin at `first`.
+std::size_t leftPanel(const Options& options, std::size_t first) {
+    if (!options.baseline_file.empty()) return 0;
+    if (againstReference(options)) return first;
+    const auto path = std::ranges::find(drawn_paths, options.baseline);
+    return first + static_cast<std::size_t>(path - drawn_paths.begin());
+}
+
+// One view by every renderer that is not ours. One that fails is an error of the report, and nothing is
+// compared with it.
+void drawExternals(const Scene& scene, const SceneView& view, const Settings& settings,
+                   const Options& options, std::size_t baseline, const Stage& stage, DrawnScene& drawn) {
+    const auto all = static_cast<double>(options.renderers.size());
+    for (std::size_t i = 0; i < options.renderers.size(); ++i) {
+        const external::Renderer& renderer = options.renderers[i];
+        say(options, fmt::format("{}: {}", renderer.name,
+                                 oneLine(fmt::format("{}", fmt::join(renderer.command, " ")))));
+        stage.at(static_cast<double>(i) / all, renderer.name);
+        external::Attempt attempt = external::drawExternally(renderer, scene, view, settings);
+        if (attempt.frame) {
+            drawn.external.push_back(
+                {std::move(*attempt.frame), view.needs, baseline, options.renderer_words});
+        } else {
+            drawn.errors.push_back({scene.name,
+                                    fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
+                                                renderer.file.string(), attempt.problem),
+                                    renderer.name, std::move(attempt.said)});
+        }
+    }
+}
+
+}  // namespace
+
+bool againstReference(const Options& options) {
+    return options.baseline == Path::reference && options.baseline_file.empty();
+}
+
+std::vector<Path> comparedPaths(const Options& options) {
+    std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
+    if (againstReference(options)) paths.insert(paths.begin(), Path::reference);
+    return paths;
+}
+
+bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
+    const auto traced = [](const Settings& s) {
+        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+    };
+    return std::ranges::any_of(settings, traced) ||
+           (baseline && isReferenceFrame(*baseline) && traced(baseline->settings));
+}
+
+void checkSamples(const Options& options, const std::vector<Settings>& settings,
+                  const std::optional<Frame>& baseline) {
+    std::optional<Settings> reference;
+    if (againstReference(options)) reference = referenceSettings(options.settings);
+    if (baseline && isReferenceFrame(*baseline)) reference = baseline->settings;
+    if (!reference) return;
+    for (const Settings& s : settings) {
+        if (s.path == Path::reference || s.msaa == 1) continue;
+        if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
+            throw std::runtime_error(problem);
+        if (!options.channels.empty() &&
+            std::ranges::count(options.channels, static_cast<int>(gpu::DEBUG_lit)) == 0)
+            throw std::runtime_error(fmt::format(
+                "--msaa {}: lit alone is compared with the reference; add it to --channels", s.msaa));
+    }
+}
+
+Shares sharesOf(const RenderOptions& render) {
+    const double frames = framesIn(render);
+    return {frames / (frames + 4), (frames + 1) / (frames + 4)};
+}
+
+double ourShare(const Options& options) {
+    return options.renderers.empty() ? 1 : 0.5;
+}
+
+DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
+                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside) {
+    DrawnScene drawn;
+    SceneViews views(scene);
+    for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
+    drawn.frames = renderAll(device, views, settings, render);
+    const std::size_t together = comparedPaths(options).size();
+    for (std::size_t k = 0; k < drawn.frames.size(); k += together) {
+        const Frame& shown = drawn.frames[k + together - 2];
+        drawn.visual_checks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
+        drawn.materials.push_back(materialNames(scene));
+        drawExternals(scene, views.at(viewRequest(shown.settings)), shown.settings, options,
+                      leftPanel(options, k), outside, drawn);
+        letGo(shown);
+    }
+    drawn.texels = texelsFor(options, settings, device, !scene.textures.empty(), probe);
+    return drawn;
+}
+
+namespace {
+
+Report comparisonsOf(const Options& options, const CompareOptions& compare, DrawnScene drawn,
+                     std::optional<Frame> baseline, const ReportDevice& device) {
+    if (againstReference(options))
+        return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
+                                   std::move(drawn.visual_checks), drawn.materials);
+    if (!baseline)
+        return makeReport(std::move(drawn.frames), drawn.needs, device, compare,
+                          std::move(drawn.visual_checks));
+    baseline->requested = drawn.frames.front().requested;
+    return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
+                              compare, baselineMismatches(*baseline, drawn.frames.front(), device));
+}
+
+}  // namespace
+
+Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn,
+                std::optional<Frame> baseline, const ReportDevice& device, const std::string& again,
+                const Stage& progress) {
+    compare.progress = progress;
+    compare.rules = rulesOfScene(compare.rules, drawn.frames.front().scene);
+    compare.texels = drawn.texels;
+    std::vector<ExternalPicture> external = std::move(drawn.external);
+    std::vector<SceneError> errors = std::move(drawn.errors);
+    Report report = comparisonsOf(options, compare, std::move(drawn), std::move(baseline), device);
+    addExternalPictures(report, std::move(external), compare);
+    report.errors = std::move(errors);
+    for (Comparison& comparison : report.comparisons)
+        comparison.command = withOption(comparison.command, "-o", again);
+    return report;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/tradeoff_many.h"
+
+#include "compare/cli/commands.h"
+#include "compare/cli/scene_items.h"
+#include "compare/files/kept_folder.h"
+#include "compare/files/listed_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output_folder.h"
+#include "compare/page/page.h"
+#include "compare/page/text.h"
+#include "compare/report/folders.h"
+#include "compare/report/titles.h"
+#include "compare/shards/merge.h"
+#include "compare/tradeoff/tradeoff.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+namespace diptych::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using page::markup;
+
+// A scene's tradeoff, as the page of all lists it.
+struct Swept {
+    std::string scene, folder, device;
+    std::size_t rows = 0, front = 0;
+    double fastest_ms = 0, fastest_flip = 0, best_ms = 0, best_flip = 0;
+};
+
+nlohmann::json tradeoffIn(const fs::path& folder) {
+    std::ifstream stream(folder / tradeoff::tradeoffManifest, std::ios::binary);
+    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    if (!json.is_object() || json.value("software", "") != softwareName)
+        throw std::runtime_error(fmt::format("{}: is no tradeoff", folder.string()));
+    return json;
+}
+
+Swept sweptOf(const shards::Item& item, const nlohmann::json& json) {
+    Swept swept{item.scene, item.folder, json.at("device").value("name", "")};
+    swept.rows = json.at("rows").size();
+    for (const auto& front : json.at("fronts"))
+        if (front.at("error") == "flip" && front.at("path").is_null()) swept.front = front.at("rows").size();
+    bool first = true;
+    for (const auto& row : json.at("rows")) {
+        const double ms = row.at("ms").at("median");
+        const auto& error = row.at("errors").at("flip");
+        const double flip = error.is_number() ? error.get<double>() : 1e300;
+        if (first || ms < swept.fastest_ms)
+            std::tie(swept.fastest_ms, swept.fastest_flip) = std::pair(ms, flip);
+        if (first || flip < swept.best_flip) std::tie(swept.best_ms, swept.best_flip) = std::pair(ms, flip);
+        first = false;
+    }
+    return swept;
+}
+
+std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>& errors) {
+    std::vector<std::string> scenes;
+    for (const Swept& one : all) scenes.push_back(one.scene);
+    const std::string common = page::commonFolder(scenes);
+    std::string rows, failed;
+    for (const Swept& one : all)
+        rows += fmt::format(
+            "<tr><td class=\"wide\"><a href=\"{}index.html\" title=\"{}\">{}</a></td><td "
+            "class=\"n\">{}</td><td "
+            "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+            "class=\"n\">{}</td><td class=\"wide soft\">{}</td></tr>\n",
+            markup(one.folder), markup(one.scene), markup(page::inFolder(one.scene, common)), one.rows,
+            one.front, page::number(one.fastest_ms), page::number(one.fastest_flip),
+            page::number(one.best_ms), page::number(one.best_flip), markup(one.device));
+    for (const SceneError& error : errors) failed += fmt::format("<li>{}</li>", markup(errorText(error)));
+    if (!failed.empty())
+        failed = "<section class=\"box failures\"><h4>Failures</h4><ul>" + failed + "</ul></section>\n";
+    return fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error of {0} "
+        "scenes</title>\n"
+        "<style>{1}</style></head>\n<body><header><p class=\"brand\">Diptych</p><h1>Time against error of "
+        "{0} "
+        "scenes</h1></header>\n{2}<section class=\"index\"><div class=\"box "
+        "scroll\"><table><thead><tr>{3}</tr>"
+        "</thead><tbody>{4}</tbody></table></div></section>\n<p class=\"soft small\">Times are of the device "
+        "that the "
+        "row names, and those of several devices are no "
+        "scale.</p>\n<script>{5}sortable(document.querySelector('.index "
+        "table'), true);</script>\n</body></html>\n",
+        all.size(), page::style, failed,
+        [] {
+            std::string heads;
+            for (const auto& [name, number] : {std::pair{"scene", false},
+                                               {"rows", true},
+                                               {"on the front", true},
+                                               {"fastest, ms", true},
+                                               {"its FLIP", true},
+                                               {"most accurate, ms", true},
+                                               {"FLIP", true},
+                                               {"device", false}})
+                heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
+                                     number ? " class=\"n\"" : "", name);
+            return heads;
+        }(),
+        rows, page::tables);
+}
+
+// The page and the manifest: at first of no scene, so that the folder is ours from then on, and of all once
+// they are there. Returns the manifest.
+std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+                      const std::vector<const shards::Item*>& done) {
+    std::vector<Swept> swept;
+    for (const shards::Item* item : done) swept.push_back(sweptOf(*item, tradeoffIn(folder / item->folder)));
+    ListedFolder out(folder, tradeoffsManifest, options.force);
+    out.put("index.html", pageOf(swept, manifest.errors));
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(textOf(manifest));
+    json["scenes"] = nlohmann::ordered_json::array();
+    for (const Swept& one : swept)
+        json["scenes"].push_back({{"scene", one.scene},
+                                  {"folder", one.folder},
+                                  {"device", one.device},
+                                  {"rows", one.rows},
+                                  {"front", one.front},
+                                  {"fastest", {{"ms", one.fastest_ms}, {"flip", one.fastest_flip}}},
+                                  {"most_accurate", {{"ms", one.best_ms}, {"flip", one.best_flip}}}});
+    return out.finish(std::move(json));
+}
+
+int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+           const std::vector<const shards::Item*>& done) {
+    const std::string text = writePage(options, folder, manifest, done);
+    if (options.json)
+        fmt::print("{}", text);
+    else if (!options.quiet)
+        fmt::print("{} scenes: {}\n", done.size(), (folder / "index.html").string());
+    sayErrors(manifest.errors);
+    return manifest.errors.empty() ? 0 : 2;
+}
+
+}  // namespace
+
+int tradeoffMany(const Options& options, const fs::path& folder,
+                 const std::function<void(const Options&)>& sweep) {
+    const SceneItems items = itemsOf(options, {options.settings});
+    KeptFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
+    shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
+    std::vector<const shards::Item*> done;
+    if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
+    for (const shards::Item* item : items.mine) {
+        const std::string folder_name =
+            item->folder.empty() ? sceneFolders({item->scene}).front() : item->folder;
+        const std::string name = folder_name.substr(0, folder_name.size() - 1) + "-scene";
+        if (kept.find(name) == stampOf(item->scene) &&
+            isOurManifest(folder / item->folder / tradeoff::tradeoffManifest)) {
+            done.push_back(item);
+            continue;
+        }
+        Options one = options;
+        one.scenes = {item->scene};
+        one.out = folder / (item->folder.empty() ? "." : item->folder);
+        one.json = false;
+        one.quiet = options.quiet || options.json;
+        try {
+            sweep(one);
+            kept.keep(name, stampOf(item->scene));
+            done.push_back(item);
+        } catch (const std::system_error&) {
+            throw;  // of this machine
+        } catch (const std::runtime_error& error) {
+            manifest.errors.push_back({item->scene, error.what()});
+            say(options, fmt::format("{}; the other scenes are swept", error.what()));
+        }
+    }
+    if (done.empty() && !manifest.errors.empty() && options.shard.empty())
+        throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
+                                             items.all.size(), manifest.errors.front().message));
+    const int code = finish(options, folder, manifest, done);
+    kept.remove();
+    return code;
+}
+
+int mergeTradeoffs(const Options& options) {
+    const fs::path folder = outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest);
+    shards::Chosen chosen = shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoffsManifest);
+    std::vector<const shards::Item*> done;
+    writePage(options, folder, chosen.manifest, {});
+    for (const shards::Item& item : chosen.manifest.items) {
+        const auto from = chosen.folders.find(item.shard);
+        if (const std::optional<SceneError> error = chosen.errorOf(item)) {
+            chosen.manifest.errors.push_back(*error);
+            continue;
+        }
+        const fs::path scene = from->second / item.folder;
+        const nlohmann::json json = tradeoffIn(scene);
+        ListedFolder out(folder / item.folder, tradeoff::tradeoffManifest, options.force);
+        for (const std::string& name : listedIn(scene / tradeoff::tradeoffManifest)) {
+            if (name == tradeoff::tradeoffManifest) continue;
+            linkOrCopy(scene / name, out / name);
+            out.list(name);
+        }
+        std::ifstream stream(scene / tradeoff::tradeoffManifest, std::ios::binary);
+        out.finish(std::string(std::istreambuf_iterator<char>(stream), {}));
+        done.push_back(&item);
+    }
+    const shards::Manifest manifest = chosen.manifest;
+    const int code = finish(options, folder, manifest, done);
+    for (const std::string& problem : chosen.problems) note(options, problem);
+    return chosen.problems.empty() ? code : 2;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/encoder.h"
+
+#include "compare/files/data_uri.h"
+#include "compare/files/frame_exr.h"
+#include "compare/picture/picture.h"
+#include "compare/report/values.h"
+#include "shared/image/atomic_file.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// Writes one file. Tasks may run in any order and on any thread; the longest are listed first.
+using Task = std::function<void()>;
+
+class Encoder {
+public:
+    Encoder(const Report& report, ReportLayout& layout, const std::filesystem::path& folder,
+            const Stage& progress)
+        : report_(report), layout_(layout), folder_(folder), progress_(progress) {}
+
+    void run() {
+        std::vector<Task> tasks;
+        for (std::size_t i = 0; i < report_.frames.size(); ++i)
+            if (!layout_.exr[i].empty())
+                tasks.push_back([this, i] {
+                    writeFrameExr(folder_ / layout_.exr[i], report_.frames[i], report_.device);
+                });
+        for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
+            for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
+                addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
+                            layout_.pictures[i][k]);
+        for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
+            if (!layout_.cause_maps[i].empty())
+                tasks.push_back(
+                    [this, i] { write(layout_.cause_maps[i], *report_.comparisons[i].explained->map); });
+        for (std::size_t i = 0; i < report_.closer_paths.size(); ++i)
+            for (std::size_t k = 0; k < report_.closer_paths[i].channels.size(); ++k)
+                if (!layout_.closer_paths[i][k].empty())
+                    tasks.push_back([this, i, k] {
+                        const Image& apart = report_.closer_paths[i].channels[k].apart;
+                        write(layout_.closer_paths[i][k], closerPathPicture(apart, closerPathTop(apart)));
+                    });
+        std::atomic<std::size_t> done{0};
+        tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+            tasks[i]();
+            progress_.at(static_cast<double>(++done) / static_cast<double>(tasks.size()), "write pictures");
+        });
+    }
+
+private:
+    void addPictures(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
+                     ChannelPictures& pictures) {
+        if (!pictures.baseline.empty() || !pictures.test.empty())
+            tasks.push_back([&] { writePair(comparison, *channel.mode, pictures); });
+        if (pictures.differ || !pictures.values.empty())
+            tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
+    }
+
+    // Two pictures that are the same are one file.
+    void writePair(const Comparison& comparison, const DebugMode& mode, ChannelPictures& pictures) {
+        const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
+        const auto draw = [&](const Frame& frame, const std::string& name) {
+            return name.empty() ? Image8() : channelPicture(mode, frame, pictures.scale);
+        };
+        const Image8 a = draw(left, pictures.baseline), b = draw(right, pictures.test);
+        if (!pictures.same.empty() && a.data == b.data) {
+            pictures.baseline = pictures.test = pictures.same;
+            write(pictures.same, a);
+        } else {
+            if (!a.data.empty()) write(pictures.baseline, a);
+            if (!b.data.empty()) write(pictures.test, b);
+        }
+        for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
+    }
+
+    // Writes the difference picture, its figures, and the values script, which also holds the errors.
+    void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
+        const DebugMode& mode = *channel.mode;
+        const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);
+        const auto imageOf = [&](const Frame& frame) {
+            const auto found = frame.channels.find(mode.number);
+            return found == frame.channels.end() ? nullptr : &found->second;
+        };
+        const Image *left = imageOf(baseline), *right = imageOf(test);
+        Image errors;
+        if (pictures.differ) {
+            errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
+            const Image& shown = channel.shown_error ? *channel.shown_error : errors;
+            if (!pictures.difference.empty())
+                write(pictures.difference, errorPicture(shown, pictures.error_top));
+            pictures.histogram = errorHistogram(shown, comparison.coverage);
+            pictures.worst =
+                worstPixels(shown, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
+        }
+        writeValues(pictures.values, left ? left : right, left ? right : nullptr,
+                    errors.empty() ? nullptr : &errors);
+        for (const Frame* frame : {&baseline, &test}) letGo(*frame, mode.number);
+    }
+
+    void writeValues(const std::string& name, const Image* first, const Image* second, const Image* errors) {
+        if (name.empty()) return;
+        AtomicFile script(folder_ / name);
+        valuesScript(name, {first, second, errors}, [&](std::string_view text) {
+            std::fwrite(text.data(), 1, text.size(), script.stream());
+        });
+        script.commit();
+    }
+
+    void write(const std::string& name, const Image8& image) {
+        if (!layout_.single_file) return writePng(folder_ / name, image);
+        std::string uri = dataUri(pngBytes(halfSize(image)));
+        const std::lock_guard lock(mutex_);
+        layout_.embedded[name] = std::move(uri);
+    }
+
+    const Report& report_;
+    ReportLayout& layout_;
+    const std::filesystem::path& folder_;
+    const Stage& progress_;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+void encode(const Report& report, ReportLayout& layout, const std::filesystem::path& folder,
+            const Stage& progress) {
+    Encoder(report, layout, folder, progress).run();
+}
+
+}  // namespace diptych

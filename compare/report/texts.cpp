@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/texts.h"
+
+#include "compare/files/frame_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double sortable(double value) {
+    return std::isfinite(value) ? value : 1e300;
+}
+
+// The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
+// channels judged by what the encoding explains, whose tolerance is each pixel's own.
+const ChannelDiff* worstOf(const Comparison& comparison) {
+    const ChannelDiff* worst = nullptr;
+    for (const bool failing : {true, false}) {
+        for (const ChannelDiff& channel : comparison.channels) {
+            if ((channel.verdict == Verdict::fail) != failing || !isCompared(channel.verdict)) continue;
+            if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
+            if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
+        }
+        if (worst) return worst;
+    }
+    return nullptr;
+}
+
+// The first of the causes, which are ranked.
+std::string firstCause(const Comparison& comparison) {
+    if (!comparison.explained) return {};
+    const Json json = Json::parse(comparison.explained->json, nullptr, false);
+    if (!json.is_object() || !json.contains("causes") || json["causes"].empty()) return {};
+    return json["causes"][0].value("name", "");
+}
+
+double noiseOf(const Frame& frame, const ChannelDiff& channel) {
+    const auto found = frame.noise.find(channel.mode->number);
+    return found == frame.noise.end() ? 0 : sortable(found->second.max);
+}
+
+}  // namespace
+
+IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
+    IndexRow row;
+    if (const ChannelDiff* worst = worstOf(comparison)) {
+        row.worst = worst->mode;
+        row.used = sortable(usedShare(*worst));
+    }
+    const Frame &left_frame = report.baseline(comparison), &right_frame = report.test(comparison);
+    const FrameTime &left = left_frame.time, &right = right_frame.time;
+    row.key = rowKey(left_frame.scene, left_frame.name, right_frame.name, jsonOf(left_frame.camera).dump());
+    row.left_ms = left.median;
+    row.right_ms = right.median;
+    row.left_timed = left.runs > 0;
+    row.right_timed = right.runs > 0;
+    row.cause = firstCause(comparison);
+    row.device = report.device.name;
+    for (const ChannelDiff& channel : comparison.channels) {
+        if (!isCompared(channel.verdict)) continue;
+        const ChannelStats& s = channel.stats;
+        row.channels.push_back({std::string(channel.mode->name), std::string(nameOf(channel.verdict)),
+                                sortable(usedShare(channel)), sortable(s.max), sortable(s.mean),
+                                sortable(s.rmse), sortable(s.p99), sortable(s.p999),
+                                channel.flip ? sortable(*channel.flip) : -1,
+                                noiseOf(left_frame, channel) + noiseOf(right_frame, channel)});
+    }
+    return row;
+}
+
+Json jsonOf(const IndexRow& row) {
+    Json channels = Json::array();
+    for (const IndexChannel& c : row.channels)
+        channels.push_back(
+            {c.name, c.verdict, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip, c.noise});
+    return {{"worst", row.worst ? Json(row.worst->number) : Json(nullptr)},
+            {"used", row.used},
+            {"ms", {row.left_ms, row.right_ms}},
+            {"timed", {row.left_timed, row.right_timed}},
+            {"cause", row.cause},
+            {"device", row.device},
+            {"key", row.key},
+            {"channels", channels}};
+}
+
+IndexRow indexRowFromJson(const nlohmann::json& json) {
+    IndexRow row;
+    if (!json.at("worst").is_null()) row.worst = &debugMode(json.at("worst").get<int>());
+    row.used = json.at("used");
+    row.left_ms = json.at("ms").at(0);
+    row.right_ms = json.at("ms").at(1);
+    row.left_timed = json.at("timed").at(0);
+    row.right_timed = json.at("timed").at(1);
+    row.cause = json.at("cause");
+    row.device = json.at("device");
+    row.key = json.at("key");
+    for (const auto& c : json.at("channels"))
+        row.channels.push_back(
+            {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), c.at(6), c.at(7), c.at(8), c.at(9)});
+    return row;
+}
+
+std::string rowKey(const std::string& scene, const std::string& baseline, const std::string& test,
+                   const std::string& camera_json) {
+    return scene + "\n" + baseline + "\n" + test + "\n" + camera_json;
+}
+
+DrawnOn drawnOn(const Report& report, const ReportLayout* layout) {
+    return {report.device, report.comparisons.size(), report.diff_ms, layout ? layout->encode_ms : 0};
+}
+
+}  // namespace diptych

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/trends.h"
+
+#include "compare/files/frame_json.h"
+#include "compare/files/our_files.h"
+#include "compare/page/text.h"
+#include "compare/report/titles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Of a comparison in the earlier report.
+struct Earlier {
+    std::string scene, verdict;
+    std::map<std::string, std::map<std::string, double>> channels;  // figures by name
+};
+
+struct EarlierReport {
+    std::string device;
+    std::map<std::string, Earlier> comparisons;
+    std::map<std::string, double> noise;  // by scene and channel: of both paths, the largest of all views
+};
+
+constexpr std::pair<const char*, double IndexChannel::*> judged[] = {{"max", &IndexChannel::max},
+                                                                     {"mean", &IndexChannel::mean},
+                                                                     {"rmse", &IndexChannel::rmse},
+                                                                     {"p99", &IndexChannel::p99},
+                                                                     {"p999", &IndexChannel::p999}};
+
+// Members of a report that are large and say nothing here: a report of thousands is read without them.
+bool isLeftOut(const std::string& key) {
+    static const std::set<std::string> names{
+        "settings", "passes",     "figures", "explanation",  "marks", "notes", "marks_found",
+        "because",  "criterion",  "command", "worst_values", "truth", "files", "encoding",
+        "counters", "footprints", "origin",  "host_ms",      "bytes"};
+    return names.contains(key);
+}
+
+// JSON has null for what is infinite.
+double figureIn(const nlohmann::json& json, const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_number() ? found->get<double>() : 1e300;
+}
+
+void addComparison(EarlierReport& report, std::map<std::string, int>& again, const nlohmann::json& json) {
+    std::string key = rowKey(json.value("scene", ""), json.value("baseline", ""), json.value("test", ""),
+                             jsonOf(cameraFromJson(json.at("camera"))).dump());
+    key += fmt::format("\n{}", ++again[key]);
+    Earlier& earlier = report.comparisons[key];
+    earlier.scene = json.value("scene", "");
+    earlier.verdict = json.value("verdict", "");
+    for (const nlohmann::json& channel : json.at("channels")) {
+        const std::string verdict = channel.value("verdict", "");
+        if (verdict != "pass" && verdict != "fail") continue;
+        auto& figures = earlier.channels[channel.value("name", "")];
+        for (const auto& [name, member] : judged) figures[name] = figureIn(channel, name);
+    }
+}
+
+void addNoise(EarlierReport& report, const nlohmann::json& frame) {
+    if (!frame.contains("noise")) return;
+    for (const auto& [channel, of] : frame["noise"].items()) {
+        double& most = report.noise[frame.value("scene", "") + "\n" + channel];
+        most = std::max(most, 2 * figureIn(of, "max"));
+    }
+}
+
+EarlierReport readEarlier(const fs::path& where) {
+    std::error_code ignored;
+    const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
+    std::ifstream stream(file, std::ios::binary);
+    // Not of ordered_json, whose elements move while others are left out.
+    const auto filter = [](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+        return event != nlohmann::json::parse_event_t::key || !isLeftOut(value.get<std::string>());
+    };
+    const nlohmann::json json = nlohmann::json::parse(stream, filter, false);
+    if (!json.is_object() || json.value("software", "") != softwareName || !json.contains("comparisons"))
+        throw std::runtime_error(fmt::format(
+            "--since {}: is no report that compare wrote; give its folder or report.json", where.string()));
+    EarlierReport report;
+    try {
+        const nlohmann::json& device = json.at("device");
+        report.device = device.value("name", "") + ", " + device.value("driver", "");
+        std::map<std::string, int> again;
+        for (const nlohmann::json& comparison : json.at("comparisons"))
+            addComparison(report, again, comparison);
+        for (const nlohmann::json& frame : json.at("frames")) addNoise(report, frame);
+    } catch (const nlohmann::json::exception&) {
+        throw std::runtime_error(fmt::format("--since {}: is a report of another version", where.string()));
+    }
+    return report;
+}
+
+std::vector<MovedFigure> movedSince(const Earlier& earlier, const EarlierReport& report,
+                                    const IndexRow& row) {
+    std::vector<MovedFigure> moved;
+    for (const IndexChannel& channel : row.channels) {
+        const auto then = earlier.channels.find(channel.name);
+        if (then == earlier.channels.end()) continue;
+        const auto noise = report.noise.find(earlier.scene + "\n" + channel.name);
+        const double most = channel.noise + (noise == report.noise.end() ? 0 : noise->second);
+        for (const auto& [name, member] : judged) {
+            const double from = then->second.at(name), to = channel.*member;
+            if (std::abs(to - from) > most) moved.push_back({channel.name, name, from, to, most});
+        }
+    }
+    return moved;
+}
+
+std::string numberOf(double value) {
+    return value >= 1e300 ? "inf" : page::number(value);
+}
+
+Json finite(double value) {
+    return value >= 1e300 ? Json(nullptr) : Json(value);
+}
+
+}  // namespace
+
+std::string_view nameOf(TrendKind kind) {
+    constexpr std::string_view names[] = {"same", "new failure", "mended", "moved", "new"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+Trends trendsSince(const fs::path& where, const Report& report, const std::vector<IndexRow>& rows) {
+    EarlierReport earlier = readEarlier(where);
+    Trends trends;
+    trends.report = where.string();
+    const std::string here = report.device.name + ", " + report.device.driver;
+    if (earlier.device != here) trends.device = earlier.device;
+    std::map<std::string, int> again;
+    std::set<std::string> met;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        Trend& trend = trends.comparisons.emplace_back();
+        const std::string key = rows[i].key + fmt::format("\n{}", ++again[rows[i].key]);
+        const auto then = earlier.comparisons.find(key);
+        const bool fails = !report.comparisons[i].passed();
+        if (then == earlier.comparisons.end()) {
+            trend.kind = TrendKind::fresh;
+            continue;
+        }
+        met.insert(key);
+        trend.moved = movedSince(then->second, earlier, rows[i]);
+        const bool failed = then->second.verdict == "fail";
+        trend.kind = fails && !failed      ? TrendKind::fails_now
+                     : !fails && failed    ? TrendKind::mended
+                     : trend.moved.empty() ? TrendKind::same
+                                           : TrendKind::moved;
+    }
+    for (const auto& [key, of] : earlier.comparisons)
+        if (!met.contains(key) && std::ranges::count(trends.gone, of.scene) == 0)
+            trends.gone.push_back(of.scene);
+    return trends;
+}
+
+std::string movedText(const MovedFigure& moved) {
+    return fmt::format("{} {} {} -> {}", moved.channel, moved.figure, numberOf(moved.from),
+                       numberOf(moved.to));
+}
+
+Json jsonOf(const Trends& trends, const Report& report) {
+    Json comparisons = Json::array();
+    for (std::size_t i = 0; i < trends.comparisons.size(); ++i) {
+        const Trend& trend = trends.comparisons[i];
+        if (trend.kind == TrendKind::same) continue;
+        Json moved = Json::array();
+        for (const MovedFigure& one : trend.moved)
+            moved.push_back({{"channel", one.channel},
+                             {"figure", one.figure},
+                             {"from", finite(one.from)},
+                             {"to", finite(one.to)},
+                             {"noise", one.noise}});
+        comparisons.push_back({{"comparison", i},
+                               {"scene", report.baseline(report.comparisons[i]).scene},
+                               {"kind", nameOf(trend.kind)},
+                               {"moved", moved}});
+    }
+    return {{"report", trends.report},
+            {"device", trends.device.empty() ? Json(nullptr) : Json(trends.device)},
+            {"comparisons", comparisons},
+            {"gone", trends.gone}};
+}
+
+std::vector<std::string> trendLines(const Trends& trends, const Report& report) {
+    std::vector<std::string> lines;
+    if (!trends.device.empty())
+        lines.push_back(
+            fmt::format("the earlier report is of another device ({}): its figures may differ by how that "
+                        "rounds",
+                        trends.device));
+    for (const TrendKind kind :
+         {TrendKind::fails_now, TrendKind::mended, TrendKind::moved, TrendKind::fresh}) {
+        std::vector<std::string> places;
+        for (std::size_t i = 0; i < trends.comparisons.size(); ++i) {
+            const Trend& trend = trends.comparisons[i];
+            if (trend.kind != kind) continue;
+            std::string place = placeOf(report, report.comparisons[i]);
+            if (!trend.moved.empty())
+                place += fmt::format(
+                    " ({}{})", movedText(trend.moved.front()),
+                    trend.moved.size() == 1 ? "" : fmt::format(", {} figures more", trend.moved.size() - 1));
+            places.push_back(std::move(place));
+        }
+        if (!places.empty())
+            lines.push_back(fmt::format("{} {}: {}", places.size(), nameOf(kind), listed(places, 8)));
+    }
+    if (!trends.gone.empty())
+        lines.push_back(fmt::format("{} gone: {}", trends.gone.size(), listed(trends.gone, 8)));
+    if (lines.empty()) lines.emplace_back("nothing has changed");
+    return lines;
+}
+
+}  // namespace diptych

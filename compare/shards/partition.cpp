@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "compare/shards/partition.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+
+namespace diptych::shards {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where timings are missing: loading so many bytes takes about as long as drawing a small scene does
+// (lavapipe, 640x360, 2 cores).
+constexpr double bytesOfDrawing = 4 << 20;
+
+std::optional<int> numberIn(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+// What Slurm tells a task of its array.
+struct ArrayTask {
+    int id = 0, first = 0, step = 0, last = 0;
+    std::optional<int> count;
+};
+
+int variable(const Variables& environment, const char* name, const std::string& word) {
+    const std::optional<std::string> text = environment(name);
+    const std::optional<int> number = text ? numberIn(*text) : std::nullopt;
+    if (!number)
+        throw std::runtime_error(fmt::format(
+            "--shard {}: {} {}; run it as a task of a Slurm array (sbatch --array=1-16), or give --shard I/N",
+            word, name, text ? "is no number: " + *text : "is not set"));
+    return *number;
+}
+
+Shard shardOfArray(const std::string& word, const Variables& environment) {
+    ArrayTask task;
+    task.id = variable(environment, "SLURM_ARRAY_TASK_ID", word);
+    task.first = variable(environment, "SLURM_ARRAY_TASK_MIN", word);
+    task.last = variable(environment, "SLURM_ARRAY_TASK_MAX", word);
+    task.step = variable(environment, "SLURM_ARRAY_TASK_STEP", word);
+    if (environment("SLURM_ARRAY_TASK_COUNT"))
+        task.count = variable(environment, "SLURM_ARRAY_TASK_COUNT", word);
+    const int count = task.step > 0 ? (task.last - task.first) / task.step + 1 : 0;
+    const bool regular = task.step > 0 && task.first <= task.id && task.id <= task.last &&
+                         (task.last - task.first) % task.step == 0 &&
+                         (task.id - task.first) % task.step == 0 && task.count.value_or(count) == count;
+    if (!regular)
+        throw std::runtime_error(
+            fmt::format("--shard {}: the array is irregular (task {} of {} to {} by {}), and Slurm does not "
+                        "tell its tasks which "
+                        "there are; give --shard slurm/N with tasks 1 to N",
+                        word, task.id, task.first, task.last, task.step));
+    return {(task.id - task.first) / task.step + 1, count};
+}
+
+// The JSON of a .gltf, or of a .glb's first chunk; discarded where there is none.
+nlohmann::json gltfJson(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::array<unsigned char, 20> head{};
+    stream.read(reinterpret_cast<char*>(head.data()), head.size());
+    const auto word = [&](std::size_t at) {
+        return std::uint32_t{head[at]} | std::uint32_t{head[at + 1]} << 8 |
+               std::uint32_t{head[at + 2]} << 16 | std::uint32_t{head[at + 3]} << 24;
+    };
+    std::string text;
+    if (stream && std::equal(head.begin(), head.begin() + 4, "glTF")) {
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        if (error || word(12) > size) return nlohmann::json::value_t::discarded;
+        text.resize(word(12));
+        stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    } else {
+        stream.clear();
+        stream.seekg(0);
+        text.assign(std::istreambuf_iterator<char>(stream), {});
+    }
+    return nlohmann::json::parse(text, nullptr, false);
+}
+
+// "a%20b.png" as the file is called.
+std::string decoded(const std::string& uri) {
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned byte = 0;
+        const char* const digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() + 0 &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            name += static_cast<char>(byte);
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    return name;
+}
+
+std::string fileName(const std::string& scene) {
+    std::error_code ignored;
+    return fs::exists(scene, ignored) ? scene : scene.substr(0, scene.rfind("?scene="));
+}
+
+}  // namespace
+
+Shard shardOf(const std::string& word, const Variables& environment) {
+    const std::size_t slash = word.find('/');
+    const std::string first = word.substr(0, slash);
+    if (first == "slurm" && slash == word.npos) return shardOfArray(word, environment);
+    const std::optional<int> count = slash == word.npos ? std::nullopt : numberIn(word.substr(slash + 1));
+    const std::optional<int> index =
+        first == "slurm" && count ? variable(environment, "SLURM_ARRAY_TASK_ID", word) : numberIn(first);
+    if (!count || !index)
+        throw std::runtime_error(
+            fmt::format("--shard {}: is I/N, the I-th of N from 1, as 2/16; or slurm, or slurm/N", word));
+    if (*count < 1 || *index < 1 || *index > *count)
+        throw std::runtime_error(
+            fmt::format("--shard {}: there is no shard {} of {}; the first is 1", word, *index, *count));
+    return {*index, *count};
+}
+
+std::vector<fs::path> filesOf(const std::string& scene) {
+    if (scene.starts_with("builtin:")) return {};
+    const fs::path file = fileName(scene);
+    std::vector<fs::path> files{file};
+    const nlohmann::json json = gltfJson(file);
+    if (!json.is_object()) return files;
+    for (const char* kind : {"buffers", "images"})
+        if (const auto all = json.find(kind); all != json.end() && all->is_array())
+            for (const auto& one : *all)
+                if (one.is_object() && one.contains("uri") && one["uri"].is_string()) {
+                    const std::string uri = one["uri"];
+                    if (!uri.starts_with("data:")) files.push_back(file.parent_path() / decoded(uri));
+                }
+    return files;
+}
+
+std::uint64_t bytesOf(const std::string& scene) {
+    std::uint64_t bytes = 0;
+    for (const fs::path& file : filesOf(scene)) {
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        if (!error) bytes += size;
+    }
+    return bytes;
+}
+
+std::map<std::string, double> timingsOf(const fs::path& report) {
+    std::error_code ignored;
+    const fs::path file = fs::is_directory(report, ignored) ? report / "report.json" : report;
+    std::ifstream stream(file, std::ios::binary);
+    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    std::map<std::string, double> timings;
+    if (json.is_object() && json.contains("frames") && json["frames"].is_array())
+        for (const auto& frame : json["frames"])
+            if (frame.is_object() && frame.value("made_in_ms", 0.0) > 0)
+                timings[frame.value("scene", "")] += frame["made_in_ms"].get<double>();
+    if (timings.empty())
+        throw std::runtime_error(
+            fmt::format("--timings {}: is no report.json with frames that were drawn, nor a folder of one",
+                        report.string()));
+    return timings;
+}
+
+std::vector<double> weightsOf(const std::vector<std::string>& scenes,
+                              const std::map<std::string, double>& timings) {
+    std::vector<double> weights;
+    double ms = 0, bytes = 0;
+    for (const std::string& scene : scenes) {
+        weights.push_back(static_cast<double>(bytesOf(scene)) + bytesOfDrawing);
+        if (const auto found = timings.find(scene); found != timings.end()) {
+            ms += found->second;
+            bytes += weights.back();
+        }
+    }
+    for (std::size_t i = 0; i < scenes.size() && ms > 0; ++i) {
+        const auto found = timings.find(scenes[i]);
+        weights[i] = found != timings.end() ? found->second : weights[i] * ms / bytes;
+    }
+    return weights;
+}
+
+std::vector<int> partition(const std::vector<double>& weights, int count) {
+    std::vector<std::size_t> order(weights.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return weights[i]; });
+    struct Load {
+        double weight = 0;
+        std::size_t scenes = 0;
+    };
+    std::vector<Load> loads(static_cast<std::size_t>(count));
+    std::vector<int> shards(weights.size());
+    for (const std::size_t i : order) {
+        const auto least =
+            std::ranges::min_element(loads, {}, [](const Load& l) { return std::tuple(l.weight, l.scenes); });
+        least->weight += weights[i];
+        ++least->scenes;
+        shards[i] = static_cast<int>(least - loads.begin()) + 1;
+    }
+    return shards;
+}
+
+}  // namespace diptych::shards

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Two thousand comparisons of four shards: what joining them takes, and the page of them all in a browser.
+#include "compare/report/folders.h"
+#include "compare/report/parts.h"
+#include "compare/shards/manifest.h"
+#include "tests/tool/page_maker.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <chrono>
+
+namespace diptych {
+namespace {
+
+constexpr std::size_t count = 2000, shardCount = 4;
+
+// Every tenth fails, in roughness, the more the larger its number; lit differs in all.
+std::vector<Frame> numbered(std::size_t i, const std::string& scene) {
+    std::vector<Frame> pair = bothFrames(scene);
+    for (Frame& frame : pair) frame.settings.camera = i % 2 == 0 ? "" : "1";
+    if (i % 10 == 7)
+        pair[1].channels.at(gpu::DEBUG_roughness).at(1, 2) = 0.51f + 1e-4f * static_cast<float>(i);
+    for (Frame& frame : pair)
+        if (frame.settings.path == Path::forward_plus)
+            frame.channels.at(gpu::DEBUG_lit).at(1, 2, 0) += 1e-5f * static_cast<float>(i % 97);
+    pair[1].through_gbuffer = pair[0].channels;
+    return pair;
+}
+
+// The reports of four shards, as the program writes them.
+void makeShards(const Folder& folder) {
+    std::vector<std::string> scenes;
+    for (std::size_t i = 0; i < count; ++i) scenes.push_back(fmt::format("scenes/{}/{}.glb", i / 100, i));
+    const std::vector<std::string> folders = sceneFolders(scenes);
+    shards::Manifest manifest{shards::buildName(), "compare", {{"asked", {{"keep", 1}}}}, {}, {}, {}};
+    for (std::size_t i = 0; i < count; ++i)
+        manifest.items.push_back({scenes[i], folders[i], static_cast<int>(i % shardCount) + 1});
+    for (std::size_t shard = 0; shard < shardCount; ++shard) {
+        const fs::path root = folder / fmt::format("parts-{}", shard);
+        ReportOptions options;
+        options.keep = Keep::failing;
+        WholeReport whole;
+        for (std::size_t i = shard; i < count; i += shardCount) {
+            options.scene_folder = folders[i];
+            whole.parts.push_back({writePart(reportOf(numbered(i, scenes[i])), root, options), root});
+        }
+        options.scene_folder.reset();
+        manifest.shard = {static_cast<int>(shard) + 1, static_cast<int>(shardCount)};
+        whole.shard = textOf(manifest);
+        writeWhole(whole, summaryOf(whole), folder / fmt::format("shard-{}", shard + 1), options);
+    }
+}
+
+struct Used {
+    int code = -1;
+    double seconds = 0, megabytes = 0;
+};
+
+// Of the tool, by itself.
+Used runAlone(const Folder& folder, const std::string& words) {
+    const auto start = std::chrono::steady_clock::now();
+    const pid_t process = ::fork();
+    if (process == 0) {
+        ::execl("/bin/sh", "sh", "-c",
+                ("cd '" + folder.path().string() + "' && exec '" DIPTYCH_PROGRAM "' " + words).c_str(),
+                nullptr);
+        ::_exit(127);
+    }
+    int status = 0;
+    struct rusage usage {};
+    ::wait4(process, &status, 0, &usage);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            static_cast<double>(usage.ru_maxrss) / 1024};
+}
+
+const char* const look = R"(
+  await until(() => document.readyState === 'complete');
+  const lines = $$('.index tbody tr'), visible = () => lines.filter(line => !line.hidden);
+  const told = { ms: performance.getEntriesByType('navigation')[0].domComplete, lines: lines.length };
+  told.loaded = $$('img').filter(image => image.complete && image.naturalWidth).length;
+  told.images = $$('img').length;
+  const set = (by, value) => { const s = $(`.index select[data-by="${by}"]`); s.value = value; s.dispatchEvent(new Event('change')); };
+  set('verdict', 'fail'); told.failing = visible().length;
+  set('camera', '1'); told.ofCamera = visible().length;
+  set('camera', 'default view'); told.ofOther = visible().length; set('camera', '');
+  set('channel', 'lit'); told.litFails = visible().length;
+  set('channel', 'roughness'); told.roughnessFails = visible().length;
+  set('figure', 'mean'); told.head = [...$$('.index th')].map(h => h.textContent).find(t => t.includes('mean'));
+  const head = [...$$('.index th')].find(h => h.textContent.includes('mean'));
+  head.click(); told.first = $$('.index tbody tr')[0].cells[1].textContent;
+  head.click(); set('verdict', ''); set('channel', '');
+  const filter = $('.index [type=search]');
+  filter.value = '1997.glb'; filter.dispatchEvent(new Event('input', { bubbles: true })); told.found = visible().length;
+  location.hash = '#s1000'; told.arrived = await until(() => $('#s1000')) && $('#s1000 h2').textContent;
+  location.hash = '#c1001-lit'; told.card = await until(() => $('#c1001-lit')) && $('#c1001-lit').closest('section').id;
+  await wait(300); told.address = location.search;
+  tell(told);)";
+
+TEST(MergeMany, TwoThousandComparisonsInTenSecondsAndFiveHundredMegabytes) {
+    const Folder folder;
+    makeShards(folder);
+    const Used used = runAlone(folder, "merge -q shard-3 shard-1 shard-4 shard-2 -o all");
+    EXPECT_EQ(used.code, 1) << "a tenth fails";
+    std::cout << fmt::format("merge of {}: {:.2f} s, {:.0f} MB\n", count, used.seconds, used.megabytes);
+    EXPECT_LT(used.seconds, 10);
+    EXPECT_LT(used.megabytes, 500);
+    const Used trends = runAlone(folder, "merge -q shard-1 shard-2 shard-3 shard-4 -o again --since all");
+    std::cout << fmt::format("with --since: {:.2f} s, {:.0f} MB\n", trends.seconds, trends.megabytes);
+    EXPECT_EQ(trends.code, 1);
+    const auto json = nlohmann::json::parse(contentsOf(folder / "again/report.json"));
+    EXPECT_EQ(json["comparisons"].size(), count);
+    EXPECT_TRUE(json["since"]["comparisons"].empty()) << json["since"].dump(1).substr(0, 500);
+    SKIP_WITHOUT_BROWSER();
+    const Visit seen = visit(folder, folder / "all/index.html", look);
+    EXPECT_EQ(seen.console, "");
+    const nlohmann::json& told = seen.told;
+    ASSERT_TRUE(told.is_object()) << told;
+    std::cout << fmt::format("the page opens in {:.0f} ms\n", told["ms"].get<double>());
+    EXPECT_LT(told["ms"], 2000);
+    EXPECT_EQ(told["lines"], count);
+    EXPECT_LT(told["images"], 1000) << "of four comparisons";
+    EXPECT_LE(told["loaded"], told["images"]);
+    EXPECT_EQ(told["failing"], count / 10);
+    EXPECT_EQ(told["ofCamera"], count / 10) << "7, 17, ... are odd";
+    EXPECT_EQ(told["ofOther"], 0);
+    EXPECT_EQ(told["litFails"], 0);
+    EXPECT_EQ(told["roughnessFails"], count / 10);
+    EXPECT_EQ(told["head"], "roughness mean");
+    EXPECT_EQ(told["first"], "19/1997.glb") << "the largest first";
+    EXPECT_EQ(told["found"], 1);
+    EXPECT_EQ(told["arrived"], "10/1000.glb \u00b7 default view") << "a section that knew neither";
+    EXPECT_EQ(told["card"], "s1001");
+}
+
+}  // namespace
+}  // namespace diptych

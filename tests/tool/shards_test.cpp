@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+// Many scenes: folders, patterns and lists; shards and their merge; and going on after an end in the middle.
+#include "tests/tool/running.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <random>
+#include <regex>
+#include <set>
+
+namespace diptych {
+namespace {
+
+// Small, and among them one that cannot be drawn. -o and --shard are added.
+const std::string scenes =
+    "builtin:points builtin:triangle gone.glb builtin:spots builtin:areas builtin:crossed";
+const std::string how = " --size 32x18 --runs 0 --channels lit,normals,roughness";
+
+// All files of a report, without times: the one thing that differs from run to run.
+std::map<std::string, std::string> timeless(const fs::path& folder) {
+    static const std::regex json_times(
+        "\"(made_in_ms|compare_ms|encode_ms|ms|record|object_lists)\": [-+.e0-9]+");
+    static const std::regex junit_times(" (time|timestamp)=\"[^\"]*\"");
+    static const std::regex page_times(
+        "compared in [0-9]+ ms, pictures, values and EXRs encoded in [0-9]+ ms");
+    static const std::regex made_in("made in</td><td[^<]*</td>|[0-9.]+ (s|ms)</td>");
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::string text = contentsOf(entry.path());
+        const std::string name = entry.path().lexically_relative(folder).string();
+        if (name == "report.json") text = std::regex_replace(text, json_times, "\"$1\": 0");
+        if (name == "junit.xml") text = std::regex_replace(text, junit_times, "");
+        if (name == "index.html") text = std::regex_replace(text, page_times, "");
+        if (name.ends_with(".html") || name.ends_with(".section.js"))
+            text = std::regex_replace(text, made_in, "");
+        // What stands in junit.xml as the place of an attachment.
+        for (std::size_t at = text.find(folder.filename().string() + "/");
+             name == "junit.xml" && at != text.npos; at = text.find(folder.filename().string() + "/", at))
+            text.replace(at, folder.filename().string().size() + 1, "REPORT/");
+        files[name] = std::move(text);
+    }
+    return files;
+}
+
+testing::AssertionResult alike(const fs::path& a, const fs::path& b) {
+    const auto first = timeless(a), second = timeless(b);
+    for (const auto& [name, text] : first) {
+        const auto found = second.find(name);
+        if (found == second.end()) return testing::AssertionFailure() << name << " is in " << a << " alone";
+        if (found->second == text) continue;
+        const auto [at, other] = std::ranges::mismatch(text, found->second);
+        const auto where = static_cast<std::size_t>(at - text.begin());
+        return testing::AssertionFailure()
+               << name << " differs at " << where << ": ..." << text.substr(where < 60 ? 0 : where - 60, 160)
+               << "\n  and ..." << found->second.substr(where < 60 ? 0 : where - 60, 160);
+    }
+    for (const auto& [name, text] : second)
+        if (!first.contains(name)) return testing::AssertionFailure() << name << " is in " << b << " alone";
+    return testing::AssertionSuccess();
+}
+
+TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
+    const Folder folder;
+    const Ran whole = runTool(folder, "compare " + scenes + how + " -o whole");
+    EXPECT_EQ(whole.code, 2) << "one cannot be drawn";
+    EXPECT_NE(whole.out.find("5 comparisons"), std::string::npos) << whole.out;
+    std::mt19937 random(3);
+    for (const int count : {1, 2, 3, 7, 16}) {
+        std::vector<std::string> folders;
+        std::size_t comparisons = 0;
+        for (int i = 1; i <= count; ++i) {
+            folders.push_back(fmt::format("s{}/{}", count, i));
+            const Ran ran = runTool(folder, fmt::format("compare -q {}{} --shard {}/{} -o {}", scenes, how, i,
+                                                        count, folders.back()));
+            const auto json = nlohmann::json::parse(contentsOf(folder / folders.back() / "report.json"));
+            comparisons += json["comparisons"].size();
+            EXPECT_EQ(ran.code, json["errors"].empty() ? 0 : 2) << ran.err;
+            EXPECT_TRUE(fs::exists(folder / folders.back() / "index.html")) << "stands by itself";
+        }
+        EXPECT_EQ(comparisons, 5u) << "each scene once";
+        std::ranges::shuffle(folders, random);
+        const std::string out = fmt::format("merged-{}", count);
+        const Ran merged = runTool(folder, fmt::format("merge -q {} -o {}", fmt::join(folders, " "), out));
+        EXPECT_EQ(merged.code, 2) << merged.err;
+        EXPECT_NE(merged.err.find("gone.glb"), std::string::npos) << merged.err;
+        EXPECT_TRUE(alike(folder / "whole", folder / out)) << count;
+    }
+}
+
+// A pixel of one picture, and a digit of one figure.
+TEST(ManyScenes, ADifferenceOfReportsIsSeen) {
+    const Folder folder;
+    runTool(folder, "compare -q builtin:points builtin:triangle" + how + " -o a");
+    fs::copy(folder / "a", folder / "b", fs::copy_options::recursive);
+    ASSERT_TRUE(alike(folder / "a", folder / "b"));
+    std::string text = contentsOf(folder / "b/report.json");
+    text.replace(text.find("\"covered_pixels\": ") + 18, 1, "9");
+    std::ofstream(folder / "b/report.json") << text;
+    EXPECT_FALSE(alike(folder / "a", folder / "b"));
+    fs::remove(folder / "b/report.json");
+    EXPECT_FALSE(alike(folder / "a", folder / "b"));
+}
+
+// Where CI servers look for them: from the folder that merge was called in.
+TEST(ManyScenes, FailuresOfManyScenesAreAttached) {
+    const Folder folder;
+    folder.write("strict.json", R"({"rules":[{"channel":"lit","max":0,"because":"none"}]})");
+    for (const int i : {1, 2})
+        runTool(folder, fmt::format("compare -q builtin:points builtin:spots{} --keep failing --tolerances "
+                                    "strict.json --shard {}/2 -o {}",
+                                    how, i, i));
+    EXPECT_EQ(runTool(folder, "merge -q 1 2 -o out/all").code, 1);
+    const std::string junit = contentsOf(folder / "out/all/junit.xml");
+    std::size_t found = 0;
+    for (std::size_t at = junit.find("[[ATTACHMENT|"); at != junit.npos;
+         at = junit.find("[[ATTACHMENT|", at + 1)) {
+        const std::string name = junit.substr(at + 13, junit.find("]]", at) - at - 13);
+        EXPECT_TRUE(name.starts_with("out/all/") && fs::exists(folder / name)) << name;
+        ++found;
+    }
+    EXPECT_GE(found, 2u);
+}
+
+TEST(ManyScenes, MergeNamesWhatItMust) {
+    const Folder folder;
+    const std::string few = "compare -q builtin:points builtin:triangle builtin:spots" + how;
+    for (const int i : {1, 2, 3}) runTool(folder, fmt::format("{} --shard {}/3 -o {}", few, i, i));
+    const auto merged = [&](const std::string& folders) {
+        return runTool(folder, "merge -q " + folders + " -o out");
+    };
+    EXPECT_EQ(merged("3 1 2").code, 0);
+    const auto before = timeless(folder / "2");
+
+    Ran ran = merged("1 3");
+    EXPECT_TRUE(ran.failedOver("shard 2/3 is missing")) << "and says so";
+    auto json = nlohmann::json::parse(contentsOf(folder / "out/report.json"));
+    EXPECT_EQ(json["comparisons"].size(), 2u) << "what is there is kept";
+    EXPECT_EQ(json["errors"].size(), 1u);
+
+    fs::copy(folder / "2", folder / "twice", fs::copy_options::recursive);
+    EXPECT_TRUE(merged("1 2 3 twice").failedOver("shard 2/3 is there twice"));
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(folder / "out/report.json"))["comparisons"].size(), 3u);
+
+    runTool(folder, few + " --gbuffer compact --shard 2/3 -o other");
+    EXPECT_TRUE(merged("1 other 3").failedOver("other: was asked for another gbuffer"));
+    runTool(folder,
+            "compare -q builtin:points builtin:triangle builtin:areas" + how + " --shard 2/3 -o scene");
+    EXPECT_TRUE(merged("1 scene 3").failedOver("scene: is of other scenes: builtin:areas"));
+    runTool(folder, few + " --shard 2/4 -o four");
+    EXPECT_TRUE(merged("1 four 3").failedOver("four: is one of 4 shards, the others are of 3"));
+
+    fs::copy(folder / "2", folder / "built", fs::copy_options::recursive);
+    std::string manifest = contentsOf(folder / "built/shard.json");
+    const std::size_t at = manifest.find("\"build\": \"") + 10;
+    manifest.replace(at, 5, "9.9.9");
+    std::ofstream(folder / "built/shard.json") << manifest;
+    EXPECT_TRUE(merged("1 built 3").failedOver("built: is of another build (9.9.9"));
+
+    fs::copy(folder / "2", folder / "cut", fs::copy_options::recursive);
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "cut"))
+        if (entry.path().filename() == "lit.values.js") fs::remove(entry.path());
+    EXPECT_TRUE(merged("1 cut 3").failedOver("cut: the report is incomplete"));
+
+    EXPECT_TRUE(merged("1 2 3 nowhere").failedOver("nowhere: is no report of a shard"));
+    EXPECT_TRUE(runTool(folder, "merge nowhere -o out").failedOver("nowhere: is no report of a shard"));
+    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of shards are missing"));
+    EXPECT_EQ(before, timeless(folder / "2")) << "no shard is changed";
+}
+
+TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
+    const Folder folder;
+    const std::string variables =
+        "export SLURM_ARRAY_TASK_ID=6 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_MAX=6 "
+        "SLURM_ARRAY_TASK_STEP=2; ";
+    const std::string compare = "'" DIPTYCH_PROGRAM
+                                "' compare -q builtin:points builtin:triangle builtin:spots" +
+                                how + " -o s --shard ";
+    EXPECT_EQ(runShell(folder, variables + compare + "slurm", folder.path()).code, 0);
+    const auto json = nlohmann::json::parse(contentsOf(folder / "s/shard.json"));
+    EXPECT_EQ(json["shard"], (nlohmann::json{{"index", 3}, {"count", 3}}));
+    const Ran irregular =
+        runShell(folder, variables + "export SLURM_ARRAY_TASK_COUNT=2; " + compare + "slurm", folder.path());
+    EXPECT_TRUE(irregular.failedOver("the array is irregular"));
+    EXPECT_TRUE(runTool(folder, "compare --shard slurm").failedOver("SLURM_ARRAY_TASK_ID is not set"));
+    EXPECT_TRUE(runTool(folder, "compare --shard 0/2").failedOver("there is no shard 0 of 2"));
+    EXPECT_TRUE(runTool(folder, "compare --shard 1/2 --single-file").failedOver("--single-file"));
+}
+
+// Each time it is killed somewhere, and what was finished then is not drawn again.
+TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
+    const Folder folder;
+    const std::vector<std::string> words{"compare",
+                                         "builtin:points",
+                                         "builtin:triangle",
+                                         "builtin:spots",
+                                         "builtin:areas",
+                                         "builtin:crossed",
+                                         "builtin:lightmaps",
+                                         "--size",
+                                         "32x18",
+                                         "--runs",
+                                         "0",
+                                         "--channels",
+                                         "lit,normals,roughness",
+                                         "--shard",
+                                         "1/1",
+                                         "-o"};
+    const auto with = [&](const std::string& out) {
+        std::vector<std::string> all = words;
+        all.push_back(out);
+        return all;
+    };
+    Running undisturbed(folder, with("whole"));
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_TRUE(soon([&] { return undisturbed.ended(); }));
+    ASSERT_EQ(WEXITSTATUS(undisturbed.wait()), 0) << undisturbed.err();
+    const auto took =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - start);
+    std::mt19937 random(11);
+    std::uniform_int_distribution<long> when(0, took.count());
+    int kills = 0, resumed = 0;
+    for (int round = 0; kills < 20; ++round) {
+        ASSERT_LT(round, 80);
+        const std::string out = fmt::format("cut-{}", round);
+        std::size_t most = 0;  // scenes that were finished when it was killed
+        for (;;) {
+            Running cut(folder, with(out));
+            std::this_thread::sleep_for(std::chrono::milliseconds(when(random)));
+            std::size_t there = 0;
+            if (!cut.ended()) {
+                ::kill(cut.process(), SIGKILL);
+                ++kills;
+            }
+            ASSERT_TRUE(soon([&] { return cut.ended(); }));
+            if (const std::size_t at = cut.err().find(" of 6 scenes were compared before");
+                at != std::string::npos) {
+                ++resumed;
+                there =
+                    static_cast<std::size_t>(std::stoi(cut.err().substr(cut.err().rfind(' ', at - 1) + 1)));
+                EXPECT_GE(there, most) << "none is drawn again";
+            }
+            most = std::max(most, there);
+            if (!WIFSIGNALED(cut.wait())) {
+                EXPECT_EQ(WEXITSTATUS(cut.wait()), 0) << cut.err();
+                break;
+            }
+            EXPECT_TRUE(!fs::exists(folder / out) || fs::exists(folder / out / "report.json"))
+                << "all or nothing";
+        }
+        ASSERT_TRUE(alike(folder / "whole", folder / out));
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            EXPECT_FALSE(entry.path().filename().string().starts_with("." + out)) << entry.path();
+    }
+    EXPECT_GT(resumed, 3);
+}
+
+TEST(ManyScenes, FoldersAndListsMeanTheirScenes) {
+    const Folder folder;
+    folder.write("scenes/a/bad.gltf", "{}");
+    folder.write("scenes/list.txt", "# two\nbuiltin:points\na/bad.gltf\nbuiltin:triangle\n");
+    const Ran ran = runTool(folder, "compare @scenes/list.txt 'scenes/**/*.gltf'" + how + " -o r --json");
+    EXPECT_EQ(ran.code, 2);
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(json["comparisons"].size(), 2u) << "the others are compared";
+    ASSERT_EQ(json["errors"].size(), 1u) << "it is named twice and stands once";
+    EXPECT_EQ(json["errors"][0]["scene"], "scenes/a/bad.gltf");
+    EXPECT_TRUE(runTool(folder, "compare nothing/*.glb").failedOver("matches no .gltf or .glb file"));
+}
+
+// Of each scene a tradeoff of its own, whichever shard makes it.
+TEST(ManyScenes, TradeoffsOfShardsStandBesideEachOther) {
+    const Folder folder;
+    const std::string tradeoff =
+        "tradeoff -q builtin:points builtin:triangle gone.glb --size 32x18 --runs 1 --grid "
+        "'{\"settings\":{\"gbuffer\":[\"compact\",\"full\"]}}' ";
+    for (const int i : {1, 2}) runTool(folder, fmt::format("{}--shard {}/2 -o t{}", tradeoff, i, i));
+    const Ran merged = runTool(folder, "merge t2 t1 -o all");
+    EXPECT_EQ(merged.code, 2) << "one cannot be drawn";
+    EXPECT_NE(merged.err.find("gone.glb"), std::string::npos) << merged.err;
+    const auto json = nlohmann::json::parse(contentsOf(folder / "all/tradeoffs.json"));
+    ASSERT_EQ(json["scenes"].size(), 2u);
+    for (const char* scene : {"points", "triangle"}) {
+        EXPECT_TRUE(fs::exists(folder / "all" / scene / "index.html")) << scene;
+        EXPECT_NE(contentsOf(folder / "all/index.html").find(fmt::format("href=\"{}/index.html\"", scene)),
+                  std::string::npos);
+    }
+    EXPECT_EQ(runTool(folder, "merge -q t1 -o half").code, 2) << "a shard is missing";
+    EXPECT_EQ(runTool(folder, tradeoff + "-o one").code, 2);
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(folder / "one/tradeoffs.json"))["scenes"].size(), 2u);
+    EXPECT_EQ(runTool(folder, tradeoff + "-o one").code, 2) << "its own folder may be replaced";
+}
+
+TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
+    const Folder folder;
+    const std::string compare = "compare builtin:points builtin:triangle" + how + " -o ";
+    ASSERT_EQ(runTool(folder, compare + "one").code, 0);
+    Ran ran = runTool(folder, compare + "two --since one");
+    EXPECT_NE(ran.out.find("since one: nothing has changed"), std::string::npos) << ran.out;
+    EXPECT_TRUE(alike(folder / "one", folder / "one"));
+    // Rules make the same pictures fail.
+    folder.write("strict.json",
+                 R"({"rules":[{"channel":"lit","scene":"*points","max":0,"because":"none"}]})");
+    ran = runTool(folder, compare + "three --since one/report.json --tolerances strict.json --json");
+    EXPECT_EQ(ran.code, 1);
+    auto since = nlohmann::json::parse(ran.out)["since"];
+    ASSERT_EQ(since["comparisons"].size(), 1u);
+    EXPECT_EQ(since["comparisons"][0]["kind"], "new failure");
+    EXPECT_EQ(since["comparisons"][0]["scene"], "builtin:points");
+    ran = runTool(folder, compare + "four --since three");
+    EXPECT_NE(ran.out.find("since three: 1 mended: builtin:points"), std::string::npos) << ran.out;
+    // Other light moves figures; another scene is new and one is gone.
+    ran = runTool(folder,
+                  "compare builtin:points builtin:spots" + how + " --ambient 1,1,1 -o five --since one");
+    EXPECT_NE(ran.out.find("since one: 1 moved: builtin:points (lit max"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("since one: 1 new: builtin:spots"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("since one: 1 gone: builtin:triangle"), std::string::npos) << ran.out;
+    EXPECT_TRUE(runTool(folder, compare + "six --since nowhere").failedOver("--since nowhere: is no report"));
+}
+
+TEST(ManyScenes, WhatIsAcceptedPasses) {
+    const Folder folder;
+    folder.write(
+        "strict.json",
+        R"({"rules":[{"channel":"lit","max":0,"because":"none"},{"channel":"roughness","max":0,"because":"none"}]})");
+    const std::string compare = "compare builtin:points builtin:triangle" + how + " ";
+    ASSERT_EQ(runTool(folder, compare + "--tolerances strict.json -o r").code, 1);
+    fs::copy_file(folder / "strict.json", folder / "rules.json");
+    EXPECT_EQ(runTool(folder, "accept r builtin:points -o rules.json --because 'seen by eye'").code, 0);
+    Ran ran = runTool(folder, compare + "--tolerances rules.json -o s --json");
+    const auto json = nlohmann::json::parse(ran.out);
+    for (const auto& comparison : json["comparisons"])
+        EXPECT_EQ(comparison["verdict"], comparison["scene"] == "builtin:points" ? "pass" : "fail")
+            << "the rule is of one scene";
+    EXPECT_NE(ran.out.find("seen by eye"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "accept r -o rules.json").code, 0);
+    EXPECT_EQ(runTool(folder, compare + "--tolerances rules.json -o t").code, 0);
+    EXPECT_TRUE(runTool(folder, "accept t").failedOver("nothing fails there"));
+    EXPECT_TRUE(runTool(folder, "accept r builtin:none").failedOver("the report has no such scene"));
+    EXPECT_TRUE(runTool(folder, "accept nowhere").failedOver("is no report that compare wrote"));
+}
+
+}  // namespace
+}  // namespace diptych
