@@ -55,17 +55,25 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
 // by at least half of what it changes: as much as anything has to that it is believed of (unsaid_settings.h).
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
-    Settings settings = plain.settings;
-    settings.spec_aa = true;
-    if (settings == plain.settings || settings.problem()) return {};
-    Frame widened = renderer.draw(settings, options);
+    if (plain.settings.spec_aa) return {};
     const auto lit = [](const Frame& frame) -> const Image& {
         return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
     };
     const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
-    const double nearer = distance(plain, external) - distance(widened, external);
-    if (!(nearer > 0.5 * distance(widened, plain))) return {};
-    return widened;
+    std::optional<Frame> nearest;
+    for (const SpecularKernel kernel : {SpecularKernel::variance, SpecularKernel::slope}) {
+        Settings settings = plain.settings;
+        settings.spec_aa = true;
+        settings.spec_aa_kernel = kernel;
+        if (settings.problem()) continue;
+        Frame widened = renderer.draw(settings, options);
+        if (distance(widened, external) < distance(nearest ? *nearest : plain, external))
+            nearest = std::move(widened);
+    }
+    if (!nearest) return {};
+    const double nearer = distance(plain, external) - distance(*nearest, external);
+    if (!(nearer > 0.5 * distance(*nearest, plain))) return {};
+    return nearest;
 }
 
 Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,

@@ -64,7 +64,8 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
 std::string Swaps::shownBy(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
     if (mode.number == static_cast<int>(gpu::DEBUG_roughness) && widened)
-        return fmt::format("{}, widened by normals (--spec-aa on)", mode.shows);
+        return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
+                           nameOf(sides_.settings(1).spec_aa_kernel));
     return std::string(mode.shows);
 }
 

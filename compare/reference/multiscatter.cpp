@@ -64,7 +64,8 @@ Compensation compensationOf(const Surface& surface, Multiscatter multiscatter) {
                                meanFresnel(surface.dielectric_f0, surface.dielectric_f90));
         result.dielectric = of_layer.factor;
         const glm::dvec3 layer = single * of_layer.factor + of_layer.between;
-        result.base = 1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1));
+        if (surface.base_layer == BaseLayer::max)
+            result.base = 1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1));
     }
     result.between = of_layer.between * (1 - surface.metallic) + of_metal.between * surface.metallic;
     return result;

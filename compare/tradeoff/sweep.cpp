@@ -50,7 +50,7 @@ bool isCrossedWithEach(std::string_view option) {
 
 // What specular anti-aliasing is told.
 auto filterOf(const Settings& s) {
-    return std::tuple(s.spec_aa, s.spec_aa_variance, s.spec_aa_limit, s.spec_aa_normals);
+    return std::tuple(s.spec_aa, s.spec_aa_variance, s.spec_aa_limit, s.spec_aa_normals, s.spec_aa_kernel);
 }
 
 class SweepBuilder {

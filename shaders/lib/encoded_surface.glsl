@@ -76,7 +76,8 @@ Brdf raisedBrdf(Brdf b, Surface s) {
                     high = mixedFactors(f0, f90, albedo, more, b.albedo);
     setSpecular(b, SpecularFactors(max(low.f0, high.f0), max(low.f90, high.f90),
                                    max(low.between, high.between)));
-    if (on(feature_multiscatter)) setBase(b, layerAlbedo(least_f0, least_f90, b.albedo));
+    if (on(feature_multiscatter) && !on(feature_base_by_component))
+        setBase(b, layerAlbedo(least_f0, least_f90, b.albedo));
     return b;
 }
 

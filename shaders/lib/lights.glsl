@@ -14,8 +14,8 @@ Incident fromDirectionalLight(Light light) {
     return Incident(light.position, light.intensity);
 }
 
-// The window max(1 - (d / range)^4, 0), or its square, of d^2. It is compared first, so that it is exactly zero
-// from the range on: a light that is out of reach adds nothing, not even rounding, whether or not it is
+// The window max(1 - (d / range)^4, 0), or its square, of d^2. It is compared first, so that it is exactly
+// zero from the range on: a light that is out of reach adds nothing, not even rounding, whether or not it is
 // evaluated.
 float rangeWindow(Light light, float d2) {
     float x = d2 * light.inverse_range_squared;

@@ -153,7 +153,7 @@ float overQuad(float value) {
 float filteredRoughness(float roughness) {
     vec3 n = middle_normal;
 #if INPUTS >= 2
-    if (feature_specular_aa == SPECULAR_AA_MAPPED && on(feature_normal_texture)) {
+    if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
         vec2 at = middleTexcoord(SLOT_normal);
         float scale = overQuad(material.normal_scale);
         n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
@@ -162,6 +162,12 @@ float filteredRoughness(float roughness) {
     vec3 unit = directionOf(n);
     float w = gl_FragCoord.w;
     float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));
+    if ((feature_specular_aa & SPECULAR_AA_SLOPE) != 0) {
+        vec3 right = on(feature_orthographic) ? view.origin_x : view.direction_x;
+        vec3 down = on(feature_orthographic) ? view.origin_y : view.direction_y;
+        return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), normalize(right),
+                                  normalize(down), rounded);
+    }
     return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
 }
 

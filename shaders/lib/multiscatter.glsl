@@ -60,7 +60,8 @@ void setSpecular(inout Brdf b, SpecularFactors s) {
 }
 
 // The base under a layer gets what the layer does not reflect of light from everywhere, from every direction
-// alike: the weight by F of the half vector (appendix B) does not conserve energy.
+// alike: the weight by F of the half vector (appendix B) does not conserve energy. Where the base loses each
+// component, F of the half vector stays, as in the renderers that have it so.
 void setBase(inout Brdf b, vec3 layer) {
     b.base_f0 = layer;
     b.base_f90 = layer;
@@ -70,7 +71,7 @@ void setBase(inout Brdf b, vec3 layer) {
 Brdf compensated(Brdf b, Surface s, vec2 albedo) {
     b.albedo = albedo;
     setSpecular(b, mixedFactors(s.dielectric_f0, s.dielectric_f90, s.albedo, s.metallic, b.albedo));
-    setBase(b, layerAlbedo(s.dielectric_f0, s.dielectric_f90, b.albedo));
+    if (!on(feature_base_by_component)) setBase(b, layerAlbedo(s.dielectric_f0, s.dielectric_f90, b.albedo));
     return b;
 }
 

@@ -34,4 +34,14 @@ float filteredRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, float rounded) 
     return kernel > 0.0 ? max(filtered, roughness) : roughness;
 }
 
+// The same as three.js has it (0.187, lights_physical_fragment): perceptual roughness and the largest
+// component by which the normal changes, along the picture's `right` and `down` and its depth.
+float steepenedRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, vec3 right, vec3 down, float rounded) {
+    if (dot(dn_dx, dn_dx) + dot(dn_dy, dn_dy) <= rounded) return roughness;
+    mat3 picture = mat3(right, down, crossProduct(right, down));
+    vec3 change = max(abs(dn_dx * picture), abs(dn_dy * picture));
+    float most = max(change.x, max(change.y, change.z));
+    return min(max(roughness, MIN_PERCEPTUAL_ROUGHNESS) + most, 1.0);
+}
+
 #endif

@@ -42,6 +42,8 @@ CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
 // normal that a normal map has turned.
 CONTRACT_CONST(uint, SPECULAR_AA_GEOMETRY, 1);
 CONTRACT_CONST(uint, SPECULAR_AA_MAPPED, 2);
+// Beside either: roughness grows by the change itself, not by its variance.
+CONTRACT_CONST(uint, SPECULAR_AA_SLOPE, 4);
 
 // KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureTransform {

@@ -31,7 +31,9 @@ gpu::uint bitsOf(float value) {
 void addSpecularAa(Variant& variant, const Settings& settings) {
     if (!settings.spec_aa) return;
     const bool mapped = settings.spec_aa_normals == SpecularNormals::mapped;
-    variant.set(gpu::FEATURE_specular_aa, mapped ? gpu::SPECULAR_AA_MAPPED : gpu::SPECULAR_AA_GEOMETRY)
+    const gpu::uint slope = settings.spec_aa_kernel == SpecularKernel::slope ? gpu::SPECULAR_AA_SLOPE : 0;
+    variant
+        .set(gpu::FEATURE_specular_aa, (mapped ? gpu::SPECULAR_AA_MAPPED : gpu::SPECULAR_AA_GEOMETRY) | slope)
         .set(gpu::FEATURE_specular_aa_variance, bitsOf(settings.spec_aa_variance))
         .set(gpu::FEATURE_specular_aa_limit, bitsOf(settings.spec_aa_limit));
 }

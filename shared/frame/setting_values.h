@@ -224,6 +224,13 @@ template <>
 inline constexpr auto enum_names<SpecularNormals> = std::to_array<EnumName<SpecularNormals>>(
     {{SpecularNormals::geometry, "geometry"}, {SpecularNormals::mapped, "mapped"}});
 
+// How roughness grows with these changes: alpha^2 by their variance within a pixel (Tokuyoshi and Kaplanyan
+// 2019), or perceptual roughness by the largest of them, as three.js has it.
+enum class SpecularKernel { variance, slope };
+template <>
+inline constexpr auto enum_names<SpecularKernel> = std::to_array<EnumName<SpecularKernel>>(
+    {{SpecularKernel::variance, "variance"}, {SpecularKernel::slope, "slope"}});
+
 enum class ReferenceMode { surface, scene };
 template <>
 inline constexpr auto enum_names<ReferenceMode> = std::to_array<EnumName<ReferenceMode>>(

@@ -77,6 +77,7 @@ struct Settings {
     float spec_aa_variance = 0.15915494f;  // square pixels
     float spec_aa_limit = 0.18f;
     SpecularNormals spec_aa_normals = SpecularNormals::geometry;
+    SpecularKernel spec_aa_kernel = SpecularKernel::variance;
     Transparency transparency = Transparency::sorted;
     int transparency_layers = 8;
     bool haze = false;
@@ -710,6 +711,11 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "mapped",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_normals);
+    visit(Field{.option = "spec-aa-kernel",
+                .help = "how roughness grows with these changes: by their variance, or by the largest itself",
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures}},
+          &Settings::spec_aa_kernel);
     visit(Field{.option = "transparency",
                 .help =
                     "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",

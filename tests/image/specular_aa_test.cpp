@@ -66,6 +66,29 @@ TEST(SpecularAa, OfAKnownCurvature) {
         }
 }
 
+// As three.js has it: perceptual roughness and the largest component, along the picture's axes, by which the
+// normal changes.
+TEST(SpecularAa, BySlopeItIsTheLargestChange) {
+    constexpr int pixels = 32;
+    for (const float slope : {0.05f, 0.5f, 8.0f})
+        for (const float rough : {0.01f, 0.3f, 1.0f}) {
+            const Scene scene = cylindrical(slope, rough);
+            const auto normalAt = [&](int x) {
+                return glm::normalize(glm::dvec3(double{slope} * (2 * x + 1 - pixels) / pixels, 0, 1));
+            };
+            Settings settings = filtered(fullPicture({pixels, pixels}));
+            settings.spec_aa_kernel = SpecularKernel::slope;
+            for (const Frame& frame : bothPaths(scene, settings, {roughness}))
+                for (int x = 0; x < pixels; ++x) {
+                    const glm::dvec3 change = glm::abs(normalAt(x | 1) - normalAt(x & ~1));
+                    const double expected = std::min(
+                        std::max(double{rough}, 0.045) + std::max({change.x, change.y, change.z}), 1.0);
+                    EXPECT_NEAR(double{frame.channels.at(roughness).at(x, 7, 0)}, expected, 2e-5)
+                        << frame.name << " slope " << slope << " roughness " << rough << " at " << x;
+                }
+        }
+}
+
 TEST(SpecularAa, TakesItsTwoNumbersFromTheSettings) {
     constexpr int pixels = 16;
     const Scene scene = cylindrical(2, 0.2f);

@@ -480,7 +480,8 @@ TEST(CommandLine, HelpShowsTheSettings) {
                                    "spec-aa",
                                    "spec-aa-variance",
                                    "spec-aa-limit",
-                                   "spec-aa-normals"})
+                                   "spec-aa-normals",
+                                   "spec-aa-kernel"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})

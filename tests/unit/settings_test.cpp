@@ -81,6 +81,7 @@ Settings everythingChanged() {
     s.spec_aa_variance = 0.3f;
     s.spec_aa_limit = 0.4f;
     s.spec_aa_normals = SpecularNormals::mapped;
+    s.spec_aa_kernel = SpecularKernel::slope;
     s.transparency = Transparency::list;
     s.transparency_layers = 12;
     s.haze = true;
@@ -273,6 +274,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.spec_aa_variance = asked.spec_aa_variance;
     expected.spec_aa_limit = asked.spec_aa_limit;
     expected.spec_aa_normals = asked.spec_aa_normals;
+    expected.spec_aa_kernel = asked.spec_aa_kernel;
     EXPECT_EQ(surfaceSettings(asked), expected);
     EXPECT_EQ(surfaceSettings(asked).problem().value_or("none"), "none");
 }
