@@ -19,7 +19,15 @@ constexpr std::size_t manyCount = 2000, manyShards = 4;
 // Every tenth fails, in roughness, the more the larger its number; lit differs in all.
 std::vector<Frame> numberedPair(std::size_t i, const std::string& scene) {
     std::vector<Frame> pair = bothFrames(scene);
-    for (Frame& frame : pair) frame.settings.camera = i % 2 == 0 ? "" : "1";
+    for (Frame& frame : pair) {
+        frame.settings.camera = i % 2 == 0 ? "" : "1";
+        // A few channels: making these reports takes longer than what is tested.
+        frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
+                           static_cast<int>(gpu::DEBUG_roughness), static_cast<int>(gpu::DEBUG_depth)};
+        std::erase_if(frame.channels, [&](const auto& channel) {
+            return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
+        });
+    }
     if (i % 10 == 7)
         pair[1].channels.at(gpu::DEBUG_roughness).at(1, 2) = 0.51f + 1e-4f * static_cast<float>(i);
     for (Frame& frame : pair)
