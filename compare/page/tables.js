@@ -44,13 +44,22 @@ function addSkip(group) {
   whole.after(after);
 }
 
+// At once, but for tables of thousands of rows: those once the page is seen.
+function soonFor(element, then) {
+  if (!(element.rows?.length > 500)) then(element);
+  else if (document.readyState === 'complete') setTimeout(then, 0, element);
+  else addEventListener('load', () => setTimeout(then, 0, element));
+}
+
+function prepareGroup(group) {
+  const inside = stopsOf(group);
+  inside.forEach((stop, i) => { stop.tabIndex = i ? -1 : 0; });
+  if (inside.length > 1 && group.matches('table, svg')) addSkip(group);
+}
+
 function prepare(root) {
-  root.querySelectorAll('table').forEach(prepareTable);
-  for (const group of root.querySelectorAll(groups)) {
-    const inside = stopsOf(group);
-    inside.forEach((stop, i) => { stop.tabIndex = i ? -1 : 0; });
-    if (inside.length > 1 && group.matches('table, svg')) addSkip(group);
-  }
+  for (const table of root.querySelectorAll('table')) soonFor(table, prepareTable);
+  for (const group of root.querySelectorAll(groups)) soonFor(group, prepareGroup);
 }
 
 addEventListener('focusin', event => {

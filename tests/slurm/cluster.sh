@@ -3,7 +3,7 @@
 # A Slurm cluster on this machine for tests: a controller, and two nodes of one CPU each, which are daemons of one
 # machine (or one node of two CPUs where the build of Slurm refuses several). Debian's slurm-wlm and munge.
 #
-#   cluster.sh start DIR     everything of it stands in DIR; prints "nodes 2" or "nodes 1"; export SLURM_CONF=DIR/slurm.conf
+#   cluster.sh start DIR     everything of it but its sockets stands in DIR; prints "nodes 2" or "nodes 1"; export SLURM_CONF=DIR/slurm.conf
 #   cluster.sh kill DIR N    kills node N (1 or 2) and what runs on it, as a lost machine
 #   cluster.sh node DIR N    starts it again
 #   cluster.sh stop DIR
@@ -23,6 +23,7 @@ end() {
         kill -9 "$number" 2>/dev/null || true
         rm -f "$file"
     done
+    if [ -e "$dir/spool" ]; then rm -rf "$(cat "$dir/spool")"; fi
 }
 
 configure() {  # $1: nodes
@@ -40,14 +41,14 @@ SlurmctldHost=$host(127.0.0.1)
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket=$dir/munge.socket
+AuthInfo=socket=$spool/munge.socket
 SlurmctldPort=$port
 SlurmctldPidFile=$dir/slurmctld.pid
 SlurmdPidFile=$dir/slurmd-%n.pid
 SlurmctldLogFile=$dir/slurmctld.log
 SlurmdLogFile=$dir/slurmd-%n.log
 StateSaveLocation=$dir/state
-SlurmdSpoolDir=$dir/spool-%n
+SlurmdSpoolDir=$spool/%n
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 SelectType=select/cons_tres
@@ -87,12 +88,16 @@ start)
     host=$(hostname -s)
     mkdir -p "$dir/state"
     chmod 755 "$dir"
+    # Sockets stand there, whose names may be 107 characters long and no more.
+    spool=$(mktemp -d /tmp/slurm.XXXXXX)
+    chmod 755 "$spool"
+    echo "$spool" > "$dir/spool"
     port=$((20000 + $$ % 20000))
     name=diptych$port-
     echo "$name" > "$dir/name"
     dd if=/dev/urandom of="$dir/munge.key" bs=1024 count=1 2>/dev/null
     chmod 400 "$dir/munge.key"
-    munged --force --key-file="$dir/munge.key" --socket="$dir/munge.socket" --pid-file="$dir/munged.pid" \
+    munged --force --key-file="$dir/munge.key" --socket="$spool/munge.socket" --pid-file="$dir/munged.pid" \
         --log-file="$dir/munged.log" --seed-file="$dir/munge.seed" || skip "munged does not start"
     for nodes in 2 1; do
         configure $nodes

@@ -14,15 +14,16 @@ namespace diptych {
 namespace {
 
 // Small, and among them one that cannot be drawn. -o and --shard are added.
-const std::string scenes =
+const std::string manyScenes =
     "builtin:points builtin:triangle gone.glb builtin:spots builtin:areas builtin:crossed";
-const std::string how = " --size 32x18 --runs 0 --channels lit,normals,roughness";
+const std::string manyHow = " --size 32x18 --runs 0 --channels lit,normals,roughness";
 
 // All files of a report, without times: the one thing that differs from run to run.
 std::map<std::string, std::string> timeless(const fs::path& folder) {
     static const std::regex json_times(
         "\"(made_in_ms|compare_ms|encode_ms|ms|record|object_lists)\": [-+.e0-9]+");
     static const std::regex junit_times(" (time|timestamp)=\"[^\"]*\"");
+    static const std::regex part_seconds("(\"junit\": \\[\\s*[0-9]+,\\s*[0-9]+,)\\s*[-+.e0-9]+");
     static const std::regex page_times(
         "compared in [0-9]+ ms, pictures, values and EXRs encoded in [0-9]+ ms");
     static const std::regex made_in("made in</td><td[^<]*</td>|[0-9.]+ (s|ms)</td>");
@@ -31,8 +32,11 @@ std::map<std::string, std::string> timeless(const fs::path& folder) {
         if (!entry.is_regular_file()) continue;
         std::string text = contentsOf(entry.path());
         const std::string name = entry.path().lexically_relative(folder).string();
-        if (name == "report.json") text = std::regex_replace(text, json_times, "\"$1\": 0");
-        if (name == "junit.xml") text = std::regex_replace(text, junit_times, "");
+        const std::string file = entry.path().filename().string();
+        if (file == "part.json") text = std::regex_replace(text, part_seconds, "$1");
+        if (name == "report.json" || file.starts_with("part"))
+            text = std::regex_replace(text, json_times, "\"$1\": 0");
+        if (name == "junit.xml" || file == "part-junit.xml") text = std::regex_replace(text, junit_times, "");
         if (name == "index.html") text = std::regex_replace(text, page_times, "");
         if (name.ends_with(".html") || name.ends_with(".section.js"))
             text = std::regex_replace(text, made_in, "");
@@ -64,7 +68,7 @@ testing::AssertionResult alike(const fs::path& a, const fs::path& b) {
 
 TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
     const Folder folder;
-    const Ran whole = runTool(folder, "compare " + scenes + how + " -o whole");
+    const Ran whole = runTool(folder, "compare " + manyScenes + manyHow + " -o whole");
     EXPECT_EQ(whole.code, 2) << "one cannot be drawn";
     EXPECT_NE(whole.out.find("5 comparisons"), std::string::npos) << whole.out;
     std::mt19937 random(3);
@@ -73,8 +77,8 @@ TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
         std::size_t comparisons = 0;
         for (int i = 1; i <= count; ++i) {
             folders.push_back(fmt::format("s{}/{}", count, i));
-            const Ran ran = runTool(folder, fmt::format("compare -q {}{} --shard {}/{} -o {}", scenes, how, i,
-                                                        count, folders.back()));
+            const Ran ran = runTool(folder, fmt::format("compare -q {}{} --shard {}/{} -o {}", manyScenes,
+                                                        manyHow, i, count, folders.back()));
             const auto json = nlohmann::json::parse(contentsOf(folder / folders.back() / "report.json"));
             comparisons += json["comparisons"].size();
             EXPECT_EQ(ran.code, json["errors"].empty() ? 0 : 2) << ran.err;
@@ -93,7 +97,7 @@ TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
 // A pixel of one picture, and a digit of one figure.
 TEST(ManyScenes, ADifferenceOfReportsIsSeen) {
     const Folder folder;
-    runTool(folder, "compare -q builtin:points builtin:triangle" + how + " -o a");
+    runTool(folder, "compare -q builtin:points builtin:triangle" + manyHow + " -o a");
     fs::copy(folder / "a", folder / "b", fs::copy_options::recursive);
     ASSERT_TRUE(alike(folder / "a", folder / "b"));
     std::string text = contentsOf(folder / "b/report.json");
@@ -111,7 +115,7 @@ TEST(ManyScenes, FailuresOfManyScenesAreAttached) {
     for (const int i : {1, 2})
         runTool(folder, fmt::format("compare -q builtin:points builtin:spots{} --keep failing --tolerances "
                                     "strict.json --shard {}/2 -o {}",
-                                    how, i, i));
+                                    manyHow, i, i));
     EXPECT_EQ(runTool(folder, "merge -q 1 2 -o out/all").code, 1);
     const std::string junit = contentsOf(folder / "out/all/junit.xml");
     std::size_t found = 0;
@@ -126,7 +130,7 @@ TEST(ManyScenes, FailuresOfManyScenesAreAttached) {
 
 TEST(ManyScenes, MergeNamesWhatItMust) {
     const Folder folder;
-    const std::string few = "compare -q builtin:points builtin:triangle builtin:spots" + how;
+    const std::string few = "compare -q builtin:points builtin:triangle builtin:spots" + manyHow;
     for (const int i : {1, 2, 3}) runTool(folder, fmt::format("{} --shard {}/3 -o {}", few, i, i));
     const auto merged = [&](const std::string& folders) {
         return runTool(folder, "merge -q " + folders + " -o out");
@@ -147,7 +151,7 @@ TEST(ManyScenes, MergeNamesWhatItMust) {
     runTool(folder, few + " --gbuffer compact --shard 2/3 -o other");
     EXPECT_TRUE(merged("1 other 3").failedOver("other: was asked for another gbuffer"));
     runTool(folder,
-            "compare -q builtin:points builtin:triangle builtin:areas" + how + " --shard 2/3 -o scene");
+            "compare -q builtin:points builtin:triangle builtin:areas" + manyHow + " --shard 2/3 -o scene");
     EXPECT_TRUE(merged("1 scene 3").failedOver("scene: is of other scenes: builtin:areas"));
     runTool(folder, few + " --shard 2/4 -o four");
     EXPECT_TRUE(merged("1 four 3").failedOver("four: is one of 4 shards, the others are of 3"));
@@ -177,7 +181,7 @@ TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
         "SLURM_ARRAY_TASK_STEP=2; ";
     const std::string compare = "'" DIPTYCH_PROGRAM
                                 "' compare -q builtin:points builtin:triangle builtin:spots" +
-                                how + " -o s --shard ";
+                                manyHow + " -o s --shard ";
     EXPECT_EQ(runShell(folder, variables + compare + "slurm", folder.path()).code, 0);
     const auto json = nlohmann::json::parse(contentsOf(folder / "s/shard.json"));
     EXPECT_EQ(json["shard"], (nlohmann::json{{"index", 3}, {"count", 3}}));
@@ -261,7 +265,7 @@ TEST(ManyScenes, FoldersAndListsMeanTheirScenes) {
     const Folder folder;
     folder.write("scenes/a/bad.gltf", "{}");
     folder.write("scenes/list.txt", "# two\nbuiltin:points\na/bad.gltf\nbuiltin:triangle\n");
-    const Ran ran = runTool(folder, "compare @scenes/list.txt 'scenes/**/*.gltf'" + how + " -o r --json");
+    const Ran ran = runTool(folder, "compare @scenes/list.txt 'scenes/**/*.gltf'" + manyHow + " -o r --json");
     EXPECT_EQ(ran.code, 2);
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_EQ(json["comparisons"].size(), 2u) << "the others are compared";
@@ -295,7 +299,7 @@ TEST(ManyScenes, TradeoffsOfShardsStandBesideEachOther) {
 
 TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
     const Folder folder;
-    const std::string compare = "compare builtin:points builtin:triangle" + how + " -o ";
+    const std::string compare = "compare builtin:points builtin:triangle" + manyHow + " -o ";
     ASSERT_EQ(runTool(folder, compare + "one").code, 0);
     Ran ran = runTool(folder, compare + "two --since one");
     EXPECT_NE(ran.out.find("since one: nothing has changed"), std::string::npos) << ran.out;
@@ -313,7 +317,7 @@ TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
     EXPECT_NE(ran.out.find("since three: 1 mended: builtin:points"), std::string::npos) << ran.out;
     // Other light moves figures; another scene is new and one is gone.
     ran = runTool(folder,
-                  "compare builtin:points builtin:spots" + how + " --ambient 1,1,1 -o five --since one");
+                  "compare builtin:points builtin:spots" + manyHow + " --ambient 1,1,1 -o five --since one");
     EXPECT_NE(ran.out.find("since one: 1 moved: builtin:points (lit max"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("since one: 1 new: builtin:spots"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("since one: 1 gone: builtin:triangle"), std::string::npos) << ran.out;
@@ -325,7 +329,7 @@ TEST(ManyScenes, WhatIsAcceptedPasses) {
     folder.write(
         "strict.json",
         R"({"rules":[{"channel":"lit","max":0,"because":"none"},{"channel":"roughness","max":0,"because":"none"}]})");
-    const std::string compare = "compare builtin:points builtin:triangle" + how + " ";
+    const std::string compare = "compare builtin:points builtin:triangle" + manyHow + " ";
     ASSERT_EQ(runTool(folder, compare + "--tolerances strict.json -o r").code, 1);
     fs::copy_file(folder / "strict.json", folder / "rules.json");
     EXPECT_EQ(runTool(folder, "accept r builtin:points -o rules.json --because 'seen by eye'").code, 0);

@@ -9,21 +9,21 @@
 namespace diptych {
 namespace {
 
-const std::string compare =
+const std::string slurmCompare =
     "compare builtin:points builtin:triangle builtin:spots builtin:areas builtin:crossed --size 32x18 --runs "
     "0 "
     "--channels lit,normals";
 
-class Cluster {
+class SlurmCluster {
 public:
-    explicit Cluster(const Folder& folder) : folder_(folder) {
+    explicit SlurmCluster(const Folder& folder) : folder_(folder) {
         const Ran ran = run("start");
         started = ran.code == 0;
         why = ran.err;
     }
-    ~Cluster() { run("stop"); }
-    Cluster(const Cluster&) = delete;
-    Cluster& operator=(const Cluster&) = delete;
+    ~SlurmCluster() { run("stop"); }
+    SlurmCluster(const SlurmCluster&) = delete;
+    SlurmCluster& operator=(const SlurmCluster&) = delete;
 
     Ran run(const std::string& what) const {
         const std::string word = what.substr(0, what.find(' ')), rest = what.substr(word.size());
@@ -63,8 +63,8 @@ private:
 
 TEST(Slurm, ADryRunPrintsBothScripts) {
     const Folder folder;
-    const Ran ran =
-        runTool(folder, "submit slurm --shards 4 --at-once 2 --dry-run -- " + compare + " -o 'a report'");
+    const Ran ran = runTool(
+        folder, "submit slurm --shards 4 --at-once 2 --dry-run -- " + slurmCompare + " -o 'a report'");
     EXPECT_EQ(ran.code, 0) << ran.err;
     for (const char* words :
          {"#SBATCH --array=1-4%2\n", "#SBATCH --requeue\n", "/a report.slurm/shard-%a.log\"\n",
@@ -73,7 +73,7 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
         EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
     EXPECT_FALSE(fs::exists(folder / "a report.slurm")) << "nothing is written";
     // Five scenes: five shards, if none are asked for.
-    EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + compare).out.find("--array=1-5\n"),
+    EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + slurmCompare).out.find("--array=1-5\n"),
               std::string::npos);
     EXPECT_TRUE(runTool(folder, "submit slurm").failedOver("a command is missing"));
     EXPECT_TRUE(runTool(folder, "submit cron -- compare").failedOver("there is slurm"));
@@ -88,9 +88,10 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
 TEST(Slurm, AnArrayAndItsMergeMakeTheReport) {
     const Folder folder;
     fs::create_directories(folder / "work");
-    const Cluster cluster(folder);
+    const SlurmCluster cluster(folder);
     SKIP_WITHOUT_SLURM(cluster);
-    const Ran ran = cluster.tool("submit slurm --shards 3 --at-once 2 -- " + compare + " -o 'the report'");
+    const Ran ran =
+        cluster.tool("submit slurm --shards 3 --at-once 2 -- " + slurmCompare + " -o 'the report'");
     ASSERT_EQ(ran.code, 0) << ran.err;
     ASSERT_TRUE(cluster.idle());
     const fs::path out = folder / "work/the report";
@@ -101,17 +102,18 @@ TEST(Slurm, AnArrayAndItsMergeMakeTheReport) {
     for (const char* log : {"shard-1.log", "shard-2.log", "shard-3.log", "merge.log"})
         EXPECT_NE(contentsOf(folder / "work/the report.slurm" / log).find("report: "), std::string::npos)
             << log;
-    EXPECT_TRUE(cluster.tool("submit slurm --sbatch=--partition=none -- " + compare).failedOver("sbatch: "));
+    EXPECT_TRUE(
+        cluster.tool("submit slurm --sbatch=--partition=none -- " + slurmCompare).failedOver("sbatch: "));
 }
 
 TEST(Slurm, ANodeThatIsLostInTheMiddleIsMadeUpFor) {
     const Folder folder;
     fs::create_directories(folder / "work");
-    const Cluster cluster(folder);
+    const SlurmCluster cluster(folder);
     SKIP_WITHOUT_SLURM(cluster);
     // Long enough to be hit in the middle.
     const Ran ran =
-        cluster.tool("submit slurm --shards 2 -- " + compare +
+        cluster.tool("submit slurm --shards 2 -- " + slurmCompare +
                      " builtin:gallery builtin:spheres builtin:glass builtin:many_materials -v -o r");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto log = [&](int shard) {
