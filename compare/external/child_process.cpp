@@ -17,7 +17,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -33,17 +33,15 @@ using Clock = std::chrono::steady_clock;
 class Descriptor {
 public:
     explicit Descriptor(int number = -1) : number_(number) {}
-    ~Descriptor() { close(); }
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
     int number() const { return number_; }
-    void close() {
-        if (number_ >= 0) ::close(number_);
-        number_ = -1;
-    }
 
 private:
-    int number_;
+    const int number_;
 };
 
 void check(int error, const char* what) {
@@ -53,13 +51,13 @@ void check(int error, const char* what) {
 // What is told to posix_spawn: where the program runs, what it reads and writes, and a group of its own.
 class SpawnPlan {
 public:
-    SpawnPlan(const std::filesystem::path& folder, int output) {
+    SpawnPlan(const std::filesystem::path& folder, int output, int error) {
         check(posix_spawn_file_actions_init(&actions_), "posix_spawn");
         check(posix_spawnattr_init(&attributes_), "posix_spawn");
         check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()), "posix_spawn");
         check(posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0), "posix_spawn");
-        for (const int to : {1, 2})
-            check(posix_spawn_file_actions_adddup2(&actions_, output, to), "posix_spawn");
+        check(posix_spawn_file_actions_adddup2(&actions_, output, 1), "posix_spawn");
+        check(posix_spawn_file_actions_adddup2(&actions_, error, 2), "posix_spawn");
         // The signals that this program waits for are blocked in it, and the program's own are not.
         sigset_t none, all;
         sigemptyset(&none);
@@ -97,35 +95,54 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
+// A pipe from a program; the end that it writes to is closed here once it has begun.
+struct Pipe {
+    Pipe() {
+        int ends[2];
+        check(::pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno, "pipe");
+        output.emplace(ends[0]);
+        input.emplace(ends[1]);
+        check(::fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0 ? 0 : errno, "fcntl");
+    }
+    std::optional<Descriptor> output, input;
+};
+
+// Returns how many bytes it has cut off.
+std::size_t addToEnd(std::string& text, std::string_view more) {
+    text.append(more);
+    const std::size_t over = text.size() - std::min(text.size(), most_said);
+    text.erase(0, over);
+    return over;
+}
+
 // Adds what there is to read; false at the end of it.
-bool readInto(Ended& ended, int from) {
+bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     char bytes[4096];
     for (;;) {
-        const ssize_t count = ::read(from, bytes, sizeof bytes);
+        const ssize_t count = ::read(pipe.output->number(), bytes, sizeof bytes);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return errno == EAGAIN;
         if (count == 0) return false;
-        ended.said.append(bytes, static_cast<std::size_t>(count));
-        if (ended.said.size() > most_said) {
-            const std::size_t over = ended.said.size() - most_said;
-            ended.said.erase(0, over);
-            ended.unsaid += over;
-        }
+        const std::string_view more(bytes, static_cast<std::size_t>(count));
+        ended.unsaid += addToEnd(ended.said, more);
+        if (error) addToEnd(ended.warned, more);
     }
 }
 
 // Until the process has ended or the time is over, reads what it says. Its end is what counts and not that of
 // its output, which whoever it started may hold open.
-bool waitFor(int process, int output, double seconds, Ended& ended) {
+bool waitFor(int process, const Pipe& output, const Pipe& error, double seconds, Ended& ended) {
     const auto last = Clock::now() + std::chrono::duration<double>(seconds);
-    pollfd watched[2] = {{process, POLLIN, 0}, {output, POLLIN, 0}};
+    pollfd watched[3] = {
+        {process, POLLIN, 0}, {output.output->number(), POLLIN, 0}, {error.output->number(), POLLIN, 0}};
     for (;;) {
         const double left = std::chrono::duration<double, std::milli>(last - Clock::now()).count();
         if (left <= 0) return false;
-        const int ready = ::poll(watched, 2, static_cast<int>(std::min(left, 1000.0)) + 1);
+        const int ready = ::poll(watched, 3, static_cast<int>(std::min(left, 1000.0)) + 1);
         if (ready < 0 && errno != EINTR) check(errno, "poll");
         if (ready <= 0) continue;
-        if (watched[1].revents != 0 && !readInto(ended, output)) watched[1].fd = -1;
+        if (watched[1].revents != 0 && !readInto(ended, output, false)) watched[1].fd = -1;
+        if (watched[2].revents != 0 && !readInto(ended, error, true)) watched[2].fd = -1;
         if (watched[0].revents != 0) return true;
     }
 }
@@ -134,29 +151,29 @@ bool waitFor(int process, int output, double seconds, Ended& ended) {
 
 Ended runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  double seconds) {
-    int ends[2];
-    check(::pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno, "pipe");
-    const Descriptor output(ends[0]);
-    Descriptor input(ends[1]);
-    check(::fcntl(output.number(), F_SETFL, O_NONBLOCK) == 0 ? 0 : errno, "fcntl");
+    Pipe output, error;
     const auto start = Clock::now();
     Ended ended;
     pid_t process = 0;
-    if (const int error = SpawnPlan(folder, input.number()).start(arguments, folder, process); error != 0)
+    if (const int failed = SpawnPlan(folder, output.input->number(), error.input->number())
+                               .start(arguments, folder, process);
+        failed != 0)
         throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
-                                             oneLine(folder.string()), std::strerror(error)));
-    input.close();
+                                             oneLine(folder.string()), std::strerror(failed)));
+    output.input.reset();
+    error.input.reset();
     const KilledWhenInterrupted watched(process);
     // By its number: glibc 2.36 declares pidfd_open() without C linkage.
     const Descriptor handle(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
     check(handle.number() >= 0 ? 0 : errno, "pidfd_open");
-    ended.timed_out = !waitFor(handle.number(), output.number(), seconds, ended);
+    ended.timed_out = !waitFor(handle.number(), output, error, seconds, ended);
     // Before the process is waited for: until then nobody else can have its group's number.
     ::kill(-process, SIGKILL);
     int status = 0;
     while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
-    readInto(ended, output.number());
+    readInto(ended, output, false);
+    readInto(ended, error, true);
     if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
     ended.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -18,6 +18,7 @@ struct Ended {
     // bytes came before that.
     std::string said;
     std::size_t unsaid = 0;
+    std::string warned;  // the end of what of it was written to stderr
     double ms = 0;
 
     bool well() const { return code == 0 && !timed_out; }

@@ -180,7 +180,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
             frame.notes.push_back(fmt::format("{} is granted {}", renderer.name, line));
         for (const std::string& line : job.notes)
             if (std::ranges::count(frame.notes, line) == 0) frame.notes.push_back(line);
-        const std::vector<std::string> lines = linesOf(ended.said);
+        const std::vector<std::string> lines = linesOf(ended.warned);
         const std::size_t from = lines.size() > most_lines ? lines.size() - most_lines : 0;
         for (std::size_t i = from; i < lines.size(); ++i)
             frame.notes.push_back(fmt::format("{} says: {}", renderer.name, lines[i]));

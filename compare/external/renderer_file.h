@@ -28,7 +28,7 @@ struct Granted {
     Primaries primaries = Primaries::rec709;     // read: what they are converted from
 };
 
-// What is granted, a sentence each, as reports say it: "light_factor 3.14159: ...".
+// What is granted, a sentence each, as reports say it: "light_factor 2: ...".
 std::vector<std::string> inWords(const Granted& granted);
 
 // The names that "granted" of a file may have.

@@ -61,5 +61,26 @@ TEST(Calibrate, ARendererThatDrawsNothingOrFailsIsSaid) {
     EXPECT_EQ(runTool(folder, "calibrate").code, 2);
 }
 
+bool isInstalled(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+TEST(Calibrate, CyclesMeansWhatItIsTold) {
+    if (!isInstalled("blender")) GTEST_SKIP() << "NO BLENDER: the adapter of Cycles is not run";
+    const Folder folder;
+    const Ran ran = runTool(folder, "calibrate '" + (adapters / "cycles.json").string() + "' -q --json");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+}
+
+TEST(Calibrate, ThreeMeansWhatItIsToldButDrawsNoAreaLights) {
+    const char* const three = std::getenv("DIPTYCH_THREE");
+    if (!three || !isInstalled("chromium") || !isInstalled("node"))
+        GTEST_SKIP() << "NO THREE.JS, CHROMIUM OR NODE: the adapter of three.js is not run";
+    const Folder folder;
+    const Ran ran = runTool(folder, "calibrate '" + (adapters / "three.json").string() + "' -q --json");
+    EXPECT_EQ(ran.code, 1) << ran.err;
+    EXPECT_EQ(namesIn(Json::parse(ran.out)), std::set<std::string>{"no_area_lights"}) << ran.out;
+}
+
 }  // namespace
 }  // namespace diptych

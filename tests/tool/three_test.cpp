@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::json;
 
 const fs::path assets = fs::path(DIPTYCH_SOURCE_DIR) / ".." / "shared" / "assets" / "scenes";
-const fs::path three_adapter = fs::path(DIPTYCH_SOURCE_DIR) / "compare/external/adapters/three.json";
+const fs::path adapters = fs::path(DIPTYCH_SOURCE_DIR) / "compare" / "external" / "adapters";
 
 // Why three.js is not run; empty where it is.
 std::string lackingForThree() {
@@ -26,12 +26,16 @@ struct AgainstThree {
     double flip = 1;
     std::string notes;
 };
-AgainstThree againstThree(const Folder& folder, const std::string& scene, const std::string& more) {
+AgainstThree againstThree(const Folder& folder, const std::string& scene, const std::string& more,
+                          const Json& granted = Json::object()) {
+    folder.write(
+        "three.json",
+        Json{{"command", {"node", (adapters / "three.mjs").string()}}, {"timeout", 300}, {"granted", granted}}
+            .dump());
     folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 1, "because": "measured here"}]})");
     const Ran ran = runTool(folder, "compare '" + scene + "' " + more +
                                         " --size 320x180 --runs 0 --channels lit -q --baseline forward_plus "
-                                        "--tolerances t.json --renderer three='" +
-                                        three_adapter.string() + "'");
+                                        "--tolerances t.json --renderer three=three.json");
     EXPECT_EQ(ran.code, 0) << ran.err;
     const Json report = Json::parse(contentsOf(folder / "diptych-report/report.json"));
     const Ran diff = runTool(folder,
@@ -43,7 +47,7 @@ AgainstThree againstThree(const Folder& folder, const std::string& scene, const 
     return {flip, report["frames"].back()["notes"].dump()};
 }
 
-TEST(Three, ABoxOfOurFileAgrees) {
+TEST(Three, ABoxAndPunctualLightsAgree) {
     if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
     const fs::path box = assets / "features/box/Box.glb";
     if (!fs::exists(box)) GTEST_SKIP() << "NO ASSETS at " << assets;
@@ -52,8 +56,10 @@ TEST(Three, ABoxOfOurFileAgrees) {
     EXPECT_LT(againstThree(folder, box.string(), "--shadows off --multiscatter energy").flip, 0.01);
     const fs::path lights = assets / "features/lights_punctual/Lights.glb";
     EXPECT_LT(againstThree(folder, lights.string(), "--shadows off").flip, 0.01);
-    // A control: another light is seen.
-    EXPECT_GT(againstThree(folder, lights.string(), "--shadows off --seed 3 --lights point:4").flip, 0.01);
+    // Lights that are added are told; a control: other lights are seen.
+    const std::string rig = "--shadows off --seed 3 --lights point:4";
+    EXPECT_LT(againstThree(folder, lights.string(), rig).flip, 0.01);
+    EXPECT_GT(againstThree(folder, lights.string(), rig, {{"light_factor", 2}}).flip, 0.01);
 }
 
 TEST(Three, WhatItCannotDrawIsSaid) {

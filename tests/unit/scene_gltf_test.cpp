@@ -31,6 +31,17 @@ SceneView viewAt(const Scene& scene, double time) {
     return makeSceneView(scene, request);
 }
 
+// Of an instance's triangles, world space.
+std::vector<glm::dvec3> middlesOf(const Scene& scene, const Pose& pose, const Instance& instance) {
+    const std::vector<glm::dvec3> positions = posedPositions(scene, pose, instance);
+    const std::vector<std::uint32_t>& indices = primitiveOf(scene, instance).indices;
+    std::vector<glm::dvec3> middles;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+        middles.push_back((positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]]) /
+                          3.0);
+    return middles;
+}
+
 // Lights that glTF knows, in the order in which they are posed.
 std::vector<Light> punctual(std::vector<Light> lights) {
     std::erase_if(lights, [](const Light& light) { return isArea(light.kind); });
@@ -85,11 +96,13 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             const Instance& told = view.pose.instances[i];
             if (primitiveOf(scene, told).indices.empty()) continue;
             const Instance& written = pose.instances[k++];
-            const std::vector<glm::dvec3> a = posedPositions(scene, view.pose, told),
-                                          b = posedPositions(back, pose, written);
-            ASSERT_EQ(a.size(), b.size());
+            // The reader leaves out vertices that no triangle uses; a mirrored skeleton's triangles are
+            // turned.
+            const std::vector<glm::dvec3> a = middlesOf(scene, view.pose, told),
+                                          b = middlesOf(back, pose, written);
+            ASSERT_EQ(a.size(), b.size()) << name;
             double far = 0;
-            for (std::size_t v = 0; v < a.size(); ++v) far = std::max(far, glm::distance(a[v], b[v]));
+            for (std::size_t t = 0; t < a.size(); ++t) far = std::max(far, glm::distance(a[t], b[t]));
             EXPECT_LT(far, 1e-5) << name << " " << i;
             const Material& one =
                 materialsOf(scene, view.pose)[static_cast<std::size_t>(primitiveOf(scene, told).material)];

@@ -6,12 +6,13 @@ import { randomUUID } from 'node:crypto';
 import { createReadStream, readFileSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { dirname, extname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 
 const file = process.argv.at(-2), job = JSON.parse(readFileSync(file));
 const three = join(process.env.DIPTYCH_THREE ?? '.', 'node_modules/three'), chromium = process.env.DIPTYCH_CHROMIUM ?? 'chromium';
 const types = { '.html': 'text/html', '.js': 'text/javascript' };
 const key = `/${randomUUID()}/`;  // whoever does not know it is served nothing
-const placeOf = path => path === '' ? 'three.html' : path === 'job' ? file
+const placeOf = path => path === '' ? fileURLToPath(new URL('three.html', import.meta.url)) : path === 'job' ? file
   : path.startsWith('three/') ? join(three, path.slice(6)) : path.startsWith('file/') ? path.slice(4) : '';
 let browser;
 
