@@ -4,6 +4,7 @@
 
 #include "compare/checks/visual_checks.h"
 #include "compare/cli/options.h"
+#include "compare/render/render_many.h"
 #include "compare/render/render_options.h"
 #include "compare/verdict/comparison.h"
 #include "shared/frame/frame.h"
@@ -11,6 +12,7 @@
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +49,10 @@ struct DrawnScene {
 
 // What the device makes of texels, measured when the first scene asks.
 using TextureProbe = std::optional<TextureSampling>;
+// `pipelines`: shared with other scenes; nullptr: its own.
 DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe);
+                     Device& device, const RenderOptions& render, TextureProbe& probe,
+                     const std::shared_ptr<PipelineSet>& pipelines = nullptr);
 
 // Its comparisons; the commands of them write to `again`.
 Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn,
