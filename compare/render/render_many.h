@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/render/renderer.h"
+#include "compare/render/render_options.h"
+#include "shared/frame/frame.h"
+#include "shared/frame/settings.h"
+#include "shared/scene/scene_view.h"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace diptych {
+
+class Device;
+struct PipelineSet;  // renderer.h
 
 // renderAll() of one scene after the other, which share pipelines: what one has compiled, which is most of
 // the time that small pictures take on lavapipe, the next does not compile again. Beyond `pipelinesKept` of
