@@ -55,7 +55,8 @@ public:
           kept_(folder, "scenes", resumeKey(options, settings)),
           render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}))),
           progress_(progressOutput(options)),
-          device_(deviceOptions(options)) {}
+          device_(deviceOptions(options)),
+          pipelines_(makePipelineSet(device_)) {}
 
     int run() {
         say(options_, "on " + device_.info().name);
@@ -155,8 +156,8 @@ private:
         const auto [drawing, comparing] = sharesOf(render);
         const double ours = ourShare(options_) * drawing;
         render.progress = stage.part(0, ours);
-        DrawnScene drawn =
-            drawScene(scene, options_, settings_, device_, render, probe_, stage.part(ours, drawing));
+        DrawnScene drawn = drawScene(scene, options_, settings_, device_, render, probe_,
+                                     stage.part(ours, drawing), pipelines_);
         checkValidation(device_);
         Report report = reportOf(options_, compare_, std::move(drawn), {}, reportDevice(device_),
                                  againBeside(folder_), stage.part(drawing, comparing));
@@ -214,6 +215,7 @@ private:
     const RenderOptions render_;
     Progress progress_;
     Device device_;
+    const std::shared_ptr<PipelineSet> pipelines_;
     TextureProbe probe_;
     std::map<const shards::Item*, ReportPart> parts_;
     std::multimap<const shards::Item*, SceneError> errors_;  // of the scene, or of other renderers

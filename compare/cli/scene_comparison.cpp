@@ -117,11 +117,12 @@ double ourShare(const Options& options) {
 }
 
 DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside) {
+                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
+                     const std::shared_ptr<PipelineSet>& pipelines) {
     DrawnScene drawn;
     SceneViews views(scene);
     for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
-    drawn.frames = renderAll(device, views, settings, render);
+    drawn.frames = renderAll(device, views, settings, render, pipelines);
     const std::size_t together = comparedPaths(options).size();
     for (std::size_t k = 0; k < drawn.frames.size(); k += together) {
         const Frame& shown = drawn.frames[k + together - 2];

@@ -4,6 +4,7 @@
 
 #include "compare/checks/visual_checks.h"
 #include "compare/cli/options.h"
+#include "compare/render/render_many.h"
 #include "compare/render/render_options.h"
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/pair_reports.h"
@@ -12,6 +13,7 @@
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,9 +52,10 @@ struct DrawnScene {
 
 // What the device makes of texels, measured when the first scene asks.
 using TextureProbe = std::optional<TextureSampling>;
-// `outside`: while other renderers draw.
+// `outside`: while other renderers draw. `pipelines`: shared with other scenes; nullptr: its own.
 DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside);
+                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
+                     const std::shared_ptr<PipelineSet>& pipelines = nullptr);
 
 // How much of drawing a scene, 0 to 1, is ours, and not the other renderers'.
 double ourShare(const Options& options);

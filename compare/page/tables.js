@@ -131,7 +131,7 @@ function sortable(table, down) {
     const now = head.getAttribute('aria-sort');
     sort(head, now ? (now === 'ascending' ? -1 : 1) : down && head.matches('.n') ? -1 : 1);
   });
-  const asked = choices.get('sort') ?? '', head = heads.find(head => head.textContent === asked.replace(/^-/, ''));
+  const asked = choices.get('sort') ?? '', head = asked && heads.find(head => head.textContent === asked.replace(/^-/, ''));
   if (head) sort(head, asked.startsWith('-') ? -1 : 1);
   // Again by the head that it is sorted by, after its values have changed.
   return () => heads.filter(head => head.hasAttribute('aria-sort')).forEach(head => sort(head, head.getAttribute('aria-sort') === 'ascending' ? 1 : -1));

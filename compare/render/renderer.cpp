@@ -7,6 +7,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/reference_frame.h"
+#include "compare/render/render_many.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
@@ -364,9 +365,14 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
 
 std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
                              const RenderOptions& options) {
+    return renderAll(device, views, settings, options, nullptr);
+}
+
+std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
+                             const RenderOptions& options, const std::shared_ptr<PipelineSet>& pipelines) {
     for (const Settings& s : settings) checkSize(device, s.size);
     options.progress.at(0, "upload");
-    Renderer renderer(device, views);
+    Renderer renderer(device, views, pipelines);
     RenderOptions each = options, timed = options;
     each.runs = 0;
     const double timing = 1 - framesIn(each) / framesIn(options);
@@ -380,12 +386,15 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
         each.progress = options.progress.part(place(done), place(done + 1));
         frames.push_back(renderer.draw(settings[i], each));
         addTimes(times[i], frames.back());
+        if (pipelines) continue;
         // Those of a path that is drawn no more: lavapipe has some 1.5 MB for each of the gallery's.
         if (settings[i].path != Path::reference &&
             std::none_of(settings.begin() + static_cast<std::ptrdiff_t>(i) + 1, settings.end(),
                          [&](const Settings& later) { return later.path == settings[i].path; }))
             renderer.clearPipelines(settings[i].path);
     }
+    if (pipelines && renderer.pipelines() > pipelinesKept)
+        for (const Path path : drawn_paths) renderer.clearPipelines(path);
     return frames;
 }
 
