@@ -2,6 +2,7 @@
 #include "compare/cli/explanations.h"
 
 #include "compare/cli/commands.h"
+#include "compare/explain/conventions.h"
 #include "compare/explain/explain.h"
 #include "compare/explain/explained.h"
 #include "compare/explain/frame_images.h"
@@ -60,20 +61,31 @@ std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Rend
         return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
     };
     const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
+    // Under the conventions that it shows: what these do would hide what roughness does.
+    RenderOptions light = options;
+    light.channels = {static_cast<int>(gpu::DEBUG_lit)};
+    const ConventionTrial trial{[&](const Settings& settings) { return lit(renderer.draw(settings, light)); },
+                                [&](const Image& ours) { return meanOf(errorsOf(ours, lit(external))); }};
+    const Settings shown = withConventions(plain.settings, nearestConventions(plain.settings, trial));
+    const Frame conventional = renderer.draw(shown, light);
     std::optional<Frame> nearest;
     for (const SpecularKernel kernel : {SpecularKernel::variance, SpecularKernel::slope}) {
-        Settings settings = plain.settings;
+        Settings settings = shown;
         settings.spec_aa = true;
         settings.spec_aa_kernel = kernel;
         if (settings.problem()) continue;
-        Frame widened = renderer.draw(settings, options);
-        if (distance(widened, external) < distance(nearest ? *nearest : plain, external))
+        Frame widened = renderer.draw(settings, light);
+        if (distance(widened, external) < distance(nearest ? *nearest : conventional, external))
             nearest = std::move(widened);
     }
     if (!nearest) return {};
-    const double nearer = distance(plain, external) - distance(*nearest, external);
-    if (!(nearer > 0.5 * distance(*nearest, plain))) return {};
-    return nearest;
+    const double nearer = distance(conventional, external) - distance(*nearest, external);
+    if (!(nearer > 0.5 * distance(*nearest, conventional))) return {};
+    // Its channels: those of surfaces are the same under any convention.
+    Settings settings = plain.settings;
+    settings.spec_aa = true;
+    settings.spec_aa_kernel = nearest->settings.spec_aa_kernel;
+    return renderer.draw(settings, options);
 }
 
 Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,

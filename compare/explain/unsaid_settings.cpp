@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/unsaid_settings.h"
 
+#include "compare/explain/conventions.h"
 #include "compare/explain/exposure.h"
 #include "compare/explain/frame_images.h"
 #include "compare/explain/lighting_stages.h"
@@ -26,26 +27,7 @@ namespace {
 constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
 constexpr double believedRest = 0.5;
 constexpr int mostBelieved = 3;
-// Of another program's picture, whose conventions may all be others, so many more.
-constexpr int mostConventions = 5;
 constexpr double leastBrighter = 0.01;
-
-// Conventions that other programs have, which glTF leaves open or has otherwise.
-struct Convention {
-    std::string_view option, value, shows;
-};
-constexpr std::array conventions{
-    Convention{"base-layer", "component", "a base that loses each component of what its layer reflects"},
-    Convention{"spot-cone", "smoothstep", "spots that fade to their edge by smoothstep"},
-    Convention{"range-window", "squared", "lights that end at their range by the window's square"},
-    Convention{"multiscatter", "energy", "light between microfacets, as a gain of the lobe"},
-    Convention{"multiscatter", "fdez", "light between microfacets, as a lobe of its own"},
-};
-
-// Whether a picture is another program's: its Settings are what it was asked for, and not what it does.
-bool isForeign(const Frame& frame) {
-    return frame.origin.external || (!frame.origin.file.empty() && frame.origin.commit.empty());
-}
 
 class UnsaidSearch {
 public:
@@ -56,9 +38,9 @@ public:
         for (std::size_t side = 0; side < 2; ++side)
             beyond_.at(side) = beyond(comparable(sides_.settings(side), side), side);
         if (sameBits(beyond_[0], beyond_[1])) return {};
+        if (isForeign(sides_.frame(1))) findConventions();
         double left = meanOf(errorsOf(beyond_[1], beyond_[0]));
-        const int most = mostBelieved + (isForeign(sides_.frame(1)) ? mostConventions : 0);
-        for (int believed = 0; believed < most && left > 0; ++believed) {
+        for (int believed = 0; believed < mostBelieved && left > 0; ++believed) {
             double least = left;
             std::optional<UnsaidSetting> best;
             const Image said = comparable(said_, 1);
@@ -84,6 +66,17 @@ public:
     }
 
 private:
+    void findConventions() {
+        const ConventionTrial trial{
+            [&](const Settings& settings) { return comparable(settings, 1); },
+            [&](const Image& ours) { return meanOf(errorsOf(beyond(ours, 1), beyond_[0])); }};
+        for (const Convention& each : nearestConventions(said_, trial)) {
+            said_ = withConventions(said_, {each});
+            found_.push_back({each.option, said_, std::string(each.shows)});
+        }
+        beyond_[1] = beyond(comparable(said_, 1), 1);
+    }
+
     std::vector<UnsaidSetting> triedSettings() {
         std::vector<UnsaidSetting> all;
         const auto tryIt = [&](std::string_view option, std::string shows, bool guessed, const auto& change) {
@@ -126,11 +119,6 @@ private:
         if (said_.haze && factors.haze)
             tryIt("haze-density", multiple("density", *factors.haze), false,
                   [&](Settings& s) { s.haze_density *= static_cast<float>(*factors.haze); });
-        if (isForeign(sides_.frame(1)))
-            for (const auto& [option, value, shows] : conventions)
-                if (said_.valueOf(option) == Settings().valueOf(option))
-                    tryIt(option, std::string(shows), false,
-                          [&](Settings& s) { s.set(option, std::string(value)); });
         return all;
     }
 

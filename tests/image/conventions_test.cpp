@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Conventions in which renderers differ, in both paths and the reference: what a coloured layer leaves to the
 // base, how a spot fades, how a light ends at its range.
+#include "compare/explain/explain.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 
@@ -99,6 +100,57 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [
     return testName(c.option) + "_" + testName(std::string(c.scene).substr(8)) + "_" +
            std::string(nameOf(c.multiscatter));
 });
+
+// Another program's picture of the scene: it has these conventions, and says nothing of them nor of its
+// surfaces, which ours are lent for. Those of a pair may cancel in part (a spot's edge near the end of its
+// range).
+TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
+    using Words = std::vector<std::pair<std::string, std::string>>;
+    const std::pair<const char*, Words> cases[] = {
+        {"builtin:spots", {{"spot-cone", "smoothstep"}}},
+        {"builtin:spots", {{"range-window", "squared"}}},
+        {"builtin:spots", {{"spot-cone", "smoothstep"}, {"range-window", "squared"}}},
+        {"builtin:points", {{"range-window", "squared"}}},
+        {"builtin:dielectrics", {{"base-layer", "component"}}},
+        {"builtin:dielectrics", {{"multiscatter", "energy"}}},
+        {"builtin:normals", {{"multiscatter", "fdez"}}},
+        {"builtin:dielectrics", {{"base-layer", "component"}, {"multiscatter", "energy"}}},
+        {"builtin:points", {}},
+    };
+    for (const auto& [name, had] : cases) {
+        const Scene scene = loadScene(name);
+        SceneViews views(scene);
+        Renderer renderer(device(), views, pipelines());
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.path = drawn_paths[1];
+        settings.shadows = Shadows::off;
+        settings.size = {96, 54};
+        RenderOptions options;
+        options.channels = explainedChannels();
+        options.runs = 0;
+        const Frame ours = renderer.draw(settings, options);
+        Settings theirs = settings;
+        for (const auto& [option, value] : had) theirs.set(option, value);
+        Frame other = ours;
+        other.origin.external = true;
+        other.channels[lit] = renderer.draw(theirs, options).channels.at(lit);
+        const Explanation found = explain(device(), renderer, scene, ours, other);
+        std::vector<std::string> named, expected;
+        for (const Cause& cause : found.causes)
+            if (std::abs(cause.share) > 0.01 * found.distance) named.push_back(cause.name);
+        for (const auto& [option, value] : had) expected.push_back("--" + option);
+        std::ranges::sort(named);
+        std::ranges::sort(expected);
+        EXPECT_EQ(named, expected) << name;
+        EXPECT_LE(found.unexplained, 0.01 * found.distance) << name;
+        // The same of a picture that is ours, which says its Settings, is no convention of others.
+        other.origin.external = false;
+        for (const Cause& cause : explain(device(), renderer, scene, ours, other).causes) {
+            EXPECT_NE(cause.name, "--spot-cone");
+            EXPECT_NE(cause.name, "--base-layer");
+        }
+    }
+}
 
 }  // namespace
 }  // namespace diptych::tests

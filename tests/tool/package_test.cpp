@@ -9,10 +9,6 @@
 namespace diptych {
 namespace {
 
-std::string wordsFor(const std::string& what) {
-    return "'" DIPTYCH_PROGRAM "' " + what;
-}
-
 bool isThere(const Folder& folder, const std::string& program) {
     return runShell(folder, "command -v " + program, folder.path()).code == 0;
 }

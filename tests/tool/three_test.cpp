@@ -62,6 +62,52 @@ TEST(Three, ABoxAndPunctualLightsAgree) {
     EXPECT_GT(againstThree(folder, lights.string(), rig, {{"light_factor", 2}}).flip, 0.01);
 }
 
+// What three.js has otherwise than glTF or leaves open (shared/material/README.md).
+const std::string conventions =
+    "--shadows off --multiscatter energy --base-layer component --spot-cone smoothstep --range-window "
+    "squared "
+    "--spec-aa on --spec-aa-kernel slope";
+
+TEST(Three, AgreesUnderItsConventions) {
+    if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
+    if (!fs::exists(assets)) GTEST_SKIP() << "NO ASSETS at " << assets;
+    const Folder folder;
+    for (const std::string& scene :
+         {(assets / "features/box/Box.glb").string(), (assets / "pbr_spheres/PBR_Spheres.glb").string(),
+          (assets / "flight_helmet/FlightHelmet.gltf").string(),
+          (assets / "features/lights_punctual/Lights.glb").string(), std::string("builtin:points"),
+          std::string("builtin:spots")}) {
+        EXPECT_LT(againstThree(folder, scene, conventions).flip, 0.01) << scene;
+    }
+}
+
+// The causes that explain names of its difference from glTF's own.
+std::string namedOf(const Folder& folder, const std::string& scene) {
+    const Ran ran = runTool(folder, "explain '" + scene +
+                                        "' --size 320x180 --shadows off --baseline forward_plus --json "
+                                        "--renderer three='" +
+                                        (adapters / "three.json").string() + "'");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    std::string names;
+    for (const Json& cause : Json::parse(ran.out)["causes"]) names += cause["name"].get<std::string>() + " ";
+    return names;
+}
+
+TEST(Three, ExplainNamesEachOfItsConventions) {
+    if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
+    const Folder folder;
+    const std::string spots = namedOf(folder, "builtin:spots");
+    EXPECT_NE(spots.find("--spot-cone"), std::string::npos) << spots;
+    EXPECT_NE(spots.find("--range-window"), std::string::npos) << spots;
+    const std::string tinted = namedOf(folder, "builtin:dielectrics");
+    EXPECT_NE(tinted.find("--base-layer"), std::string::npos) << tinted;
+    EXPECT_NE(tinted.find("roughness"), std::string::npos) << tinted;
+    if (!fs::exists(assets)) GTEST_SKIP() << "NO ASSETS at " << assets;
+    const std::string spheres = namedOf(folder, (assets / "pbr_spheres/PBR_Spheres.glb").string());
+    EXPECT_NE(spheres.find("--multiscatter"), std::string::npos) << spheres;
+    EXPECT_NE(spheres.find("roughness"), std::string::npos) << spheres;
+}
+
 TEST(Three, WhatItCannotDrawIsSaid) {
     if (const std::string lacking = lackingForThree(); !lacking.empty()) GTEST_SKIP() << lacking;
     const Folder folder;
