@@ -63,7 +63,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
 // Roughness that one side widens by its normals is told as that.
 std::string Swaps::shownBy(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
-    if (mode.number == static_cast<int>(gpu::DEBUG_roughness) && widened)
+    if (widened && mode.name == "roughness")
         return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
                            nameOf(sides_.settings(1).spec_aa_kernel));
     return std::string(mode.shows);

@@ -165,8 +165,9 @@ float filteredRoughness(float roughness) {
     if ((feature_specular_aa & SPECULAR_AA_SLOPE) != 0) {
         vec3 right = on(feature_orthographic) ? view.origin_x : view.direction_x;
         vec3 down = on(feature_orthographic) ? view.origin_y : view.direction_y;
-        return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), normalize(right),
-                                  normalize(down), rounded);
+        right *= inversesqrt(dot(right, right));
+        down *= inversesqrt(dot(down, down));
+        return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), right, down, rounded);
     }
     return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
 }

@@ -70,7 +70,7 @@
     /* beyond the packed format's range: float32 */                                                         \
     X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* VIEW_*: where a fragment shader has the view from */                                                 \
-    X(41, view_source,                frame,   0, PASSES_SHADE | PASS_BACKGROUND)                           \
+    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_BACKGROUND)         \
     /* for channels, which may need more than shading does */                                               \
     X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
     /* a depth pre-pass has stored the depth, which the draw reads */                                       \
@@ -116,8 +116,8 @@
     /* a dielectric's base loses each component of what its layer reflects, not the largest */              \
     X(65, base_by_component,          frame,   0, PASSES_SHADE)                                             \
     /* spots fade by smoothstep, ranges end by the window's square */                                       \
-    X(66, smooth_cones,               frame,   0, PASSES_SHADE)                                             \
-    X(67, squared_window,             frame,   0, PASSES_SHADE)
+    X(66, smooth_cones,               frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    X(67, squared_window,             frame,   0, PASSES_SURFACE | PASS_LIGHTING)
 // clang-format on
 
 CONTRACT_BEGIN
