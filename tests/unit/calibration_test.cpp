@@ -9,6 +9,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/image/srgb.h"
 #include "shared/scene/load.h"
+#include "tests/campaign.h"
 
 #include <gtest/gtest.h>
 
@@ -256,18 +257,20 @@ TEST(Calibration, OnePlantedDeviationIsNamed) {
     EXPECT_EQ(tally.right, tally.all) << tally.wrong;
 }
 
+// All of them in a campaign, else one of six.
 TEST(Calibration, TwoAtOnceAreNamed) {
     Tally tally;
+    const unsigned stride = isCampaign() ? 1 : 6;
     unsigned seed = 1000;
     const std::vector<Fault> all = faults();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = i + 1; k < all.size(); ++k) {
-            if (all[i].group == all[k].group) continue;
+            if (all[i].group == all[k].group || ++seed % stride != campaignSeed() % stride) continue;
             Fake fake;
             all[i].plant(fake);
             all[k].plant(fake);
             tally.add(all[i].name + " " + all[k].name,
-                      deviationsOf(studio().charts(), studio().pictures(fake, seed++)));
+                      deviationsOf(studio().charts(), studio().pictures(fake, seed)));
         }
     std::printf("two at once: %d of %d are named\n%s", tally.right, tally.all, tally.wrong.c_str());
     EXPECT_GE(tally.right, 0.95 * tally.all) << tally.wrong;
