@@ -146,7 +146,6 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     const std::pair<const char*, const char*> bad[] = {
         {"--grid grid.json", "grid.json"},
         {"--grid nowhere.json", "cannot be read"},
-        {"builtin:spheres", "one scene"},
         {"--runs 0", "--runs 0"},
         {"-o x.png", "-o x.png"},
         {"-o mine", "--force"},
