@@ -89,7 +89,8 @@ std::string namedOf(const Folder& folder, const std::string& scene) {
                                         (adapters / "three.json").string() + "'");
     EXPECT_EQ(ran.code, 0) << ran.err;
     std::string names;
-    for (const Json& cause : Json::parse(ran.out)["causes"]) names += cause["name"].get<std::string>() + " ";
+    const Json found = Json::parse(ran.out);
+    for (const Json& cause : found["causes"]) names += cause["name"].get<std::string>() + " ";
     return names;
 }
 
