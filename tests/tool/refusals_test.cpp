@@ -14,6 +14,7 @@ using Json = nlohmann::json;
 TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     const Folder folder;
     folder.write("bad.glb", "no glTF");
+    folder.write("worse.glb", "no glTF either");
     const Ran ran =
         runTool(folder, "compare builtin:triangle bad.glb builtin:suns --size 16x9 --runs 0 -o out");
     EXPECT_EQ(ran.code, 2);
@@ -26,9 +27,10 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_EQ(report["comparisons"].size(), 2u);
     EXPECT_EQ(report["errors"][0]["scene"], "bad.glb");
     EXPECT_EQ(report["verdict"], "fail");
-    // Alone, or with others that are as bad, it is one line, and no report.
+    // Alone, given twice (which is one scene), or with others that are as bad, it is one line, and no report.
     EXPECT_TRUE(runTool(folder, "compare bad.glb -o none").failedOver("bad.glb: is not JSON"));
-    EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -o none").failedOver("none of the 2 scenes"));
+    EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -o none").failedOver("bad.glb: is not JSON"));
+    EXPECT_TRUE(runTool(folder, "compare bad.glb worse.glb -o none").failedOver("none of the 2 scenes"));
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
