@@ -2,6 +2,7 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/specialize.h"
 
 #include <tbb/parallel_for.h>
 
@@ -9,15 +10,28 @@ namespace diptych {
 
 namespace {
 
-// A variant's values as specialization constants; it must outlive this.
-struct Specialization {
-    explicit Specialization(const Variant& variant) {
-        for (std::uint32_t id = 0; id < gpu::FEATURE_COUNT; ++id) entries[id] = {id, id * 4, 4};
-        info = {gpu::FEATURE_COUNT, entries.data(), sizeof variant.values(), variant.values().data()};
-    }
-    std::array<VkSpecializationMapEntry, gpu::FEATURE_COUNT> entries;
-    VkSpecializationInfo info;
-};
+// The module without what the variant switches off.
+OwnedShaderModule specializedModule(VkDevice device, const ShaderModule& module, const Variant& variant) {
+    const auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
+    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .pNext = nullptr,
+                                        .flags = 0,
+                                        .codeSize = words.size() * sizeof(std::uint32_t),
+                                        .pCode = words.data()};
+    VkShaderModule handle = VK_NULL_HANDLE;
+    checkResult(vkCreateShaderModule(device, &info, nullptr, &handle), "vkCreateShaderModule");
+    return {device, handle};
+}
+
+VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderModule module) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = 0,
+            .stage = stage,
+            .module = module,
+            .pName = "main",
+            .pSpecializationInfo = nullptr};
+}
 
 VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     struct Factors {
@@ -59,20 +73,6 @@ PipelineParts plainParts(const PipelineKey& key) {
             {}};
 }
 
-VkShaderModule Pipelines::load(const ShaderModule& module) {
-    const auto [entry, isNew] = modules_.try_emplace(&module);
-    if (!isNew) return entry->second;
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .pNext = nullptr,
-                                        .flags = 0,
-                                        .codeSize = module.words.size_bytes(),
-                                        .pCode = module.words.data()};
-    VkShaderModule handle = VK_NULL_HANDLE;
-    checkResult(vkCreateShaderModule(device_.handle(), &info, nullptr, &handle), "vkCreateShaderModule");
-    entry->second = OwnedShaderModule(device_.handle(), handle);
-    return handle;
-}
-
 std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     struct Missing {
         const PipelineKey* key;
@@ -86,8 +86,6 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
             if (!isNew) continue;
             missing.push_back({&entry->first, {}, &entry->second});
             missing.back().parts = choose_(key);
-            load(*missing.back().parts.vertex);
-            if (missing.back().parts.fragment != nullptr) load(*missing.back().parts.fragment);
         }
         tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
             *missing[i].pipeline = make(*missing[i].key, missing[i].parts);
@@ -105,14 +103,10 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
 VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
     if (!isNew) return entry->second;
-    const Specialization specialization(variant);
+    const OwnedShaderModule code = specializedModule(device_.handle(), module, variant);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = load(module);
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &specialization.info;
+    info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     checkResult(
@@ -132,19 +126,14 @@ void Pipelines::clear() {
 }
 
 OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
-    const Specialization specialization(key.variant);
+    std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
-    const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule* module) {
-        stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                          .pNext = nullptr,
-                          .flags = 0,
-                          .stage = stage,
-                          .module = modules_.at(module),
-                          .pName = "main",
-                          .pSpecializationInfo = &specialization.info});
+    const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule& module) {
+        code.push_back(specializedModule(device_.handle(), module, key.variant));
+        stages.push_back(stageOf(stage, code.back()));
     };
-    addStage(VK_SHADER_STAGE_VERTEX_BIT, parts.vertex);
-    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, parts.fragment);
+    addStage(VK_SHADER_STAGE_VERTEX_BIT, *parts.vertex);
+    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, *parts.fragment);
 
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,

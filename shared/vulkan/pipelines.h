@@ -88,14 +88,11 @@ public:
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:
-    VkShaderModule load(const ShaderModule& module);
-    OwnedPipeline make(const PipelineKey& key,
-                       const PipelineParts& parts) const;  // its modules must be loaded
+    OwnedPipeline make(const PipelineKey& key, const PipelineParts& parts) const;
 
     Device& device_;
     VkPipelineLayout layout_;
     ChooseParts choose_;
-    std::map<const ShaderModule*, OwnedShaderModule> modules_;
     std::map<PipelineKey, OwnedPipeline> pipelines_;
     std::map<std::pair<const ShaderModule*, Variant>, OwnedPipeline> compute_;
 };

@@ -1,0 +1,674 @@
+// SPDX-License-Identifier: MIT
+// Sparse conditional constant propagation (Wegman and Zadeck, "Constant propagation with conditional
+// branches", TOPLAS 13(2), 1991) in one walk over the blocks: loops are not iterated, so that what a loop
+// changes counts as unknown. Then what the living code reads is marked from its effects on, and written.
+#include "shared/vulkan/specialize.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+// Opcodes of the specification's section 3.49.
+enum Op : std::uint32_t {
+    OpName = 5,
+    OpExtInst = 12,
+    OpTypeBool = 20,
+    OpTypeInt = 21,
+    OpTypeFloat = 22,
+    OpConstantTrue = 41,
+    OpConstantFalse = 42,
+    OpConstant = 43,
+    OpConstantNull = 46,
+    OpSpecConstantTrue = 48,
+    OpSpecConstantFalse = 49,
+    OpSpecConstant = 50,
+    OpSpecConstantComposite = 51,
+    OpConstantComposite = 44,
+    OpSpecConstantOp = 52,
+    OpFunction = 54,
+    OpFunctionEnd = 56,
+    OpVariable = 59,
+    OpLoad = 61,
+    OpDecorate = 71,
+    OpCopyObject = 83,
+    OpUndef = 1,
+    OpBitcast = 124,
+    OpIAdd = 128,
+    OpISub = 130,
+    OpIMul = 132,
+    OpUDiv = 134,
+    OpUMod = 137,
+    OpLogicalEqual = 164,
+    OpLogicalNotEqual = 165,
+    OpLogicalOr = 166,
+    OpLogicalAnd = 167,
+    OpLogicalNot = 168,
+    OpSelect = 169,
+    OpIEqual = 170,
+    OpINotEqual = 171,
+    OpUGreaterThan = 172,
+    OpSGreaterThan = 173,
+    OpUGreaterThanEqual = 174,
+    OpSGreaterThanEqual = 175,
+    OpULessThan = 176,
+    OpSLessThan = 177,
+    OpULessThanEqual = 178,
+    OpSLessThanEqual = 179,
+    OpShiftRightLogical = 194,
+    OpShiftLeftLogical = 196,
+    OpBitwiseOr = 197,
+    OpBitwiseXor = 198,
+    OpBitwiseAnd = 199,
+    OpNot = 200,
+    OpBitCount = 205,
+    OpPhi = 245,
+    OpLoopMerge = 246,
+    OpSelectionMerge = 247,
+    OpLabel = 248,
+    OpBranch = 249,
+    OpBranchConditional = 250,
+    OpSwitch = 251,
+    OpKill = 252,
+    OpReturn = 253,
+    OpUnreachable = 255,
+    OpTerminateInvocation = 4416,
+};
+constexpr std::uint32_t decorationSpecId = 1, memoryVolatile = 1;
+constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51;  // of GLSL.std.450: they store, too
+
+constexpr std::uint32_t none = ~0u;
+
+// Whether an instruction does nothing but make its result, so that it may go where nothing reads that.
+bool isPure(std::span<const std::uint32_t> in) {
+    const std::uint32_t op = in[0] & 0xffff;
+    switch (op) {
+        case OpExtInst:
+            return in[4] != extendedModf && in[4] != extendedFrexp;
+        case OpLoad:
+            return in.size() < 5 || (in[4] & memoryVolatile) == 0;
+        case OpUndef:
+        case OpVariable:
+        case OpPhi:
+        case 60:   // OpImageTexelPointer
+        case 65:   // OpAccessChain
+        case 66:   // OpInBoundsAccessChain
+        case 67:   // OpPtrAccessChain
+        case 68:   // OpArrayLength
+        case 400:  // OpCopyLogical
+            return true;
+        default:
+            // Composites, conversions, arithmetic, comparisons, bits and derivatives; samples, fetches,
+            // gathers and queries of images. Images read and written, atomics and groups are not among them.
+            return (op >= 77 && op <= 97) || op == 100 || (op >= 103 && op <= 107) ||
+                   (op >= 109 && op <= 215);
+    }
+}
+
+class Specializer {
+public:
+    Specializer(std::span<const std::uint32_t> words, const SpecializationValue& value)
+        : words_(words), value_(value) {
+        if (words.size() < 5 || words[0] != 0x07230203) throw std::logic_error("not a SPIR-V module");
+        bound_ = words[3];
+        bits_.resize(bound_);
+        ids_.resize(bound_);
+        readModule();
+        readFunction();
+    }
+
+    std::vector<std::uint32_t> result() {
+        propagate();
+        keepStructure();
+        mark();
+        return written();
+    }
+
+private:
+    struct Id {
+        std::uint32_t at = 0;        // of its instruction in the function; 0: it is made outside
+        std::uint32_t type = 0;      // of what it is made as
+        std::uint32_t copied = 0;    // it is no more than this id
+        std::uint32_t spec = none;   // its number as a specialization constant
+        std::uint32_t block = none;  // a label's
+        bool scalar = false;         // a type of bools, or of integers or floats of 32 bits
+        bool boolean = false;        // a type of bools
+        bool known = false;          // its value is in bits_
+        bool marked = false;
+    };
+    struct Block {
+        std::uint32_t first = 0, last = 0;  // instructions: places in at_; the last is the terminator
+        std::uint32_t label = 0, merge = 0, loop_continue = 0;  // ids; of merge instructions, 0: none
+        std::vector<std::uint32_t> targets;                     // blocks that it may go to
+        std::vector<std::uint32_t> taken;                       // those of them that are left
+        bool alive = false;
+        bool stub = false;             // nothing goes there, but a construct that is left names it
+        std::uint32_t stub_to = none;  // the loop that a stub of a continue target goes back to
+        std::uint32_t stub_from = 0;   // the label of the stub that goes back to this loop
+        bool declares_merge = false;   // writes a merge instruction of its own: that of `merge`
+    };
+
+    std::span<const std::uint32_t> instruction(std::uint32_t at) const {
+        return words_.subspan(at, words_[at] >> 16);
+    }
+    std::uint32_t op(std::uint32_t at) const { return words_[at] & 0xffff; }
+
+    void readModule() {
+        std::uint32_t at = 5;
+        for (; at < words_.size() && op(at) != OpFunction; at += words_[at] >> 16) {
+            const auto in = instruction(at);
+            switch (op(at)) {
+                case OpDecorate:
+                    if (in[2] == decorationSpecId) ids_[in[1]].spec = in[3];
+                    break;
+                case OpTypeBool:
+                    ids_[in[1]].scalar = ids_[in[1]].boolean = true;
+                    break;
+                case OpTypeInt:
+                case OpTypeFloat:
+                    ids_[in[1]].scalar = in[2] == 32;
+                    break;
+                case OpConstantTrue:
+                case OpConstantFalse:
+                    know(in[1], in[2], op(at) == OpConstantTrue);
+                    break;
+                case OpConstant:
+                    if (ids_[in[1]].scalar) know(in[1], in[2], in[3]);
+                    break;
+                case OpConstantNull:
+                    if (ids_[in[1]].scalar) know(in[1], in[2], 0);
+                    break;
+                case OpSpecConstantTrue:
+                case OpSpecConstantFalse:
+                    know(in[1], in[2],
+                         ids_[in[2]].spec == none ? op(at) == OpSpecConstantTrue
+                                                  : value_(ids_[in[2]].spec) != 0);
+                    break;
+                case OpSpecConstant:
+                    if (!ids_[in[1]].scalar)
+                        throw std::logic_error("a specialization constant is not of 32 bits");
+                    know(in[1], in[2], ids_[in[2]].spec == none ? in[3] : value_(ids_[in[2]].spec));
+                    break;
+                case OpSpecConstantOp:
+                    if (const auto folded = fold(in[3], in[1], in.subspan(4))) know(in[1], in[2], *folded);
+                    break;
+                default:
+                    break;
+            }
+        }
+        function_ = at;
+    }
+
+    void readFunction() {
+        std::uint32_t at = function_;
+        if (at >= words_.size()) throw std::logic_error("the module has no function");
+        at += words_[at] >> 16;
+        for (; at < words_.size() && op(at) != OpFunctionEnd; at += words_[at] >> 16) {
+            const auto in = instruction(at);
+            if (op(at) == OpLabel) {
+                ids_[in[1]].block = static_cast<std::uint32_t>(blocks_.size());
+                blocks_.emplace_back();
+                blocks_.back().label = in[1];
+                blocks_.back().first = static_cast<std::uint32_t>(at_.size());
+                continue;
+            }
+            if (blocks_.empty()) throw std::logic_error("the function has parameters");
+            Block& block = blocks_.back();
+            block.last = static_cast<std::uint32_t>(at_.size());
+            at_.push_back(at);
+            if (op(at) == OpLoopMerge || op(at) == OpSelectionMerge) block.merge = in[1];
+            if (op(at) == OpLoopMerge) block.loop_continue = in[2];
+            if (isTerminator(op(at)) || !hasResult(in)) continue;
+            ids_[in[2]].at = at;
+            ids_[in[2]].type = in[1];
+        }
+        if (at >= words_.size()) throw std::logic_error("the function has no end");
+        end_ = at + (words_[at] >> 16);
+        if (end_ != words_.size()) throw std::logic_error("the module has several functions");
+        for (Block& block : blocks_) {
+            const auto in = instruction(at_[block.last]);
+            const auto to = [&](std::uint32_t label) {
+                const std::uint32_t target = ids_[label].block;
+                if (std::ranges::find(block.targets, target) == block.targets.end())
+                    block.targets.push_back(target);
+            };
+            if (op(at_[block.last]) == OpBranch) to(in[1]);
+            if (op(at_[block.last]) == OpBranchConditional) to(in[2]), to(in[3]);
+            if (op(at_[block.last]) == OpSwitch) {
+                to(in[2]);
+                for (std::size_t i = 4; i < in.size(); i += 2) to(in[i]);
+            }
+        }
+    }
+
+    static bool isTerminator(std::uint32_t op) {
+        return (op >= OpBranch && op <= OpUnreachable) || op == OpTerminateInvocation;
+    }
+    // Of what stands in functions, instructions without a result: stores and copies of memory (62 to 64),
+    // image writes (99), barriers (224, 225), atomic stores (228), merges, and demoting (5380).
+    static bool hasResult(std::span<const std::uint32_t> in) {
+        const std::uint32_t op = in[0] & 0xffff;
+        return in.size() > 2 && !(op >= 62 && op <= 64) && op != 99 && op != 224 && op != 225 && op != 228 &&
+               op != OpLoopMerge && op != OpSelectionMerge && op != 5380;
+    }
+
+    void know(std::uint32_t type, std::uint32_t id, std::uint32_t bits) {
+        ids_[id].type = type;
+        ids_[id].known = true;
+        bits_[id] = bits;
+    }
+    std::optional<std::uint32_t> known(std::uint32_t id) const {
+        if (!ids_[id].known) return std::nullopt;
+        return bits_[id];
+    }
+
+    // What an operation of integers or bools gives, where its operands say it. A division by zero, and a
+    // shift by more than there are bits, are undefined: they are left to the device.
+    std::optional<std::uint32_t> fold(std::uint32_t operation, std::uint32_t type,
+                                      std::span<const std::uint32_t> operands) const {
+        if (type >= bound_ || !ids_[type].scalar || operands.empty()) return std::nullopt;
+        const auto a = known(operands[0]);
+        const auto b = operands.size() > 1 ? known(operands[1]) : std::nullopt;
+        switch (operation) {
+            case OpLogicalAnd:
+                if ((a && *a == 0) || (b && *b == 0)) return 0;
+                break;
+            case OpLogicalOr:
+                if ((a && *a != 0) || (b && *b != 0)) return 1;
+                break;
+            case OpBitwiseAnd:
+            case OpIMul:
+                if ((a && *a == 0) || (b && *b == 0)) return 0;
+                break;
+            case OpULessThan:
+                if (b && *b == 0) return 0;
+                break;
+            case OpUGreaterThan:
+                if (a && *a == 0) return 0;
+                break;
+            case OpUGreaterThanEqual:
+                if (b && *b == 0) return 1;
+                break;
+            case OpULessThanEqual:
+                if (a && *a == 0) return 1;
+                break;
+            case OpSelect:
+                return a ? known(operands[*a != 0 ? 1 : 2]) : std::nullopt;
+            default:
+                break;
+        }
+        if (!a) return std::nullopt;
+        switch (operation) {
+            case OpLogicalNot:
+                return *a == 0;
+            case OpNot:
+                return ~*a;
+            case OpBitCount:
+                return static_cast<std::uint32_t>(std::popcount(*a));
+            case OpBitcast:
+                return ids_[ids_[operands[0]].type].boolean ? std::nullopt : a;
+            case OpCopyObject:
+                return a;
+            default:
+                break;
+        }
+        if (!b || operands.size() != 2) return std::nullopt;
+        const auto signedA = static_cast<std::int32_t>(*a), signedB = static_cast<std::int32_t>(*b);
+        switch (operation) {
+            case OpIAdd:
+                return *a + *b;
+            case OpISub:
+                return *a - *b;
+            case OpIMul:
+                return *a * *b;
+            case OpUDiv:
+                return *b == 0 ? std::nullopt : std::optional(*a / *b);
+            case OpUMod:
+                return *b == 0 ? std::nullopt : std::optional(*a % *b);
+            case OpShiftRightLogical:
+                return *b > 31 ? std::nullopt : std::optional(*a >> *b);
+            case OpShiftLeftLogical:
+                return *b > 31 ? std::nullopt : std::optional(*a << *b);
+            case OpBitwiseOr:
+                return *a | *b;
+            case OpBitwiseXor:
+                return *a ^ *b;
+            case OpBitwiseAnd:
+                return *a & *b;
+            case OpLogicalAnd:
+                return *a != 0 && *b != 0;
+            case OpLogicalOr:
+                return *a != 0 || *b != 0;
+            case OpLogicalEqual:
+            case OpIEqual:
+                return *a == *b;
+            case OpLogicalNotEqual:
+            case OpINotEqual:
+                return *a != *b;
+            case OpULessThan:
+                return *a < *b;
+            case OpULessThanEqual:
+                return *a <= *b;
+            case OpUGreaterThan:
+                return *a > *b;
+            case OpUGreaterThanEqual:
+                return *a >= *b;
+            case OpSLessThan:
+                return signedA < signedB;
+            case OpSLessThanEqual:
+                return signedA <= signedB;
+            case OpSGreaterThan:
+                return signedA > signedB;
+            case OpSGreaterThanEqual:
+                return signedA >= signedB;
+            default:
+                return std::nullopt;
+        }
+    }
+
+    // Each block after all that lead to it, but for the ends of loops.
+    std::vector<std::uint32_t> order() const {
+        std::vector<std::uint32_t> blocks;
+        std::vector<char> seen(blocks_.size());
+        std::vector<std::pair<std::uint32_t, std::size_t>> stack{{0, 0}};
+        seen[0] = 1;
+        while (!stack.empty()) {
+            auto& [block, next] = stack.back();
+            if (next == blocks_[block].targets.size()) {
+                blocks.push_back(block);
+                stack.pop_back();
+                continue;
+            }
+            const std::uint32_t target = blocks_[block].targets[next++];
+            if (seen[target] != 0) continue;
+            seen[target] = 1;
+            stack.emplace_back(target, 0);
+        }
+        std::ranges::reverse(blocks);
+        return blocks;
+    }
+
+    bool goesTo(std::uint32_t from, std::uint32_t to) const {
+        return blocks_[from].alive && std::ranges::find(blocks_[from].taken, to) != blocks_[from].taken.end();
+    }
+
+    void propagate() {
+        order_ = order();
+        std::vector<std::uint32_t> place(blocks_.size(), none);
+        for (std::uint32_t i = 0; i < order_.size(); ++i) place[order_[i]] = i;
+        blocks_[0].alive = true;
+        for (const std::uint32_t number : order_) {
+            Block& block = blocks_[number];
+            if (!block.alive) continue;
+            for (std::uint32_t i = block.first; i < block.last; ++i) evaluate(number, at_[i]);
+            const bool ends_loop = std::ranges::any_of(
+                block.targets, [&](std::uint32_t target) { return place[target] <= place[number]; });
+            const auto in = instruction(at_[block.last]);
+            block.taken = block.targets;
+            if (op(at_[block.last]) == OpBranchConditional && !ends_loop) {
+                if (const auto condition = known(in[1]))
+                    block.taken = {ids_[in[*condition != 0 ? 2 : 3]].block};
+            } else if (op(at_[block.last]) == OpSwitch && !ends_loop) {
+                if (const auto selector = known(in[1])) {
+                    std::uint32_t label = in[2];
+                    for (std::size_t k = 3; k + 1 < in.size(); k += 2)
+                        if (in[k] == *selector) label = in[k + 1];
+                    block.taken = {ids_[label].block};
+                }
+            }
+            for (const std::uint32_t target : block.taken) blocks_[target].alive = true;
+        }
+    }
+
+    void evaluate(std::uint32_t number, std::uint32_t at) {
+        const auto in = instruction(at);
+        if (!hasResult(in)) return;
+        Id& id = ids_[in[2]];
+        if (op(at) == OpPhi) {
+            if (blocks_[number].loop_continue != 0 || !ids_[in[1]].scalar) return;
+            std::optional<std::uint32_t> all;
+            for (std::size_t i = 3; i < in.size(); i += 2) {
+                if (!goesTo(ids_[in[i + 1]].block, number)) continue;
+                const auto one = known(in[i]);
+                if (!one || (all && *all != *one)) return;
+                all = one;
+            }
+            if (all) know(in[1], in[2], *all);
+            return;
+        }
+        if (const auto folded = fold(op(at), in[1], in.subspan(3))) {
+            know(in[1], in[2], *folded);
+        } else if (op(at) == OpSelect && known(in[3])) {
+            id.copied = in[*known(in[3]) != 0 ? 4 : 5];
+        } else if (op(at) == OpLogicalAnd || op(at) == OpLogicalOr) {
+            // The operand that is known does not decide, or this were known.
+            if (known(in[3])) id.copied = in[4];
+            if (known(in[4])) id.copied = in[3];
+        }
+    }
+
+    // What living constructs name must be there, though nothing goes there; and a branch that left a
+    // construct that is none any more names the place as its own merge.
+    void keepStructure() {
+        std::vector<char> declared(bound_), dropped(bound_);
+        for (const std::uint32_t number : order_) {
+            Block& block = blocks_[number];
+            if (!block.alive || block.merge == 0) continue;
+            const bool loops = block.loop_continue != 0;
+            block.declares_merge = loops || op(at_[block.last]) == OpSwitch || block.taken.size() > 1;
+            if (!block.declares_merge) {
+                dropped[block.merge] = 1;
+                continue;
+            }
+            declared[block.merge] = 1;
+            Block& merge = blocks_[ids_[block.merge].block];
+            merge.stub |= !merge.alive;
+            if (!loops) continue;
+            declared[block.loop_continue] = 1;
+            Block& next = blocks_[ids_[block.loop_continue].block];
+            if (next.alive) continue;
+            next.stub = true;
+            next.stub_to = number;
+            block.stub_from = next.label;
+        }
+        for (const std::uint32_t number : order_) {
+            Block& block = blocks_[number];
+            if (!block.alive || block.declares_merge || block.taken.size() < 2) continue;
+            const auto label = [&](std::uint32_t target) { return blocks_[target].label; };
+            if (std::ranges::any_of(block.taken, [&](std::uint32_t to) { return declared[label(to)] != 0; }))
+                continue;
+            const auto left =
+                std::ranges::find_if(block.taken, [&](std::uint32_t to) { return dropped[label(to)] != 0; });
+            if (left == block.taken.end()) throw std::logic_error("a branch leaves no construct");
+            block.merge = label(*left);
+            block.declares_merge = true;
+            declared[block.merge] = 1;
+        }
+    }
+
+    void mark() {
+        for (const Block& block : blocks_) {
+            if (!block.alive) continue;
+            for (std::uint32_t i = block.first; i < block.last; ++i) {
+                const auto in = instruction(at_[i]);
+                const std::uint32_t operation = op(at_[i]);
+                if (operation == OpSelectionMerge || operation == OpLoopMerge) continue;
+                if (!hasResult(in)) {
+                    for (const std::uint32_t word : in.subspan(1)) need(word);
+                } else if (!isPure(in)) {
+                    need(in[2]);
+                }
+            }
+            const auto in = instruction(at_[block.last]);
+            const std::uint32_t end = op(at_[block.last]);
+            if (end == OpSwitch || (end == OpBranchConditional && block.taken.size() > 1)) need(in[1]);
+        }
+        while (!pending_.empty()) {
+            const std::uint32_t id = pending_.back();
+            pending_.pop_back();
+            if (ids_[id].copied != 0) {
+                need(ids_[id].copied);
+                continue;
+            }
+            const auto in = instruction(ids_[id].at);
+            if (op(ids_[id].at) != OpPhi) {
+                for (const std::uint32_t word : in.subspan(3)) need(word);
+                continue;
+            }
+            for (std::size_t i = 3; i < in.size(); i += 2)
+                if (blocks_[ids_[in[i + 1]].block].alive) need(in[i]);
+        }
+    }
+
+    // A word that may be an id, or a number that looks like one: then something is kept that need not be.
+    void need(std::uint32_t word) {
+        if (word >= bound_ || ids_[word].marked || ids_[word].at == 0) return;
+        ids_[word].marked = true;
+        if (ids_[word].known)
+            constants_.push_back(word);
+        else
+            pending_.push_back(word);
+    }
+
+    void put(std::span<const std::uint32_t> in) { out_.insert(out_.end(), in.begin(), in.end()); }
+    void put(std::uint32_t operation, std::initializer_list<std::uint32_t> words) {
+        out_.push_back(static_cast<std::uint32_t>(words.size() + 1) << 16 | operation);
+        out_.insert(out_.end(), words);
+    }
+    void putConstant(std::uint32_t id) {
+        const std::uint32_t type = ids_[id].type;
+        if (ids_[type].boolean)
+            put(bits_[id] != 0 ? OpConstantTrue : OpConstantFalse, {type, id});
+        else
+            put(OpConstant, {type, id, bits_[id]});
+    }
+
+    std::vector<std::uint32_t> written() {
+        out_.reserve(words_.size());
+        put(words_.first(5));
+        for (std::uint32_t at = 5; at < function_; at += words_[at] >> 16) putGlobal(at);
+        for (const std::uint32_t id : constants_) putConstant(id);
+        putUndefined();
+        put(instruction(function_));
+        for (std::uint32_t number = 0; number < blocks_.size(); ++number) putBlock(number);
+        put(OpFunctionEnd, {});
+        out_[3] = bound_;
+        return std::move(out_);
+    }
+
+    void putGlobal(std::uint32_t at) {
+        const auto in = instruction(at);
+        switch (op(at)) {
+            case OpName:
+            case OpDecorate: {
+                // Of what is made in the function only where it is still made there.
+                const Id& id = ids_[in[1]];
+                if (id.at != 0 && (!id.marked || id.known || id.copied != 0)) return;
+                if (id.block != none && !blocks_[id.block].alive && !blocks_[id.block].stub) return;
+                if (op(at) == OpDecorate && in[2] == decorationSpecId) return;
+                break;
+            }
+            case OpSpecConstantTrue:
+            case OpSpecConstantFalse:
+            case OpSpecConstant:
+                putConstant(in[2]);
+                return;
+            case OpSpecConstantOp:
+                if (!ids_[in[2]].known) break;
+                putConstant(in[2]);
+                return;
+            case OpSpecConstantComposite:
+                out_.push_back((in[0] & 0xffff0000u) | OpConstantComposite);
+                put(in.subspan(1));
+                return;
+            default:
+                break;
+        }
+        put(in);
+    }
+
+    // For a loop that never goes round, the values with which it would.
+    void putUndefined() {
+        for (const Block& block : blocks_) {
+            if (!block.alive || block.stub_from == 0) continue;
+            for (std::uint32_t i = block.first; i < block.last && op(at_[i]) == OpPhi; ++i) {
+                const auto in = instruction(at_[i]);
+                if (!ids_[in[2]].marked) continue;
+                undefined_.push_back({in[2], bound_});
+                put(OpUndef, {in[1], bound_++});
+            }
+        }
+    }
+
+    void putBlock(std::uint32_t number) {
+        const Block& block = blocks_[number];
+        if (!block.alive && !block.stub) return;
+        put(OpLabel, {block.label});
+        if (!block.alive) {
+            if (block.stub_to == none)
+                put(OpUnreachable, {});
+            else
+                put(OpBranch, {blocks_[block.stub_to].label});
+            return;
+        }
+        for (std::uint32_t i = block.first; i < block.last; ++i) putInstruction(number, at_[i]);
+        const auto in = instruction(at_[block.last]);
+        if (block.declares_merge) {
+            if (block.loop_continue != 0)
+                put(instruction(at_[block.last - 1]));
+            else
+                put(OpSelectionMerge, {block.merge, 0});
+        }
+        const bool one = block.taken.size() == 1;
+        if (one && op(at_[block.last]) == OpSwitch)
+            put(OpSwitch, {in[1], blocks_[block.taken[0]].label});
+        else if (one)
+            put(OpBranch, {blocks_[block.taken[0]].label});
+        else
+            put(in);
+    }
+
+    void putInstruction(std::uint32_t number, std::uint32_t at) {
+        const auto in = instruction(at);
+        const std::uint32_t operation = op(at);
+        if (operation == OpSelectionMerge || operation == OpLoopMerge) return;
+        if (!hasResult(in)) return put(in);
+        const Id& id = ids_[in[2]];
+        if (!id.marked || id.known) return;
+        if (id.copied != 0) return put(OpCopyObject, {in[1], in[2], id.copied});
+        if (operation != OpPhi) return put(in);
+        const std::size_t start = out_.size();
+        out_.insert(out_.end(), {0, in[1], in[2]});
+        for (std::size_t i = 3; i < in.size(); i += 2)
+            if (goesTo(ids_[in[i + 1]].block, number)) out_.insert(out_.end(), {in[i], in[i + 1]});
+        if (blocks_[number].stub_from != 0)
+            for (const auto& [phi, undefined] : undefined_)
+                if (phi == in[2]) out_.insert(out_.end(), {undefined, blocks_[number].stub_from});
+        out_[start] = static_cast<std::uint32_t>(out_.size() - start) << 16 | OpPhi;
+    }
+
+    std::span<const std::uint32_t> words_;
+    const SpecializationValue& value_;
+    std::uint32_t bound_ = 0, function_ = 0, end_ = 0;
+    std::vector<Id> ids_;
+    std::vector<std::uint32_t> bits_;  // of known ids
+    std::vector<std::uint32_t> at_;    // the function's instructions
+    std::vector<Block> blocks_;
+    std::vector<std::uint32_t> order_;  // blocks
+    std::vector<std::uint32_t> pending_, constants_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> undefined_;  // of such a loop's phi
+    std::vector<std::uint32_t> out_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
+                                       const SpecializationValue& value) {
+    return Specializer(module, value).result();
+}
+
+}  // namespace diptych

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+// Specialised modules against SPIRV-Tools, which nobody here wrote: its validator takes them, and its
+// optimiser, which does the same more slowly, makes of them what it makes of the module with the same values.
+#include "shared/vulkan/specialize.h"
+
+#include "shared/contract/features.h"
+#include "shared/vulkan/spirv.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <spirv-tools/libspirv.hpp>
+#include <spirv-tools/optimizer.hpp>
+
+#include <cstdint>
+#include <map>
+#include <random>
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+using SpirvWords = std::vector<std::uint32_t>;
+using FeatureValues = std::vector<std::uint32_t>;  // by number
+
+constexpr spv_target_env spirvEnvironment = SPV_ENV_VULKAN_1_3;
+
+SpirvWords specializedBy(std::span<const std::uint32_t> module, const FeatureValues& values) {
+    return specialized(module, [&](std::uint32_t id) { return values.at(id); });
+}
+
+// What the validator says against it; nothing of a valid one.
+std::string complaint(const SpirvWords& words) {
+    spvtools::SpirvTools tools(spirvEnvironment);
+    std::string said;
+    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                 const char* message) { said += std::string(message) + "\n"; });
+    spvtools::ValidatorOptions options;
+    options.SetScalarBlockLayout(true);
+    if (!tools.Validate(words.data(), words.size(), options) && said.empty()) said = "not valid";
+    return said;
+}
+
+// How many of each instruction SPIRV-Tools leaves in a module's function with these values, but for those
+// that say only where to go.
+std::map<std::string, int> optimisedInstructions(std::span<const std::uint32_t> module,
+                                                 const FeatureValues& values) {
+    spvtools::Optimizer optimizer(spirvEnvironment);
+    std::unordered_map<std::uint32_t, SpirvWords> given;
+    for (std::uint32_t id = 0; id < values.size(); ++id) given[id] = {values[id]};
+    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(given));
+    // Several rounds: one finds more dead after another has.
+    const std::vector<std::string> begin{"--strip-debug", "--freeze-spec-const",
+                                         "--fold-spec-const-op-composite"};
+    const std::vector<std::string> round{
+        "--ccp",        "--simplify-instructions",         "--eliminate-dead-branches", "--merge-blocks",
+        "--vector-dce", "--eliminate-dead-code-aggressive"};
+    EXPECT_TRUE(optimizer.RegisterPassesFromFlags(begin));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(optimizer.RegisterPassesFromFlags(round));
+    SpirvWords small;
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);  // it knows no scalar layout of blocks
+    EXPECT_TRUE(optimizer.Run(module.data(), module.size(), &small, options));
+    std::map<std::string, int> instructions;
+    bool inside = false;
+    for (std::size_t at = 5; at < small.size(); at += small[at] >> 16) {
+        const std::uint32_t op = small[at] & 0xffff;
+        inside |= op == 54;                        // OpFunction
+        const bool goes = op >= 245 && op <= 255;  // OpPhi to OpUnreachable
+        // The optimiser keeps every OpCopyLogical and what leads to it: OpLoad, OpAccessChain, OpBitcast of
+        // an address. OpCopyObject computes nothing.
+        const bool copies = op == 400 || op == 61 || op == 65 || op == 124 || op == 83;
+        if (!inside || goes || copies) continue;
+        const std::uint32_t extended = op == 12 ? small[at + 4] : 0;  // OpExtInst
+        ++instructions[fmt::format("{}.{}", op, extended)];
+    }
+    return instructions;
+}
+
+// Values as a scene may ask for, most of them off, and others that no scene would.
+FeatureValues featureValues(std::uint32_t seed) {
+    FeatureValues values(gpu::FEATURE_COUNT);
+    if (seed == 0) return values;
+    std::mt19937 random(seed);
+    for (std::uint32_t& value : values)
+        if (random() % 3 == 0) value = static_cast<std::uint32_t>(random() % (seed % 2 == 0 ? 2 : 9));
+    return values;
+}
+
+SpirvWords assembled(const std::string& text) {
+    spvtools::SpirvTools tools(spirvEnvironment);
+    SpirvWords words;
+    EXPECT_TRUE(tools.Assemble(text, &words, SPV_TEXT_TO_BINARY_OPTION_PRESERVE_NUMERIC_IDS));
+    return words;
+}
+std::string disassembled(const SpirvWords& words) {
+    spvtools::SpirvTools tools(spirvEnvironment);
+    std::string text;
+    EXPECT_TRUE(tools.Disassemble(words, &text, SPV_BINARY_TO_TEXT_OPTION_NO_HEADER));
+    return text;
+}
+
+// A fragment shader with constants 0 and 1 by number, %number and %flag, the input %x and the output %out.
+SpirvWords fragmentShader(const std::string& body) {
+    return assembled(R"(OpCapability Shader
+%ext = OpExtInstImport "GLSL.std.450"
+OpMemoryModel Logical GLSL450
+OpEntryPoint Fragment %main "main" %in %out
+OpExecutionMode %main OriginUpperLeft
+OpDecorate %in Location 0
+OpDecorate %out Location 0
+OpDecorate %number SpecId 0
+OpDecorate %flag SpecId 1
+OpDecorate %y NoContraction
+%void = OpTypeVoid
+%function = OpTypeFunction %void
+%bool = OpTypeBool
+%uint = OpTypeInt 32 0
+%float = OpTypeFloat 32
+%pin = OpTypePointer Input %float
+%pout = OpTypePointer Output %float
+%number = OpSpecConstant %uint 5
+%flag = OpSpecConstantFalse %bool
+%0u = OpConstant %uint 0
+%1u = OpConstant %uint 1
+%one = OpConstant %float 1
+%in = OpVariable %pin Input
+%out = OpVariable %pout Output
+%main = OpFunction %void None %function
+%entry = OpLabel
+%x = OpLoad %float %in
+%y = OpFMul %float %x %x
+%is0 = OpIEqual %bool %number %0u
+)" + body + "OpFunctionEnd\n");
+}
+std::string specializedText(const SpirvWords& words, std::uint32_t number, std::uint32_t flag) {
+    const SpirvWords result = specializedBy(words, {number, flag});
+    EXPECT_EQ(complaint(words), "");
+    EXPECT_EQ(complaint(result), "") << disassembled(result);
+    return disassembled(result);
+}
+std::size_t countOf(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++found;
+    return found;
+}
+
+// The unit's modules by entry point: one of each shader's variants, the one with most code.
+std::vector<const ShaderModule*> largestModules() {
+    std::map<Shader, const ShaderModule*> largest;
+    for (const ShaderModule& module : shaderModules()) {
+        const ShaderModule*& one = largest[module.shader];
+        if (one == nullptr || module.words.size() > one->words.size()) one = &module;
+    }
+    std::vector<const ShaderModule*> modules;
+    for (const auto& [shader, module] : largest) modules.push_back(module);
+    return modules;
+}
+
+TEST(Specialize, EveryModuleStaysValid) {
+    for (const ShaderModule& module : shaderModules())
+        for (const std::uint32_t seed : {0u, 1u, 2u})
+            EXPECT_EQ(complaint(specializedBy(module.words, featureValues(seed))), "")
+                << module.name << ", seed " << seed;
+}
+
+TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
+    for (const ShaderModule* module : largestModules())
+        for (const std::uint32_t seed : {0u, 1u, 2u, 3u}) {
+            const FeatureValues values = featureValues(seed);
+            const auto theirs = optimisedInstructions(module->words, values);
+            EXPECT_EQ(theirs, optimisedInstructions(specializedBy(module->words, values), values))
+                << module->name << ", seed " << seed;
+        }
+}
+
+TEST(Specialize, TakesOneSideOfABranch) {
+    const SpirvWords words = fragmentShader(R"(
+OpSelectionMerge %after None
+OpBranchConditional %is0 %then %else
+%then = OpLabel
+%sum = OpFAdd %float %y %one
+OpBranch %after
+%else = OpLabel
+%root = OpExtInst %float %ext Sqrt %x
+OpBranch %after
+%after = OpLabel
+%both = OpPhi %float %sum %then %root %else
+OpStore %out %both
+OpReturn
+)");
+    const std::string with0 = specializedText(words, 0, 0), with1 = specializedText(words, 1, 0);
+    EXPECT_EQ(countOf(with0, "OpFAdd"), 1u);
+    EXPECT_EQ(countOf(with0, "Sqrt"), 0u);
+    EXPECT_EQ(countOf(with0, "NoContraction"), 1u);
+    EXPECT_EQ(countOf(with1, "OpFAdd"), 0u);
+    EXPECT_EQ(countOf(with1, "OpFMul"), 0u) << "what nothing reads any more is still made";
+    EXPECT_EQ(countOf(with1, "NoContraction"), 0u);
+    EXPECT_EQ(countOf(with1, "Sqrt"), 1u);
+    for (const std::string& text : {with0, with1}) {
+        EXPECT_EQ(countOf(text, "OpBranchConditional"), 0u);
+        EXPECT_EQ(countOf(text, "SpecId"), 0u);
+        EXPECT_EQ(countOf(text, "OpSpecConstant"), 0u);
+    }
+}
+
+// A loop that ends in its first round has a place where it would go on; a loop of no round has no body.
+TEST(Specialize, ALoopThatDoesNotGoRoundIsStillOne) {
+    const SpirvWords words = fragmentShader(R"(
+OpBranch %loop
+%loop = OpLabel
+%i = OpPhi %uint %0u %entry %next %again
+%sum = OpPhi %float %x %entry %more %again
+OpLoopMerge %after %again None
+OpBranch %test
+%test = OpLabel
+%goes = OpULessThan %bool %i %number
+OpBranchConditional %goes %body %after
+%body = OpLabel
+%more = OpFAdd %float %sum %y
+OpSelectionMerge %on None
+OpBranchConditional %flag %leave %on
+%leave = OpLabel
+OpBranch %after
+%on = OpLabel
+OpBranch %again
+%again = OpLabel
+%next = OpIAdd %uint %i %1u
+OpBranch %loop
+%after = OpLabel
+%end = OpPhi %float %sum %test %more %leave
+OpStore %out %end
+OpReturn
+)");
+    EXPECT_EQ(countOf(specializedText(words, 3, 0), "OpFAdd"), 1u);
+    const std::string once = specializedText(words, 3, 1), never = specializedText(words, 0, 0);
+    EXPECT_EQ(countOf(once, "OpFAdd"), 1u);
+    EXPECT_EQ(countOf(once, "OpIAdd"), 0u);
+    EXPECT_EQ(countOf(once, "OpUndef"), 2u);
+    EXPECT_EQ(countOf(never, "OpFAdd"), 0u);
+    EXPECT_EQ(countOf(never, "OpULessThan"), 0u);
+}
+
+// A branch out of a construct that is decided becomes one of its own.
+TEST(Specialize, ABranchOutOfWhatIsDecidedHasItsOwnMerge) {
+    const SpirvWords words = fragmentShader(R"(
+%small = OpFOrdLessThan %bool %x %one
+OpSelectionMerge %after None
+OpBranchConditional %is0 %then %after
+%then = OpLabel
+OpBranchConditional %small %more %after
+%more = OpLabel
+OpStore %out %y
+OpBranch %after
+%after = OpLabel
+OpReturn
+)");
+    const std::string with0 = specializedText(words, 0, 0), with1 = specializedText(words, 1, 0);
+    EXPECT_EQ(countOf(with0, "OpSelectionMerge"), 1u);
+    EXPECT_EQ(countOf(with0, "OpStore"), 1u);
+    EXPECT_EQ(countOf(with1, "OpStore"), 0u);
+}
+
+// A switch is left as one, since branches out of it need it, with the one case.
+TEST(Specialize, ASwitchKeepsItsCase) {
+    const SpirvWords words = fragmentShader(R"(
+OpSelectionMerge %after None
+OpSwitch %number %other 1 %first 7 %second
+%first = OpLabel
+OpStore %out %x
+OpBranch %after
+%second = OpLabel
+OpStore %out %y
+OpBranch %after
+%other = OpLabel
+OpBranch %after
+%after = OpLabel
+%flagged = OpSelect %float %flag %one %y
+OpStore %out %flagged
+OpReturn
+)");
+    EXPECT_EQ(countOf(specializedText(words, 1, 0), "OpStore"), 2u);
+    EXPECT_EQ(countOf(specializedText(words, 7, 0), "OpFMul"), 1u);
+    const std::string other = specializedText(words, 3, 1);
+    EXPECT_EQ(countOf(other, "OpStore"), 1u);
+    EXPECT_EQ(countOf(other, "OpFMul"), 0u) << "what a known condition does not select is still made";
+    EXPECT_EQ(countOf(other, "OpSwitch"), 1u);
+}
+
+TEST(Specialize, WhatIsNoSuchModuleIsRefused) {
+    EXPECT_THROW(specializedBy(std::vector<std::uint32_t>{1, 2, 3}, {}), std::logic_error);
+    SpirvWords none = fragmentShader("OpReturn\n");
+    const SpirvWords two = assembled(R"(OpCapability Shader
+OpMemoryModel Logical GLSL450
+OpEntryPoint GLCompute %main "main"
+OpExecutionMode %main LocalSize 1 1 1
+%void = OpTypeVoid
+%function = OpTypeFunction %void
+%main = OpFunction %void None %function
+%a = OpLabel
+OpReturn
+OpFunctionEnd
+%other = OpFunction %void None %function
+%b = OpLabel
+OpReturn
+OpFunctionEnd
+)");
+    EXPECT_THROW(specializedBy(two, {}), std::logic_error);
+    none.resize(none.size() - 1);  // without its end
+    EXPECT_THROW(specializedBy(none, {0, 0}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace diptych
