@@ -264,6 +264,49 @@ OpReturn
     EXPECT_EQ(countOf(with1, "OpStore"), 0u);
 }
 
+// The end of a construct is there though nothing reaches it.
+TEST(Specialize, AConstructKeepsItsEnd) {
+    const SpirvWords words = fragmentShader(R"(
+%small = OpFOrdLessThan %bool %x %one
+OpSelectionMerge %after None
+OpBranchConditional %small %a %b
+%a = OpLabel
+OpReturn
+%b = OpLabel
+OpSelectionMerge %c None
+OpBranchConditional %flag %d %c
+%d = OpLabel
+OpReturn
+%c = OpLabel
+OpBranch %after
+%after = OpLabel
+OpStore %out %y
+OpReturn
+)");
+    EXPECT_EQ(countOf(specializedText(words, 0, 0), "OpStore"), 1u);
+    const std::string never = specializedText(words, 0, 1);
+    EXPECT_EQ(countOf(never, "OpStore"), 0u);
+    EXPECT_EQ(countOf(never, "OpUnreachable"), 1u);
+}
+
+// What several sides give is what those give that are left, and decides what hangs on it.
+TEST(Specialize, WhatIsLeftOfSeveralSidesDecides) {
+    const SpirvWords words = fragmentShader(R"(
+OpSelectionMerge %after None
+OpBranchConditional %is0 %then %after
+%then = OpLabel
+OpBranch %after
+%after = OpLabel
+%which = OpPhi %bool %flag %then %is0 %entry
+%factor = OpSelect %float %which %y %one
+OpStore %out %factor
+OpReturn
+)");
+    EXPECT_EQ(countOf(specializedText(words, 0, 1), "OpFMul"), 1u);
+    EXPECT_EQ(countOf(specializedText(words, 0, 0), "OpFMul"), 0u);
+    EXPECT_EQ(countOf(specializedText(words, 1, 1), "OpFMul"), 0u);
+}
+
 // A switch is left as one, since branches out of it need it, with the one case.
 TEST(Specialize, ASwitchKeepsItsCase) {
     const SpirvWords words = fragmentShader(R"(
