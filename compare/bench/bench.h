@@ -28,6 +28,7 @@ struct BenchRow {
     FrameCounters counters;
     std::vector<std::string> notes;  // what a reader must know about this frame
     ModeParts parts = {};
+    std::optional<GrowthPoint> growth = {};
 };
 
 // The names of passes that make light lists begin with this.
@@ -50,8 +51,10 @@ struct Bench {
 // Measures the rows of one group: first a frame each to warm up, which also finds rows that take over
 // options.max_ms; then `runs` rounds of one frame each; then as many profiled rounds, at least three. Rows
 // left out go into bench.skips; earlier rows of `bench` predict which need not be tried.
+// A group of --table growth whose axis had too much for every path already is not even read.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
+bool isHopeless(const Bench& bench, const BenchGroup& group);
 
 // The notes that every row has; they are shown once instead of for each row.
 std::vector<std::string> commonNotes(const Bench& bench);

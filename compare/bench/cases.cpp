@@ -6,9 +6,11 @@
 #include "compare/render/sample_counts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -121,7 +123,82 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
 BenchTable benchTableOf(const std::string& word) {
     if (word == "modes") return BenchTable::modes;
     if (word == "msaa") return BenchTable::msaa;
-    throw std::runtime_error(fmt::format("--table {}: takes modes or msaa", word));
+    if (word == "growth") return BenchTable::growth;
+    throw std::runtime_error(fmt::format("--table {}: takes modes, msaa or growth", word));
+}
+
+namespace {
+
+// What a step of an axis draws: a scene, at --size unless it is the size that grows. All but the lights' are
+// of builtin:array, whose objects fill the view at any number.
+struct GrowthRow {
+    GrowthAxis axis;
+    std::string_view name;
+    std::vector<double> values;
+    std::string (*scene)(std::uint64_t value);
+};
+const GrowthRow growthRows[] = {
+    {GrowthAxis::triangles,
+     "triangles",
+     {1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7},
+     [](std::uint64_t n) { return fmt::format("builtin:array?meshes=100&triangles={}", n); }},
+    {GrowthAxis::draws,
+     "draws",
+     {10, 100, 1000, 1e4, 1e5},
+     [](std::uint64_t n) {
+         return fmt::format("builtin:array?objects={0}&materials={0}&triangles={1}", n, 2 * n);
+     }},
+    {GrowthAxis::instances,
+     "instances",
+     {10, 100, 1000, 1e4, 1e5, 1e6},
+     [](std::uint64_t n) {
+         return fmt::format("builtin:array?objects={}&materials=1&triangles={}", n, 2 * n);
+     }},
+    {GrowthAxis::textures,
+     "textures",
+     {4, 16, 64, 256, 1024, 4096},
+     [](std::uint64_t n) {
+         return fmt::format("builtin:array?objects={}&texture_mib={}", std::max<std::uint64_t>(n / 4, 1), n);
+     }},
+    {GrowthAxis::lights,
+     "lights",
+     {16, 64, 256, 1024, 4096, 16384, 65536},
+     [](std::uint64_t n) { return fmt::format("builtin:spheres?lights={}", n); }},
+    {GrowthAxis::pixels,
+     "pixels",
+     {320 * 180, 640 * 360, 1280 * 720, 2560 * 1440, 5312 * 2988},
+     [](std::uint64_t) { return std::string("builtin:array"); }},
+};
+
+// 16:9.
+Size sizeOfPixels(double pixels) {
+    const int height = static_cast<int>(std::lround(std::sqrt(pixels * 9 / 16)));
+    return {static_cast<int>(std::lround(pixels / height)), height};
+}
+
+const GrowthRow& growthRow(GrowthAxis axis) {
+    return *std::ranges::find(growthRows, axis, &GrowthRow::axis);
+}
+
+}  // namespace
+
+std::string_view nameOf(GrowthAxis axis) {
+    return growthRow(axis).name;
+}
+
+std::vector<GrowthAxis> growthAxes(const std::string& words) {
+    std::vector<GrowthAxis> axes;
+    for (const std::string& word : wordsOf(words, "--axes")) {
+        const auto row = std::ranges::find(growthRows, word, &GrowthRow::name);
+        if (row == std::end(growthRows)) {
+            std::vector<std::string_view> names;
+            for (const GrowthRow& one : growthRows) names.push_back(one.name);
+            throw std::runtime_error(
+                fmt::format("--axes {}: takes {}, separated by commas", word, fmt::join(names, ", ")));
+        }
+        if (std::ranges::find(axes, row->axis) == axes.end()) axes.push_back(row->axis);
+    }
+    return axes;
 }
 
 namespace {
@@ -158,7 +235,42 @@ std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& op
 
 }  // namespace
 
+namespace {
+
+BenchCases growthCases(const Settings& given, const BenchOptions& options) {
+    if (options.assign.size() > 1)
+        throw std::runtime_error("--table growth: is of one --assign; run it once for each");
+    if (!options.light_counts.empty() || !options.sizes.empty() || !options.transparencies.empty())
+        throw std::runtime_error(
+            "--table growth: takes no --light-counts, --sizes or --transparencies: lights and pixels are "
+            "axes");
+    if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table growth");
+    BenchCases cases;
+    for (const GrowthRow& row : growthRows) {
+        if (!options.axes.empty() && std::ranges::count(options.axes, row.axis) == 0) continue;
+        for (const double value : row.values) {
+            BenchGroup group{
+                std::nullopt, row.scene(static_cast<std::uint64_t>(value)), {}, GrowthPoint{row.axis, value}};
+            for (const Path path : options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end())
+                                                         : options.paths) {
+                Settings settings = given;
+                settings.path = path;
+                if (!options.assign.empty()) settings.assign = options.assign.front();
+                if (row.axis == GrowthAxis::pixels) settings.size = sizeOfPixels(value);
+                if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+                group.settings.push_back(settings);
+            }
+            cases.groups.push_back(std::move(group));
+        }
+    }
+    return cases;
+}
+
+}  // namespace
+
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
+    if (options.table == BenchTable::growth) return growthCases(given, options);
+    if (!options.axes.empty()) throw std::runtime_error("--axes: are those of --table growth");
     checkSampleTable(options);
     const std::vector<Path> paths =
         options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
@@ -249,6 +361,7 @@ std::string skipName(const BenchSkip& skip) {
     std::string name = modeName(skip.path, skip.assign, skip.parts);
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
     if (skip.lights) name += fmt::format(", {} lights", *skip.lights);
+    if (skip.growth) name += fmt::format(", {:.6g} {}", skip.growth->value, nameOf(skip.growth->axis));
     return name;
 }
 

@@ -8,17 +8,29 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace diptych::bench {
 
-// What the rows are: every mode, or the paths with and without blended surfaces by samples a pixel.
-enum class BenchTable { modes, msaa };
+// What the rows are: every mode; the paths with and without blended surfaces by samples a pixel; or the paths
+// by how much there is of one thing.
+enum class BenchTable { modes, msaa, growth };
+
+// What grows in --table growth.
+enum class GrowthAxis { triangles, draws, instances, textures, lights, pixels };
+
+// How much there is of it: a number, of textures MiB.
+struct GrowthPoint {
+    GrowthAxis axis;
+    double value;
+};
 
 // As asked for; an empty list is what its comment says.
 struct BenchOptions {
     BenchTable table = BenchTable::modes;
+    std::vector<GrowthAxis> axes;              // of --table growth; all
     std::vector<Path> paths;                   // both
     std::vector<Assignment> assign;            // all
     std::vector<Size> sizes;                   // --size
@@ -36,6 +48,8 @@ std::vector<Transparency> benchTransparencies(const std::string& words);
 std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // each once, ascending
 
 BenchTable benchTableOf(const std::string& word);
+std::vector<GrowthAxis> growthAxes(const std::string& words);
+std::string_view nameOf(GrowthAxis axis);
 
 // What of a mode is named because several were asked for.
 struct ModeParts {
@@ -49,6 +63,7 @@ struct BenchGroup {
     std::optional<std::uint32_t> lights;  // as asked for
     std::string scene;                    // as loadScene() takes it
     std::vector<Settings> settings;
+    std::optional<GrowthPoint> growth = {};
 };
 
 struct BenchSkip {
@@ -58,6 +73,7 @@ struct BenchSkip {
     std::optional<std::uint32_t> lights;  // nothing: none
     ModeParts parts;
     std::string reason;
+    std::optional<GrowthPoint> growth = {};
 };
 
 struct BenchCases {
@@ -68,6 +84,7 @@ struct BenchCases {
 // Light counts are put into a built-in scene that takes ?lights=N, into a `--lights` whose name holds {}, or
 // else into a seeded rig of point lights. Throws std::runtime_error where both a count and other lights were
 // asked for, and where nothing is left to time.
+// Of BenchTable::growth `scene` is not used: builtin:array and builtin:spheres grow.
 // Of BenchTable::msaa: each path without blended surfaces and with them, with 1, 4 and 8 samples a pixel, by
 // one assignment.
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options);

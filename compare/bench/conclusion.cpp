@@ -85,6 +85,7 @@ std::string Conclusion::inWords() const {
 }
 
 std::vector<Conclusion> conclusionsOf(const Bench& bench) {
+    if (bench.options.table == BenchTable::growth) return {};  // has sentences of its own
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)
         if (!drawsAnotherPicture(row.settings.assign)) left.push_back(&row);

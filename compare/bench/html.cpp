@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
 #include "compare/bench/style.h"
 #include "compare/page/page.h"
@@ -43,6 +44,11 @@ std::vector<std::string> ownNotes(const BenchRow& row, const std::vector<std::st
     return own;
 }
 
+// ", 1e+06 triangles" in --table growth.
+std::string grownTo(const BenchRow& row) {
+    return row.growth ? fmt::format(", {:.6g} {}", row.growth->value, nameOf(row.growth->axis)) : "";
+}
+
 std::string rows(const Bench& bench) {
     if (bench.rows.empty()) return {};
     const std::vector<std::string> common = commonNotes(bench);
@@ -64,7 +70,7 @@ std::string rows(const Bench& bench) {
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
-               cell(std::string(nameOf(row.settings.path))) +
+               cell(std::string(nameOf(row.settings.path)) + grownTo(row)) +
                cell(assignLabel(row.settings.assign, row.parts)) + numberCell(msText(row.time.median)) +
                numberCell(msText(row.time.min)) + numberCell(msText(row.time.max)) +
                numberCell(fmt::format("{:.3g}", assignMs(row))) +
@@ -147,7 +153,8 @@ std::string benchHtml(const Bench& bench) {
         markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
-        rows(bench), kernels(bench), skips(bench), how(bench), page::tables, sampleTablesHtml(bench));
+        rows(bench), kernels(bench), skips(bench), how(bench), page::tables,
+        bench.options.table == BenchTable::growth ? growthHtml(bench) : sampleTablesHtml(bench));
 }
 
 }  // namespace diptych::bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
 #include "compare/files/our_files.h"
 
@@ -110,6 +111,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"conclusions", conclusions},
         {"frames", rows},
         {"msaa_tables", sampleTablesJson(bench)},
+        {"growth", growthJson(bench)},
         {"skipped", skips},
         {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
         {"files", files}};

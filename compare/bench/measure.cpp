@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace diptych::bench {
@@ -24,8 +26,8 @@ constexpr int fewestProfiled = 3;
 constexpr double compiling = 4;
 
 BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
-    return {settings.path,    settings.assign, settings.size, group.lights, partsOf(bench.options, settings),
-            std::move(reason)};
+    return {settings.path,     settings.assign, settings.size, group.lights, partsOf(bench.options, settings),
+            std::move(reason), group.growth};
 }
 
 bool isMode(const Settings& a, const Settings& b) {
@@ -36,6 +38,13 @@ bool isMode(const Settings& a, const Settings& b) {
 // Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must
 // be tried.
 std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings& settings) {
+    if (group.growth) {
+        for (const BenchSkip& skip : bench.skips)
+            if (skip.growth && skip.growth->axis == group.growth->axis && skip.path == settings.path)
+                return fmt::format("{:.6g} {} were too many already", skip.growth->value,
+                                   nameOf(skip.growth->axis));
+        return {};
+    }
     if (!group.lights) return {};
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
@@ -116,6 +125,12 @@ std::vector<Size> sizesOf(const Bench& bench) {
     return sizes;
 }
 
+bool isHopeless(const Bench& bench, const BenchGroup& group) {
+    return group.growth && std::ranges::none_of(group.settings, [&](const Settings& settings) {
+               return hopeless(bench, group, settings).empty();
+           });
+}
+
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress) {
     SceneViews views(scene);
@@ -128,7 +143,17 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
     if (tried.empty()) return;
     Renderer renderer(device, views);
-    PreparedFrames frames = renderer.prepare(tried);
+    std::optional<PreparedFrames> prepared;
+    try {
+        prepared.emplace(renderer.prepare(tried));
+    } catch (const std::runtime_error& error) {
+        // Growing until the device cannot is what that table is for.
+        if (!group.growth) throw;
+        for (const Settings& settings : tried)
+            bench.skips.push_back(skipOf(bench, settings, group, error.what()));
+        return;
+    }
+    PreparedFrames& frames = *prepared;
     const int profiled = std::max(bench.runs, fewestProfiled);
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
@@ -164,7 +189,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                      frame.bytes,
                      frame.counters,
                      frame.notes,
-                     partsOf(bench.options, tried[i])};
+                     partsOf(bench.options, tried[i]),
+                     group.growth};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/bench/growth.h"
 #include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
 
@@ -97,6 +98,7 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
 }  // namespace
 
 std::string benchPlot(const Bench& bench, PlotPlace place) {
+    if (bench.options.table == BenchTable::growth) return growthPlot(bench, place);
     std::string panels;
     double above = 0;
     const bool oneCount = std::ranges::all_of(bench.rows, [&](const BenchRow& row) {

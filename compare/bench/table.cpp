@@ -2,6 +2,7 @@
 // The benchmark on a terminal.
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ std::string benchEnd(const Bench& bench) {
     if (bench.kernels) out += kernelTable(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
+    if (bench.options.table == BenchTable::growth) return out + growthText(bench);
     if (bench.options.table == BenchTable::msaa) out += "\n" + sampleTablesText(bench);
     // Last, where it is read first.
     for (const Conclusion& conclusion : conclusionsOf(bench)) out += conclusion.inWords() + "\n";

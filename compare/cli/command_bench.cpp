@@ -55,7 +55,8 @@ int runBench(const Options& options) {
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    Bench bench{options.scenes.front(),
+    const bool grows = requested.table == BenchTable::growth;
+    Bench bench{grows ? "how a frame grows" : options.scenes.front(),
                 options.settings,
                 requested,
                 reportDevice(device),
@@ -76,10 +77,11 @@ int runBench(const Options& options) {
         const BenchGroup& group = cases.groups[i];
         const double from = static_cast<double>(i) / groups, to = static_cast<double>(i + 1) / groups;
         const double read = from + 0.1 * (to - from);
+        if (isHopeless(bench, group)) continue;
         const Scene scene = loadShown(group.scene, options.settings, whole.part(from, read));
         const std::size_t first = bench.rows.size();
         measureGroup(device, group, scene, bench, whole.part(read, to));
-        print(benchTable(bench, first));
+        if (!grows) print(benchTable(bench, first));
     }
     if (requested.kernels)
         bench.kernels =

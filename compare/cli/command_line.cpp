@@ -204,6 +204,7 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     if (parsed.kernels != "on" && parsed.kernels != "off" && parsed.kernels != "only")
         throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", parsed.kernels));
     bench.table = benchTableOf(parsed.bench_table);
+    if (!parsed.bench_axes.empty()) bench.axes = growthAxes(parsed.bench_axes);
     bench.kernels = parsed.kernels != "off" && bench.table == BenchTable::modes;
     bench.frames = parsed.kernels != "only";
 }

@@ -337,10 +337,15 @@ void addView(CLI::App& app, ViewOptions& view) {
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
-    app.add_option("--table", parsed.bench_table,
-                   "every mode; or each path without blended surfaces and with them by samples a pixel, "
-                   "with its memory (modes)")
-        ->type_name("modes|msaa");
+    app.add_option(
+           "--table", parsed.bench_table,
+           "every mode; each path without blended surfaces and with them by samples a pixel, with its "
+           "memory; or each path by how much there is of one thing (modes)")
+        ->type_name("modes|msaa|growth");
+    app.add_option(
+           "--axes", parsed.bench_axes,
+           "what grows in --table growth: triangles, draws, instances, textures, lights, pixels (all)")
+        ->type_name("AXIS,...");
     app.add_option("--paths", parsed.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
     app.add_option("--assign", parsed.bench_assign, "the assignments (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");

@@ -47,6 +47,30 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     EXPECT_TRUE(runTool(folder, std::string(benchGallery) + "-o other").failedOver("-o other"));
 }
 
+TEST(Bench, GrowthIsDrawnUntilItIsTooMuch) {
+    const Folder folder;
+    const std::string growth = "bench --table growth --size 16x12 --runs 1 --shadows off -q -o b ";
+    ASSERT_EQ(runTool(folder, growth + "--axes lights --max-ms 1e6").code, 0);
+    const Json lights = readJson(folder / "b/bench.json");
+    ASSERT_EQ(lights["growth"]["lines"].size(), 2u) << "a line a path";
+    for (const Json& line : lights["growth"]["lines"]) {
+        ASSERT_EQ(line["points"].size(), 7u);
+        EXPECT_EQ(line["points"][6]["value"], 65536);
+        EXPECT_GT(line["points"][6]["mib"], line["points"][0]["mib"]) << "lights take memory";
+    }
+    EXPECT_EQ(lights["growth"]["words"].size(), 4u);
+    EXPECT_NE(contentsOf(folder / "b/bench.svg").find("memory on the device"), std::string::npos);
+    EXPECT_NE(contentsOf(folder / "b/index.html").find("How it grows"), std::string::npos);
+    // What is too slow is not tried with more, nor read.
+    ASSERT_EQ(runTool(folder, growth + "--axes instances,triangles --max-ms 1e-6").code, 0);
+    const Json slow = readJson(folder / "b/bench.json");
+    EXPECT_TRUE(slow["frames"].empty());
+    EXPECT_EQ(slow["skipped"].size(), 4u) << slow["skipped"];
+    EXPECT_TRUE(runTool(folder, growth + "--axes time").failedOver("--axes time: takes triangles, draws"));
+    EXPECT_TRUE(runTool(folder, growth + "--sizes 8x8").failedOver("--table growth: takes no"));
+    EXPECT_TRUE(runTool(folder, "bench --axes lights").failedOver("--axes: are those of --table growth"));
+}
+
 TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
     const Folder folder;
     const Ran ran = runTool(folder,

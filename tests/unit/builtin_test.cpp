@@ -154,6 +154,33 @@ TEST(Builtin, NamesAreUniqueAndMistakesListWhatThereIs) {
         EXPECT_EQ(error.find('\n'), std::string::npos);
     }
     EXPECT_NE(errorOf("spheres?light=4").find("lights=N"), std::string::npos);
+    EXPECT_NE(errorOf("array?object=4").find("objects=N, triangles=N"), std::string::npos);
+    EXPECT_NE(errorOf("array?objects=1&materials=x").find("no number of materials"), std::string::npos);
+}
+
+TEST(Builtin, AnArrayHasAsManyAsItIsTold) {
+    const auto trianglesOf = [](const Scene& scene) {
+        std::size_t triangles = 0;
+        for (const Node& node : scene.nodes)
+            triangles += scene.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].indices.size() / 3;
+        return triangles;
+    };
+    const Scene many = makeBuiltin("array?objects=30&triangles=30000&meshes=7&materials=3");
+    EXPECT_EQ(many.nodes.size(), 30u);
+    EXPECT_EQ(many.meshes.size(), 7u);
+    EXPECT_EQ(many.materials.size(), 3u);
+    EXPECT_TRUE(many.images.empty());
+    // A sphere of k rings has 4 k (k - 1) triangles; of 16 it is nearest to 1000.
+    EXPECT_EQ(trianglesOf(many), 30u * 960);
+    const Scene squares = makeBuiltin("array?objects=5&triangles=10&materials=50");
+    EXPECT_EQ(trianglesOf(squares), 10u);
+    EXPECT_EQ(squares.meshes.size(), 5u) << "no more than objects";
+    const Scene textured = makeBuiltin("array?objects=2&texture_mib=8");
+    ASSERT_EQ(textured.images.size(), 2u);
+    EXPECT_EQ(textured.images[0].rgba.size() + textured.images[1].rgba.size(), 8u << 20);
+    EXPECT_NE(textured.images[0].rgba, textured.images[1].rgba);
+    for (const Material& material : textured.materials) EXPECT_GE(material.base_color_texture.texture, -1);
+    EXPECT_EQ(makeBuiltin("array?objects=0").nodes.size(), 1u);
 }
 
 // Check values of the scene's definition, six decimals: half a step is 5e-7.

@@ -7,22 +7,39 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
 namespace diptych {
 namespace {
 
+// A number that may follow the name: "spheres?lights=64".
+struct Parameter {
+    std::string_view name;
+    std::uint32_t usual, most;  // where none is given, and the largest that is taken
+};
+using Numbers = std::span<const std::uint32_t>;  // of the parameters, in their order
+
 struct Row {
     std::string_view name, shows;
     bool for_tests;
     Scene (*make)();
-    Scene (*makeWithLights)(std::uint32_t) = nullptr;
-    std::uint32_t lights = 0;  // default of the parameter "lights"
+    Scene (*makeWith)(Numbers) = nullptr;
+    std::span<const Parameter> parameters = {};
 };
+
+constexpr std::array sphereParameters{Parameter{"lights", 256, 0x7fffffffu}};
+// Their product stays within what indices of 32 bits reach.
+constexpr std::array arrayParameters{
+    Parameter{"objects", 100, 10'000'000}, Parameter{"triangles", 20'000, 1'000'000'000},
+    Parameter{"meshes", 1, 10'000'000}, Parameter{"materials", 4, 10'000'000},
+    Parameter{"texture_mib", 0, 65'536}};
 
 constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
@@ -30,7 +47,7 @@ constexpr std::array ROWS{
         "an evening in a sculpture hall: every kind of material, some seventy lights (the default)", PICTURE,
         builtin::gallery},
     Row{"spheres", "400 spheres under a sun and N point lights, the many-light benchmark", PICTURE, nullptr,
-        builtin::spheres, 256},
+        [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters},
     Row{"furnace", "white spheres, metallic by roughness, in light that is the same from everywhere", PICTURE,
         builtin::furnace},
     Row{"normals", "every direction of normal under sharp highlights: seams of normal encodings", TEST,
@@ -84,6 +101,12 @@ constexpr std::array ROWS{
         TEST, builtin::tangents},
     Row{"motion", "joints, morph targets, nodes and a lamp that move from 0 s to 2 s", TEST, builtin::motion},
     Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
+    Row{"array", "any number of objects, triangles, meshes, materials and textures: how a frame grows", TEST,
+        nullptr,
+        [](Numbers n) {
+            return builtin::array({n[0], n[1], n[2], n[3], n[4]});
+        },
+        arrayParameters},
 };
 
 std::vector<std::string> knownNames() {
@@ -92,31 +115,51 @@ std::vector<std::string> knownNames() {
     return names;
 }
 
-// Parses "lights=64".
-std::uint32_t lightsFrom(const std::string& name, const Row& row, std::string_view query) {
-    const std::string_view key = query.substr(0, query.find('='));
-    if (row.makeWithLights == nullptr)
+// "lights=N" of each, joined.
+std::string namesOf(std::span<const Parameter> parameters, std::string_view joined) {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : parameters) names.push_back(fmt::format("{}=N", parameter.name));
+    return fmt::format("{}", fmt::join(names, joined));
+}
+
+// Parses "lights=64", or several with & between them.
+std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, std::string_view query) {
+    if (row.makeWith == nullptr)
         throw std::runtime_error(fmt::format("builtin:{}: {} takes no parameters", name, row.name));
-    if (key != "lights" || key.size() == query.size())
-        throw std::runtime_error(
-            fmt::format("builtin:{}: unknown parameter '{}'; {} takes lights=N", name, query, row.name));
-    const std::string_view digits = query.substr(key.size() + 1);
-    std::uint32_t lights = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), lights);
-    if (error != std::errc() || end != digits.data() + digits.size() || lights > 0x7fffffffu)
-        throw std::runtime_error(
-            fmt::format("builtin:{}: '{}' is no number of lights; it takes 0 to 2147483647", name, digits));
-    return lights;
+    std::vector<std::uint32_t> numbers;
+    for (const Parameter& parameter : row.parameters) numbers.push_back(parameter.usual);
+    std::set<std::string_view> given;
+    while (!query.empty()) {
+        const std::string_view one = query.substr(0, query.find('&'));
+        query.remove_prefix(std::min(query.size(), one.size() + 1));
+        const std::string_view key = one.substr(0, one.find('='));
+        const auto known = std::ranges::find(row.parameters, key, &Parameter::name);
+        if (known == row.parameters.end() || key.size() == one.size())
+            throw std::runtime_error(fmt::format("builtin:{}: unknown parameter '{}'; {} takes {}", name, one,
+                                                 row.name, namesOf(row.parameters, ", ")));
+        if (!given.insert(key).second)
+            throw std::runtime_error(fmt::format("builtin:{}: {} is given twice", name, key));
+        const std::string_view digits = one.substr(key.size() + 1);
+        std::uint32_t& number = numbers[static_cast<std::size_t>(known - row.parameters.begin())];
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+        if (error != std::errc() || end != digits.data() + digits.size() || number > known->most)
+            throw std::runtime_error(fmt::format("builtin:{}: '{}' is no number of {}; it takes 0 to {}",
+                                                 name, digits, known->name, known->most));
+    }
+    return numbers;
 }
 
 }  // namespace
 
 std::vector<BuiltinName> builtinNames() {
     std::vector<BuiltinName> names;
-    for (const Row& row : ROWS)
-        names.push_back({std::string(row.name),
-                         row.makeWithLights ? fmt::format("lights={}", row.lights) : "",
+    for (const Row& row : ROWS) {
+        std::vector<std::string> parameters;
+        for (const Parameter& parameter : row.parameters)
+            parameters.push_back(fmt::format("{}={}", parameter.name, parameter.usual));
+        names.push_back({std::string(row.name), fmt::format("{}", fmt::join(parameters, "&")),
                          std::string(row.shows), row.for_tests});
+    }
     return names;
 }
 
@@ -124,10 +167,12 @@ Scene makeBuiltin(const std::string& name) {
     const std::string_view base = std::string_view(name).substr(0, name.find('?'));
     for (const Row& row : ROWS) {
         if (row.name != base) continue;
-        std::uint32_t lights = row.lights;
-        if (base.size() < name.size())
-            lights = lightsFrom(name, row, std::string_view(name).substr(base.size() + 1));
-        Scene scene = row.makeWithLights ? row.makeWithLights(lights) : row.make();
+        const bool given = base.size() < name.size();
+        if (given && base.size() + 1 == name.size())
+            throw std::runtime_error(fmt::format("builtin:{}: nothing follows the ?", name));
+        const auto query = std::string_view(name).substr(given ? base.size() + 1 : name.size());
+        const bool takes = given || row.makeWith != nullptr;
+        Scene scene = takes ? row.makeWith(numbersFrom(name, row, query)) : row.make();
         scene.name = "builtin:" + name;
         return scene;
     }

@@ -11,7 +11,8 @@ namespace diptych {
 
 struct BuiltinName {
     std::string name;       // without "builtin:"
-    std::string parameter;  // "lights=256": the parameter and its default; empty if it takes none
+    std::string parameter;  // "lights=256": the parameter and its default, several with & between them; empty
+                            // if it takes none
     std::string shows;      // one line that describes it
     bool for_tests;         // made to test one way in which two paths may differ, not to be looked at
 };

@@ -12,6 +12,14 @@ Scene gallery();
 Scene spheres(std::uint32_t lights);
 Scene furnace();
 
+// array.cpp: how a frame grows
+struct ArrayCounts {
+    std::uint32_t objects, triangles, meshes, materials, texture_mib;
+};
+// `triangles` of all objects together, as near as spheres come. There are at least as many meshes as
+// materials, as many materials as textures of 4 MiB, and no more meshes than objects.
+Scene array(const ArrayCounts& counts);
+
 // surfaces.cpp: surface properties that a G-buffer must store
 Scene normals();
 Scene emission();

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/growth.h"
+
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::bench {
+namespace {
+
+constexpr double bytesOfMib = 1 << 20;
+// Below it a figure counts as flat: doubling what grows adds less than 42 %.
+constexpr double flatExponent = 0.5;
+
+double valueOf(const BenchRow& row) {
+    return row.growth->value;
+}
+
+double slope(double x0, double y0, double x1, double y1) {
+    return std::log(y1 / y0) / std::log(x1 / x0);
+}
+
+std::string numberText(double value) {
+    return value < 1e5 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+std::string unitOf(GrowthAxis axis) {
+    return axis == GrowthAxis::textures ? "MiB of textures" : std::string(nameOf(axis));
+}
+
+// The pass that has grown most from the first row to the last, and its share of what all have grown.
+std::string cause(const GrowthLine& line) {
+    const std::vector<PassTime>&first = line.rows.front()->passes, &last = line.rows.back()->passes;
+    double all = 0, most = 0;
+    std::string name;
+    for (const PassTime& pass : last) {
+        const auto before = std::ranges::find(first, pass.name, &PassTime::name);
+        const double grown = pass.ms - (before == first.end() ? 0 : before->ms);
+        all += std::max(grown, 0.0);
+        if (grown <= most) continue;
+        most = grown;
+        name = pass.name;
+    }
+    if (name.empty()) return {};
+    return fmt::format("; {:.0f} % of what is added is {}", 100 * most / all, name);
+}
+
+std::string lineInWords(const GrowthLine& line, const char* what, const std::vector<double>& amounts,
+                        const char* unit, const std::string& why) {
+    std::vector<double> values;
+    for (const BenchRow* row : line.rows) values.push_back(valueOf(*row));
+    const std::string begin = fmt::format(
+        "{}, {} over {}: {:.4g} {} at {}, {:.4g} at {}", nameOf(line.path), what, nameOf(line.axis),
+        amounts.front(), unit, numberText(values.front()), amounts.back(), numberText(values.back()));
+    const Bend bend = bendOf(values, amounts);
+    if (!bend.found) return begin + "; flat";
+    if (bend.value == values.front())
+        return fmt::format("{}; grows as the power {:.2f} from the first on{}", begin, bend.exponent, why);
+    return fmt::format("{}; flat up to {}, then as the power {:.2f}{}", begin, numberText(bend.value),
+                       bend.exponent, why);
+}
+
+}  // namespace
+
+std::vector<GrowthLine> growthLines(const Bench& bench) {
+    std::vector<GrowthLine> lines;
+    for (const BenchRow& row : bench.rows) {
+        if (!row.growth) continue;
+        const auto known = std::ranges::find_if(lines, [&](const GrowthLine& line) {
+            return line.axis == row.growth->axis && line.path == row.settings.path;
+        });
+        if (known != lines.end())
+            known->rows.push_back(&row);
+        else
+            lines.push_back({row.growth->axis, row.settings.path, {&row}});
+    }
+    std::ranges::stable_sort(lines, {}, &GrowthLine::axis);
+    for (GrowthLine& line : lines)
+        std::ranges::stable_sort(line.rows, {}, [](auto* r) { return valueOf(*r); });
+    return lines;
+}
+
+Bend bendOf(const std::vector<double>& values, const std::vector<double>& amounts) {
+    if (values.size() != amounts.size()) throw std::logic_error("a value has no amount");
+    // From the last backwards: the longest end every step of which grows.
+    std::size_t first = values.empty() ? 0 : values.size() - 1;
+    while (first > 0 &&
+           slope(values[first - 1], amounts[first - 1], values[first], amounts[first]) >= flatExponent)
+        --first;
+    if (first + 1 >= values.size()) return {};
+    return {values[first], slope(values[first], amounts[first], values.back(), amounts.back()), true};
+}
+
+double memoryMib(const BenchRow& row) {
+    return static_cast<double>(row.bytes.images + row.bytes.buffers) / bytesOfMib;
+}
+
+std::vector<std::string> growthInWords(const Bench& bench) {
+    std::vector<std::string> words;
+    for (const GrowthLine& line : growthLines(bench)) {
+        if (line.rows.size() < 2) continue;
+        std::vector<double> ms, mib;
+        for (const BenchRow* row : line.rows) {
+            ms.push_back(row->time.median);
+            mib.push_back(memoryMib(*row));
+        }
+        words.push_back(lineInWords(line, "time", ms, "ms", cause(line)));
+        words.push_back(lineInWords(line, "memory", mib, "MiB", ""));
+    }
+    return words;
+}
+
+std::string growthText(const Bench& bench) {
+    std::string out = fmt::format("{:<10}  {:>10}  {:<12}  {:>9}  {:>9}  {:>9}  {:>9}  passes, ms\n", "axis",
+                                  "value", "path", "ms", "least", "most", "MiB");
+    for (const GrowthLine& line : growthLines(bench))
+        for (const BenchRow* row : line.rows) {
+            std::string passes;
+            for (const PassTime& pass : row->passes)
+                passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
+            out +=
+                fmt::format("{:<10}  {:>10}  {:<12}  {:>9}  {:>9}  {:>9}  {:>9.1f}  {}\n", nameOf(line.axis),
+                            numberText(valueOf(*row)), nameOf(line.path), msText(row->time.median),
+                            msText(row->time.min), msText(row->time.max), memoryMib(*row), passes);
+        }
+    for (const std::string& sentence : growthInWords(bench)) out += sentence + "\n";
+    return out;
+}
+
+std::string growthHtml(const Bench& bench) {
+    std::string out;
+    const std::vector<std::string> words = growthInWords(bench);
+    if (words.empty()) return out;
+    out += "<h2>How it grows</h2>\n<div class=\"box says\"><ul>";
+    for (const std::string& sentence : words) out += fmt::format("<li>{}</li>", page::markup(sentence));
+    return out + "</ul></div>\n";
+}
+
+nlohmann::ordered_json growthJson(const Bench& bench) {
+    using Json = nlohmann::ordered_json;
+    Json all = Json::array();
+    for (const GrowthLine& line : growthLines(bench)) {
+        Json points = Json::array();
+        for (const BenchRow* row : line.rows)
+            points.push_back(
+                {{"value", valueOf(*row)},
+                 {"ms", {{"median", row->time.median}, {"min", row->time.min}, {"max", row->time.max}}},
+                 {"mib", memoryMib(*row)}});
+        all.push_back({{"axis", nameOf(line.axis)},
+                       {"unit", unitOf(line.axis)},
+                       {"path", nameOf(line.path)},
+                       {"points", points}});
+    }
+    return {{"lines", all}, {"words", growthInWords(bench)}};
+}
+
+}  // namespace diptych::bench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/growth.h"
+#include "compare/bench/plot_parts.h"
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace diptych::bench {
+namespace {
+
+// Two panels side by side, of time and of memory; the drawing's own units.
+constexpr double panelHeight = 260, panelTop = 50, panelBottom = 56, panelGap = 66;
+
+struct Figure {
+    const char* name;
+    double (*amount)(const BenchRow&);
+};
+const Figure figures[] = {{"time of a frame, ms", [](const BenchRow& row) { return row.time.median; }},
+                          {"memory on the device, MiB", memoryMib}};
+
+std::string signAt(Path path, double x, double y) {
+    constexpr double r = 4;
+    return path == Path::deferred
+               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
+                             svgNumber(y), r)
+               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                             svgNumber(x - r), svgNumber(y - r), 2 * r, 2 * r);
+}
+
+std::string inGroup(Path path, const std::string& inside) {
+    return fmt::format("<g class=\"series {} clustered\">{}</g>", nameOf(path), inside);
+}
+
+std::string panelOf(const std::vector<GrowthLine>& lines, const Figure& figure, const PlotBox& box) {
+    std::vector<double> values, amounts;
+    for (const GrowthLine& line : lines)
+        for (const BenchRow* row : line.rows) {
+            values.push_back(row->growth->value);
+            amounts.push_back(figure.amount(*row));
+        }
+    const LogAxis across(values), up(amounts);
+    const auto x = [&](double n) { return box.left + across.place(n) * (box.right - box.left); };
+    const auto y = [&](double a) { return box.bottom - up.place(a) * (box.bottom - box.top); };
+    Drawing drawing;
+    const GrowthAxis axis = lines.front().axis;
+    drawing.axes(box, across.ticks(), x,
+                 axis == GrowthAxis::textures ? "textures, MiB" : std::string(nameOf(axis)), up.ticks(), y,
+                 "");
+    drawing.text("name", box.left, box.top - 16, figure.name);
+    std::string out = drawing.group();
+    for (const GrowthLine& line : lines) {
+        std::string trace, marks;
+        for (const BenchRow* row : line.rows) {
+            const double px = x(row->growth->value), py = y(figure.amount(*row));
+            trace += fmt::format("{}{} {}", trace.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
+            marks +=
+                fmt::format("<g><title>{}</title>{}</g>",
+                            page::markup(fmt::format("{}, {:.6g} {}: {:.4g}", nameOf(line.path),
+                                                     row->growth->value, nameOf(axis), figure.amount(*row))),
+                            signAt(line.path, px, py));
+        }
+        out += inGroup(line.path, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", trace, marks));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string growthPlot(const Bench& bench, PlotPlace place) {
+    std::string out;
+    double above = 0;
+    std::vector<Path> paths;
+    const std::vector<GrowthLine> all = growthLines(bench);
+    for (std::size_t i = 0; i < all.size();) {
+        std::vector<GrowthLine> lines;
+        for (; i < all.size() && (lines.empty() || all[i].axis == lines.front().axis); ++i) {
+            lines.push_back(all[i]);
+            if (std::ranges::find(paths, all[i].path) == paths.end()) paths.push_back(all[i].path);
+        }
+        const double width = (plotWidth - plotRight - plotLeft - panelGap) / 2;
+        double left = plotLeft;
+        for (const Figure& figure : figures) {
+            out += panelOf(lines, figure,
+                           {left, above + panelTop, left + width, above + panelHeight - panelBottom});
+            left += width + panelGap;
+        }
+        above += panelHeight;
+    }
+    Legend legend(above + 4);
+    for (const Path path : paths) {
+        const auto [x, y] = legend.next();
+        out += inGroup(path, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(x),
+                                         svgNumber(y), signAt(path, x + 12, y)) +
+                                 legend.words(std::string(nameOf(path))));
+    }
+    return plotElement(plotWidth, std::max(legend.end(), panelHeight), "How a frame grows", place, out);
+}
+
+}  // namespace diptych::bench
