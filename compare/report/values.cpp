@@ -82,7 +82,8 @@ public:
           plane_(pixels * static_cast<std::size_t>(bits) / 8),
           pixels_(pixels),
           write_(write) {
-        // Level 6, which takes twice as long as level 4, with which a report that passes is larger than 12 MB.
+        // Level 6, which takes twice as long as level 4, with which a report that passes is larger than 12
+        // MB.
         if (deflateInit(&stream_, 6) != Z_OK) fail();
     }
     ~Planes() { deflateEnd(&stream_); }
