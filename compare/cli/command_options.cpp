@@ -540,6 +540,11 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     } else {
         addFiles(app, options,
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
+        if (command == "plan")
+            app.add_flag("--estimate", options.estimate,
+                         "draw the frames, count what they ask of a device, and say what they should take on "
+                         "some GPUs")
+                ->group("What is planned");
     }
     if (command == "bench") addBench(app, parsed);
     addOutput(app, options);

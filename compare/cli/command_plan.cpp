@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/bench/estimate.h"
 #include "compare/cli/commands.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/path_plan.h"
@@ -18,12 +19,58 @@ struct ScenePlan {
     std::vector<Requirements::Line> lines;
     std::vector<std::string> notes;  // what was read otherwise than the file says
     std::vector<PathPlan> paths;
+    std::vector<FrameWork> work;  // of --estimate
 };
+
+std::vector<bench::FrameEstimate> estimatesOf(const FrameWork& work) {
+    std::vector<bench::FrameEstimate> all;
+    for (const bench::GpuFigures& gpu : bench::estimatedGpus()) all.push_back(bench::estimate(work, gpu));
+    return all;
+}
+
+Json jsonOf(const FrameWork& work) {
+    Json passes = Json::array(), estimates = Json::array();
+    for (const PassWork& pass : work.passes)
+        passes.push_back({{"name", pass.counts.name},
+                          {"vertices", pass.counts.vertices},
+                          {"triangles", pass.counts.triangles},
+                          {"samples", pass.counts.samples},
+                          {"fragments", pass.counts.fragments},
+                          {"outputs", pass.counts.outputs},
+                          {"compute", pass.counts.compute},
+                          {"texels", pass.texels},
+                          {"lights", pass.lights},
+                          {"bytes_read", pass.counts.read},
+                          {"bytes_written", pass.counts.written},
+                          {"vertex_bytes", pass.vertex_bytes}});
+    for (const bench::FrameEstimate& estimate : estimatesOf(work)) {
+        Json each = Json::array();
+        for (const bench::PassEstimate& pass : estimate.passes)
+            each.push_back({{"name", pass.name}, {"ms", pass.ms}, {"bound", pass.bound}});
+        estimates.push_back({{"gpu", estimate.gpu->name}, {"ms", estimate.ms}, {"passes", each}});
+    }
+    return {{"path", nameOf(work.path)}, {"passes", passes}, {"estimates", estimates}};
+}
+
+void print(const FrameWork& work) {
+    fmt::print("  {} asks for\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n",
+               nameOf(work.path), "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute",
+               "MB");
+    for (const PassWork& pass : work.passes)
+        fmt::print("    {:<26} {:>10} {:>10} {:>10} {:>10.0f} {:>10.0f} {:>10} {:>9.2f}\n", pass.counts.name,
+                   pass.counts.vertices, pass.counts.triangles, pass.counts.fragments, pass.texels,
+                   pass.lights, pass.counts.compute,
+                   (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
+    for (const bench::FrameEstimate& estimate : estimatesOf(work))
+        fmt::print("    on paper, {}\n", bench::inWords(estimate));
+}
 
 Json jsonOf(const ScenePlan& plan) {
     Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
     for (const auto& line : plan.lines)
         (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
+    Json work = Json::array();
+    for (const FrameWork& frame : plan.work) work.push_back(jsonOf(frame));
     for (const PathPlan& path : plan.paths) {
         Json samples = Json::array();
         for (const SampledBytes& bytes : path.bytes)
@@ -47,7 +94,8 @@ Json jsonOf(const ScenePlan& plan) {
             {"modelled", modelled},
             {"left_out", leftOut},
             {"notes", plan.notes},
-            {"paths", paths}};
+            {"paths", paths},
+            {"work", work}};
 }
 
 // "16 bytes per pixel, 48 with lit; with --msaa 4 96 and 176"
@@ -77,6 +125,7 @@ void print(const ScenePlan& plan) {
                 : "");
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
+    for (const FrameWork& work : plan.work) print(work);
     for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);
 }
 
@@ -96,9 +145,13 @@ int runPlan(const Options& options) {
         const Scene scene = loadShown(name, options.settings, Stage(progress, name));
         SceneViews views(scene);
         const SceneView& view = views.at(viewRequest(settings.front()));
-        const ScenePlan result{scene.name, view.needs, planLines(view, settings.front().skinning),
-                               describedFrame(scene, view, settings.front()).notes,
-                               planPaths(device, views, settings)};
+        const ScenePlan result{
+            scene.name,
+            view.needs,
+            planLines(view, settings.front().skinning),
+            describedFrame(scene, view, settings.front()).notes,
+            planPaths(device, views, settings),
+            options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{}};
         progress.wipe();
         if (options.json)
             scenes.push_back(jsonOf(result));

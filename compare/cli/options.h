@@ -89,6 +89,7 @@ struct Options {
     Keep keep = Keep::all;       // compare, diff: of which comparisons a report keeps pictures, EXRs
     SelectionOptions selection;  // compare: pixels
     bool allow_noise = false;    // compare
+    bool estimate = false;       // plan: what the frames should take on GPUs that are not here
     bool explain = false;        // compare: why lit differs also where it passes
     std::vector<external::Renderer> renderers;  // compare, explain, tradeoff: --renderer
     std::vector<std::string> renderer_words;    // of the command line that name them

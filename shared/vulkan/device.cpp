@@ -111,6 +111,11 @@ bool Device::countsFragments() const {
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
 }
+bool Device::countsStages() const {
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(state_->physical, &features);
+    return features.pipelineStatisticsQuery == VK_TRUE;
+}
 VkSampleCountFlags Device::sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
     VkImageFormatProperties properties{};
     const VkResult found = vkGetPhysicalDeviceImageFormatProperties(

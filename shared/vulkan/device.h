@@ -52,6 +52,7 @@ public:
     Memory& memory();
     VkPipelineCache pipelineCache() const;  // for everything that makes pipelines, from any thread
     bool countsFragments() const;           // occlusion queries are exact
+    bool countsStages() const;              // pipeline statistics
     // Fragment shaders have 64-bit atomics on buffers and the number of their triangle.
     bool sortsFragments() const;
     // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.

@@ -23,6 +23,20 @@ struct PassMs {
     double ms = 0;
 };
 
+// What the passes of one name do in a frame: counted by the device, and moved by what they declare.
+struct PassCounts {
+    std::string name;
+    std::uint64_t vertices = 0;   // shaded
+    std::uint64_t triangles = 0;  // that reach clipping
+    std::uint64_t samples = 0;    // that pass the depth test, in drawing order
+    std::uint64_t fragments = 0;  // pixels' worth of these where colour is drawn: about what is shaded
+    std::uint64_t outputs = 0;    // values that samples write to attachments, depth not among them
+    std::uint64_t compute = 0;    // invocations of compute shaders
+    // Of what is declared, each part once: attachments, images, buffers; bytes. Textures, vertices and other
+    // buffers that no pass of the frame writes are not declared.
+    std::uint64_t read = 0, written = 0;
+};
+
 // A barrier as it was recorded, by name, for tests and people.
 struct RecordedBarrier {
     std::string pass, resource;  // it stands before the pass
@@ -81,6 +95,10 @@ public:
     // The same, passes of one name that follow each other together in a submit of their own on a CPU device
     // (between time stamps on a GPU).
     std::vector<PassMs> profile(std::size_t first, std::size_t last);
+
+    // Runs passes [first, last), and waits: passes of one name that follow each other together, as profile()
+    // has them. Throws std::runtime_error where the device has no pipeline statistics.
+    std::vector<PassCounts> count(std::size_t first, std::size_t last);
 
     // How long the host took to record the commands of the last run() or profile(), ms. Not part of its time.
     double recordMs() const { return record_ms_; }
@@ -147,6 +165,8 @@ private:
     void renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer commands);
     std::vector<double> runSpans(const std::vector<Span>& spans);
     void submit(const std::vector<Piece>& pieces, std::vector<double>& ms);
+    void addTraffic(const Pass& pass, PassCounts& counts) const;
+    std::uint64_t samplesOf(const Pass& pass) const;
     void copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
     Device& device_;

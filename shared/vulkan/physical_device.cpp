@@ -298,6 +298,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     VkPhysicalDeviceFeatures there{};
     vkGetPhysicalDeviceFeatures(physical, &there);
     wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
+    wanted.v10.features.pipelineStatisticsQuery = there.pipelineStatisticsQuery;
     wanted.v10.features.depthClamp = there.depthClamp;
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;

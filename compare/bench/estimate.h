@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// On paper: what a counted frame should take on a GPU that is not here, by the figures of its data sheet. The
+// roofline model (Williams, Waterman and Patterson 2009) with several roofs: a pass takes as long as the one
+// of its demands that takes longest, and passes follow each other.
+#pragma once
+
+#include "compare/render/frame_work.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych::bench {
+
+// Of a data sheet, in 1e9 a second: bytes of memory, triangles set up, pixels written (a target each), texels
+// filtered bilinearly, float32 operations of draws and of compute shaders (a multiply-add is two).
+struct GpuFigures {
+    std::string_view name;
+    double bytes, triangles, outputs, texels, draw_flops, compute_flops;
+};
+std::span<const GpuFigures> estimatedGpus();
+
+// What a pass demands, and how long that takes by itself, ms.
+struct Demand {
+    std::string_view name;  // "memory"
+    double ms = 0;
+};
+struct PassEstimate {
+    std::string name;
+    double ms = 0;
+    std::string_view
+        bound;  // the demand that takes longest; "launch" where that is less than starting a pass
+};
+struct FrameEstimate {
+    Path path = Path::deferred;
+    const GpuFigures* gpu = nullptr;
+    double ms = 0;
+    std::vector<PassEstimate> passes;
+};
+
+// Assumptions, each with its reason in README.md: which part of a data sheet's figure is reached, operations
+// of a light and of a fragment, and how long a pass takes to begin and to end, ms.
+struct EstimateAssumptions {
+    double reached = 0.6;
+    double light_flops = 120, fragment_flops = 200, vertex_flops = 100, compute_flops = 100;
+    double bilinear_a_texel = 2;  // a trilinear sample is two bilinear ones
+    double launch_ms = 0.005;
+};
+
+std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu,
+                              const EstimateAssumptions& assumed = {});
+FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu,
+                       const EstimateAssumptions& assumed = {});
+
+// "deferred on NVIDIA GeForce RTX 3060: 0.42 ms; G-buffer 0.21 (memory), ..."
+std::string inWords(const FrameEstimate& estimate);
+
+}  // namespace diptych::bench
