@@ -70,7 +70,7 @@ std::vector<glm::vec3> countedFrom(const glm::dvec3& origin, const std::vector<g
 
 // Throws std::runtime_error where there are too many: they are stored up to twice, in the scene's order and
 // in that of clusters.
-std::uint32_t indicesOf(const Scene& scene) {
+std::uint32_t indexCountOf(const Scene& scene) {
     std::uint64_t sum = 0;
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives) sum += p.indices.size();
@@ -85,9 +85,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;
     std::vector<std::uint32_t> indices;
-    // After all indices, and of primitives that are more than one cluster alone.
-    std::vector<std::uint32_t> clustered;
-    const std::uint32_t allIndices = indicesOf(scene);
+    first_clustered_ = indexCountOf(scene);
     const std::vector<bool> mayBlend = materialsThatBlend(scene);
     const glm::dvec3 origin = originOf(scene);
     for (const Mesh& mesh : scene.meshes) {
@@ -117,16 +115,14 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             positions.insert(positions.end(), stored.begin(), stored.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
             range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
-            if (p.indices.size() > 3 * clusterTriangles) {
-                const auto first = static_cast<std::uint32_t>(clustered.size());
-                clustered.insert(clustered.end(), p.indices.begin(), p.indices.end());
-                for (Cluster cluster : cutIntoClusters(stored, std::span(clustered).subspan(first))) {
-                    cluster.first_index += allIndices + first;
+            if (range.index_count > 0) {
+                const auto first = static_cast<std::uint32_t>(clustered_.size());
+                clustered_.insert(clustered_.end(), p.indices.begin(), p.indices.end());
+                for (Cluster cluster : cutIntoClusters(stored, std::span(clustered_).subspan(first))) {
+                    cluster.first_index += first_clustered_ + first;
+                    cluster_triangles_.add(cluster, stored, indicesOf(cluster));
                     clusters_.push_back(cluster);
                 }
-            } else if (range.index_count > 0) {
-                clusters_.push_back(
-                    {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
             }
             range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
             if (mayBlend[range.material]) {
@@ -138,7 +134,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             ranges_.back().push_back(range);
         }
     }
-    indices.insert(indices.end(), clustered.begin(), clustered.end());
+    indices.insert(indices.end(), clustered_.begin(), clustered_.end());
     // Posing reads them by address, and copies what it leaves as it is.
     constexpr VkBufferUsageFlags posed =
         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -193,6 +189,10 @@ void Geometry::bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices) 
     bindVertices(commands);
     constexpr VkDeviceSize none = 0;
     vkCmdBindVertexBuffers(commands, 2, 1, &draws, &none);
+    bindIndices(commands, indices);
+}
+
+void Geometry::bindIndices(VkCommandBuffer commands, VkBuffer indices) const {
     vkCmdBindIndexBuffer(commands, indices != VK_NULL_HANDLE ? indices : indices_.handle(), 0,
                          VK_INDEX_TYPE_UINT32);
 }
