@@ -41,9 +41,6 @@ bool leavesOutside(const std::array<Corner, 3>& c, float x, float y, float margi
 
 void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> positions,
                            std::span<const std::uint32_t> indices) {
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() - 4096;
-    if (values_.size() > most || numbers_.size() > most)
-        throw std::runtime_error("the scene has over 2^29 triangles: more than culling can number");
     Entry entry;
     const std::size_t count = indices.size() / 3;
     entry.triangles = static_cast<std::uint16_t>(count);
@@ -91,6 +88,21 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
     for (const std::uint32_t index : indices)
         numbers_.push_back(static_cast<std::uint8_t>(std::ranges::lower_bound(used, index) - used.begin()));
     entries_.push_back(entry);
+}
+
+void ClusterTriangles::add(const ClusterTriangles& others) {
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+    const std::size_t values = values_.size(), numbers = numbers_.size();
+    if (values + others.values_.size() > most || numbers + others.numbers_.size() > most)
+        throw std::runtime_error("the scene has over 2^29 triangles: more than culling can number");
+    values_.insert(values_.end(), others.values_.begin(), others.values_.end());
+    numbers_.insert(numbers_.end(), others.numbers_.begin(), others.numbers_.end());
+    for (Entry entry : others.entries_) {
+        entry.first_plane += static_cast<std::uint32_t>(values);
+        entry.first_corner += static_cast<std::uint32_t>(values);
+        entry.first_number += static_cast<std::uint32_t>(numbers);
+        entries_.push_back(entry);
+    }
 }
 
 TriangleSet ClusterTriangles::facing(const Entry& entry, const glm::vec3& eye, float eye_w,

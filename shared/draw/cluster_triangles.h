@@ -47,6 +47,8 @@ public:
     // `indices`: of the cluster, three a triangle, all below positions.size(). Positions in object space, m.
     void add(const Cluster& cluster, std::span<const glm::vec3> positions,
              std::span<const std::uint32_t> indices);
+    // Those of another, after these.
+    void add(const ClusterTriangles& others);
     const Entry& operator[](std::size_t cluster) const { return entries_[cluster]; }
     std::uint64_t bytes() const {
         return values_.size() * sizeof(float) + numbers_.size() + entries_.size() * sizeof(Entry);
