@@ -59,7 +59,7 @@ std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
     PreparedFrame& frame = *state_->frames.at(i);
     PassList& passes = frame.passes;
     std::vector<PassTime> times;
-    if (frame.view.culling.any()) times.push_back({"cull", frame.view.culling.run()});
+    if (frame.view.culling.any()) times.push_back({"clusters", frame.view.culling.run()});
     for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
     return times;
 }

@@ -4,6 +4,8 @@
 #include "shared/contract/features.h"
 
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -28,62 +30,98 @@ SampleGrid gridOf(const Device& device, const View& view, int samples) {
 
 Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
                  bool on, DrawList& draws)
-    : geometry_(geometry), draws_(draws) {
-    if (!on) return;
+    : geometry_(geometry), draws_(draws), on_(on) {
     const SampleGrid grid = gridOf(device, view, samples);
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t place = 0;
     draws_.runs.clear();
     for (std::uint32_t i = 0; i < draws_.solid; ++i) {
         DrawItem& item = draws_.items[i];
-        const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
-        const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
-        shown_.emplace_back(grid, clipFromWorld * fromEye(placed, view.eye()), item.range.bounds_min,
-                            item.range.bounds_max, oneSided, item.mirrored);
         if (item.box >= 0) continue;
+        const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
+        const glm::dmat4 fromCamera = fromEye(placed, view.eye());
+        const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
+        const PrimitiveRange& range = item.range;
+        Item made{ShownClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
+                                oneSided, item.mirrored),
+                  glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
+                  range.first_cluster,
+                  range.cluster_count,
+                  static_cast<std::uint32_t>(order_.size()),
+                  static_cast<std::uint32_t>(parts_.size()),
+                  (range.cluster_count + partClusters - 1) / partClusters,
+                  place};
+        for (std::uint32_t first = 0; first < range.cluster_count; first += partClusters)
+            parts_.push_back({static_cast<std::uint32_t>(items_.size()), made.first + first,
+                              std::min(partClusters, range.cluster_count - first)});
+        order_.resize(order_.size() + range.cluster_count);
+        place += range.index_count;
         item.chosen = true;
-        item.first_run = static_cast<std::uint32_t>(draws_.runs.size());
-        for (std::uint32_t first = 0; first < item.range.cluster_count; first += partClusters) {
-            const std::uint32_t clusters = std::min(partClusters, item.range.cluster_count - first);
-            parts_.push_back({i, item.range.first_cluster + first, clusters,
-                              static_cast<std::uint32_t>(draws_.runs.size()), place});
-            draws_.runs.push_back({place, 0});
-            for (const Cluster& cluster : geometry.clusters(item.range).subspan(first, clusters))
-                place += cluster.index_count;
-        }
-        item.runs = static_cast<std::uint32_t>(draws_.runs.size()) - item.first_run;
+        item.first_run = made.first_part;
+        item.runs = made.parts;
+        items_.push_back(made);
     }
     if (!any()) return;
+    draws_.runs.resize(parts_.size());
     indices_ = GpuBuffer(device, "chosen indices", std::uint64_t{place} * sizeof(std::uint32_t),
                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
     run();
 }
 
-void Culling::choose(const Part& part, std::uint32_t* indices) const {
-    const ShownClusters& shown = shown_[part.item];
+// From near to far by the middles of the clusters' boxes, so that what is hidden fails its depth test before
+// it is shaded.
+void Culling::order(const Item& item) {
+    struct Deep {
+        double depth;
+        std::uint32_t cluster;
+        bool operator<(const Deep& other) const {
+            return depth < other.depth || (depth == other.depth && cluster < other.cluster);
+        }
+    };
+    std::vector<Deep> sorted(item.clusters);
+    for (std::uint32_t k = 0; k < item.clusters; ++k) {
+        const std::uint32_t cluster = item.first_cluster + k;
+        sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.cluster(cluster)), 1)), cluster};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::uint32_t place = item.place;
+    for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p) {
+        Part& part = parts_[p];
+        part.place = place;
+        for (std::uint32_t k = part.first; k < part.first + part.clusters; ++k) {
+            order_[k] = sorted[k - item.first].cluster;
+            place += geometry_.cluster(order_[k]).index_count;
+        }
+    }
+}
+
+void Culling::choose(std::size_t part, std::uint32_t* indices) {
+    const Part& of = parts_[part];
+    const ShownClusters& shown = items_[of.item].shown;
     const ClusterTriangles& triangles = geometry_.clusterTriangles();
-    std::uint32_t* const first = indices + part.place;
-    std::uint32_t* next = first;
-    for (std::uint32_t k = part.first_cluster; k < part.first_cluster + part.clusters; ++k) {
-        const Cluster& cluster = geometry_.cluster(k);
-        const TriangleSet set = shown.of(cluster, triangles, triangles[k]);
-        const std::span<const std::uint32_t> of = geometry_.indicesOf(cluster);
-        if (set == triangles[k].all()) {
-            std::memcpy(next, of.data(), of.size_bytes());
-            next += of.size();
+    std::uint32_t* next = indices + of.place;
+    for (std::uint32_t k = of.first; k < of.first + of.clusters; ++k) {
+        const Cluster& cluster = geometry_.cluster(order_[k]);
+        const ClusterTriangles::Entry& entry = triangles[order_[k]];
+        const TriangleSet set = on_ ? shown.of(cluster, triangles, entry) : entry.all();
+        const std::span<const std::uint32_t> all = geometry_.indicesOf(cluster);
+        if (set == entry.all()) {
+            std::memcpy(next, all.data(), all.size_bytes());
+            next += all.size();
             continue;
         }
         for (TriangleSet left = set; left != 0; left &= left - 1, next += 3)
-            std::memcpy(next, of.data() + 3 * std::countr_zero(left), 3 * sizeof(std::uint32_t));
+            std::memcpy(next, all.data() + 3 * std::countr_zero(left), 3 * sizeof(std::uint32_t));
     }
-    draws_.runs[part.run].count = static_cast<std::uint32_t>(next - first);
+    draws_.runs[part] = {of.place, static_cast<std::uint32_t>(next - (indices + of.place))};
 }
 
 double Culling::run() {
     if (!any()) return 0;
     const auto start = std::chrono::steady_clock::now();
     auto* const indices = static_cast<std::uint32_t*>(indices_.mapped());
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { choose(parts_[i], indices); });
+    tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { order(items_[i]); });
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { choose(i, indices); });
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 

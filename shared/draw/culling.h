@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of a view's solid draws may show, chosen anew for every frame (--cull): indices of their triangles in
-// the order of clusters, which is that of --cull off.
+// The triangles of a view's solid draws, anew for every frame: clusters from near to far, and with --cull on
+// only what may show.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -16,7 +16,8 @@ namespace diptych {
 class Culling {
 public:
     // `draws`: of the pose and the view, and drawn from then on with what is chosen; its items stay as they
-    // are. Geometry and draws must outlive it. Posed instances are drawn whole, as their clusters move.
+    // are. `on`: what cannot show is left out; what is left comes in the same order. Geometry and draws must
+    // outlive it. Posed instances are drawn whole, as in the scene: their clusters have moved.
     Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
             bool on, DrawList& draws);
     Culling(const Culling&) = delete;
@@ -33,18 +34,29 @@ public:
     std::uint64_t bytes() const { return any() ? indices_.size() : 0; }
 
 private:
-    // Clusters of one item that follow one another, whose indices one run has.
-    struct Part {
-        std::uint32_t item, first_cluster, clusters;
-        std::uint32_t run;    // into DrawList::runs
+    // One instance: which of its clusters may show, and how deep they are.
+    struct Item {
+        ShownClusters shown;
+        glm::dvec4 depth;  // the view depth of an object's point is dot(depth, (point, 1)), m
+        std::uint32_t first_cluster, clusters;
+        std::uint32_t first;  // of as many, into order_
+        std::uint32_t first_part, parts;
         std::uint32_t place;  // of its first index
     };
-    void choose(const Part& part, std::uint32_t* indices) const;
+    // Clusters of one item that follow one another in order_, whose indices one run has.
+    struct Part {
+        std::uint32_t item, first, clusters;
+        std::uint32_t place = 0;  // of its first index
+    };
+    void order(const Item& item);
+    void choose(std::size_t part, std::uint32_t* indices);
 
     const Geometry& geometry_;
     DrawList& draws_;
-    std::vector<ShownClusters> shown_;  // by item
-    std::vector<Part> parts_;
+    bool on_;
+    std::vector<Item> items_;
+    std::vector<Part> parts_;           // each has the run of its number
+    std::vector<std::uint32_t> order_;  // numbers of clusters
     GpuBuffer indices_;
 };
 

@@ -97,7 +97,7 @@ TEST(Culling, ChangesNoBitUnderAnySetting) {
 }
 
 // A ball of clusters, and the same again in its place: whichever triangle comes last shows.
-Primitive ballTwice(int material, std::uint32_t seed) {
+Primitive ballTwice(int of_material, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> part(-1, 1);
     constexpr int rings = 14;
@@ -128,7 +128,7 @@ Primitive ballTwice(int material, std::uint32_t seed) {
     }
     for (const std::uint32_t index : once)
         ball.indices.push_back(static_cast<std::uint32_t>(corners) + index);
-    ball.material = material;
+    ball.material = of_material;
     return ball;
 }
 

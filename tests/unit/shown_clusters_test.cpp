@@ -297,7 +297,7 @@ TEST(ShownClusters, BacksAreLeftOut) {
     };
     EXPECT_LT(kept(false, true), 0.45);  // (1 - 1 / 4.1) / 2 are in front of the horizon
     EXPECT_LT(kept(true, true), 0.58);
-    EXPECT_EQ(kept(false, false), 1);
+    EXPECT_GT(kept(false, false), 0.95);  // of which some are smaller than between samples
 }
 
 TEST(ShownClusters, WhatIsBeyondTheViewIsLeftOut) {
