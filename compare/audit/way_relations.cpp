@@ -34,6 +34,12 @@ void drawPrepass(Related& related, const Subject&) {
     related.changed.settings.prepass = Switch::on;
 }
 
+void drawAll(Related& related, const Subject&) {
+    related.own_base = true;
+    related.base.settings.cull = true;
+    related.changed.settings.cull = false;
+}
+
 std::string lacksStillness(const Subject& subject) {
     return subject.moves ? "something in the scene is animated" : "";
 }
@@ -73,6 +79,13 @@ std::vector<Relation> wayRelations() {
              .because = "what is hidden is not shaded, and what is seen is shaded alike",
              .lacks = lacksNone,
              .change = drawPrepass,
+             .of_settings = true},
+            {.name = "cull",
+             .changes = "triangles that cannot show are drawn, too",
+             .because = "they cover no sample",
+             .lacks = lacksNone,
+             .change = drawAll,
+             .same_pipelines = true,
              .of_settings = true},
             {.name = "still_time",
              .changes = "10 s later, of a scene in which nothing moves",

@@ -83,6 +83,9 @@ Json jsonOf(const ScenePlan& plan) {
                          {"bytes_per_pixel", path.bytes.front().geometry},
                          {"samples", samples},
                          {"shared_bytes_per_pixel", path.shared_bytes_per_pixel},
+                         {"triangles_in_view", path.drawn.in_view},
+                         {"triangles_drawn", path.drawn.drawn},
+                         {"vertices_drawn", path.drawn.vertices},
                          {"notes", path.notes}});
     }
     return {{"scene", plan.scene},
@@ -123,6 +126,8 @@ void print(const ScenePlan& plan) {
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
                 : "");
+        fmt::print("    {} of {} triangles are in view and {} drawn, with {} vertices\n", path.drawn.in_view,
+                   needs.triangles, path.drawn.drawn, path.drawn.vertices);
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
     for (const FrameWork& work : plan.work) print(work);

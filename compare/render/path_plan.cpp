@@ -48,6 +48,7 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
                       passes.names(),
                       {{s.msaa, bytes.geometry, bytes.all}},
                       passes.sharedBytes(),
+                      drawnCounts(view.draws, shared.geometry, view.culling),
                       {}};
         for (const std::string& note : view.notes) plan.notes.push_back(note);
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", view.draws.items.size(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/draw/culling.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
 #include "shared/vulkan/device.h"
@@ -28,6 +29,7 @@ struct PathPlan {
     std::vector<SampledBytes> bytes;  // first as planned, then with other numbers of samples a pixel
     std::uint64_t shared_bytes_per_pixel =
         0;  // saved where images that are never needed together share memory
+    DrawnCounts drawn;
     std::vector<std::string> notes;
 };
 std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings);

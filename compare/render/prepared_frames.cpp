@@ -35,7 +35,9 @@ std::size_t PreparedFrames::size() const {
 }
 
 double PreparedFrames::draw(std::size_t i) {
-    return state_->frames.at(i)->passes.run();
+    PreparedFrame& frame = *state_->frames.at(i);
+    const double culling = frame.view.culling.run();
+    return culling + frame.passes.run();
 }
 
 double PreparedFrames::recordMs(std::size_t i) const {
@@ -54,8 +56,10 @@ void PreparedFrames::warmUp(std::span<const std::size_t> which) {
 }
 
 std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
-    PassList& passes = state_->frames.at(i)->passes;
+    PreparedFrame& frame = *state_->frames.at(i);
+    PassList& passes = frame.passes;
     std::vector<PassTime> times;
+    if (frame.view.culling.any()) times.push_back({"clusters", frame.view.culling.run()});
     for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
     return times;
 }

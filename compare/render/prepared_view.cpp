@@ -122,6 +122,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       materials(posed_materials ? *posed_materials : materials_at_rest),
       lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency)),
+      culling(device, shared.geometry, scene.pose, scene.view, settings.msaa, settings.cull, draws),
       posing(shared.posings.at(scene.pose, settings.skinning, shared.pipelines)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
@@ -145,6 +146,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .lights = lights,
           .draw_buffer = buffers.draws(),
           .sorted_indices = buffers.sortedIndices(),
+          .chosen_indices = culling.indices(),
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
@@ -228,8 +230,9 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
                 prepared.view.shadow.imageBytes() + prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.posings.bytes() + prepared.view.posing->bytes() +
                 prepared.view.materials.bufferBytes() + prepared.view.buffers.bytes() +
-                prepared.view.shadow.bytes() + prepared.view.environment.bytes() +
-                prepared.view.haze.bytes() + prepared.view.fragments.bytes(),
+                prepared.view.culling.bytes() + prepared.view.shadow.bytes() +
+                prepared.view.environment.bytes() + prepared.view.haze.bytes() +
+                prepared.view.fragments.bytes(),
             pixel.geometry, pixel.all * pixels};
 }
 

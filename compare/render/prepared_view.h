@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compare/render/path_table.h"
+#include "shared/draw/culling.h"
 #include "shared/draw/frame_buffers.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/environment/environment_light.h"
@@ -66,6 +67,7 @@ public:
     const Materials& materials;
     GpuLights lights;
     DrawList draws;
+    Culling culling;
     std::shared_ptr<const Posing> posing;
     FrameBuffers buffers;
     EnvironmentLight environment;

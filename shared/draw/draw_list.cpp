@@ -29,12 +29,6 @@ glm::dmat3 normalFromObject(const glm::dmat3& m) {
     return cofactors * ((glm::determinant(m) < 0 ? -1.0 : 1.0) / length);
 }
 
-glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
-    glm::dmat4 fromCamera = placed.world_from_object;
-    fromCamera[3] -= glm::dvec4(eye, 0.0);
-    return fromCamera;
-}
-
 gpu::Draw gpuDraw(const PlacedPrimitive& placed, const glm::dvec3& eye, const glm::dmat4& clipFromWorld) {
     const glm::dmat4 fromCamera = fromEye(placed, eye);
     return {glm::mat4(clipFromWorld * fromCamera), glm::mat4x3(fromCamera),
@@ -227,6 +221,12 @@ bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, 
 
 }  // namespace
 
+glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
+    glm::dmat4 fromCamera = placed.world_from_object;
+    fromCamera[3] -= glm::dvec4(eye, 0.0);
+    return fromCamera;
+}
+
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency) {
     DrawList list;
@@ -252,6 +252,11 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         item.instance = i;
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
+        if (!item.blended && item.box < 0) {
+            item.first_run = static_cast<std::uint32_t>(list.runs.size());
+            item.runs = 1;
+            list.runs.push_back({geometry.clusters(range).front().first_index, range.index_count});
+        }
         const ObjectBox box(range.bounds_min, range.bounds_max);
         item.depth = glm::dot(-view.backward(), glm::dvec3(fromCamera * glm::dvec4(box.centre, 1)));
         add(list, item, placed, view.eye(), clipFromWorld);

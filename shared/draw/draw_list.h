@@ -42,6 +42,7 @@ enum class Sides {
 struct DrawItem {
     PrimitiveRange range;
     std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
+    bool chosen = false;                    // these are indices of Culling, of which there may be none
     std::uint32_t draw = 0;                 // into DrawList::draws
     std::uint32_t instance = 0;             // into Pose::instances
     int box = -1;                           // into Pose::boxes; -1: not posed
@@ -66,16 +67,19 @@ struct DrawList {
     std::vector<std::uint32_t> sorted_indices;
     std::vector<SortedRun> sorted_runs;
     std::uint32_t culled = 0;     // instances that are not drawn
-    std::uint64_t triangles = 0;  // that are drawn
-
+    std::uint64_t triangles = 0;  // that are in view; of casters, that are drawn
     std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
     std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
 };
 
+// World axes from the eye, of a primitive's stored positions.
+glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
+
 // Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
 // then by variant and material, then as in the scene. What encloses other things, a room or a ground, comes
 // after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
-// only where its bounding box lies wholly beyond one plane of the view.
+// only where its bounding box lies wholly beyond one plane of the view. Triangles of a solid draw come in the
+// order of clusters, but where it is posed in the scene's.
 // Blended draws come after all others: from far to near by the centre of the bounding box, a double-sided one
 // twice, first its backs (`Transparency::sorted`), or as in the scene. With `Transparency::triangles` they
 // stay as in the scene, and `sorted_runs` has the order in which their triangles are drawn: from far to near

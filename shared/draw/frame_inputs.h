@@ -30,6 +30,7 @@ struct FrameInputs {
     const GpuLights& lights;
     VkBuffer draw_buffer;                      // Draw[draws.draws]
     VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; none where those are empty
+    VkBuffer chosen_indices = VK_NULL_HANDLE;  // of DrawItem::chosen
     VkDescriptorSet frame_set;                 // SET_FRAME
     const Placeholders& placeholders;
     LightLists& lists;

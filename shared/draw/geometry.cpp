@@ -11,9 +11,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include <tbb/parallel_for.h>
+
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych {
 
@@ -70,7 +73,7 @@ std::vector<glm::vec3> countedFrom(const glm::dvec3& origin, const std::vector<g
 
 // Throws std::runtime_error where there are too many: they are stored up to twice, in the scene's order and
 // in that of clusters.
-std::uint32_t indicesOf(const Scene& scene) {
+std::uint32_t indexCountOf(const Scene& scene) {
     std::uint64_t sum = 0;
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives) sum += p.indices.size();
@@ -79,17 +82,49 @@ std::uint32_t indicesOf(const Scene& scene) {
     return static_cast<std::uint32_t>(sum);
 }
 
+// A primitive as it is drawn.
+struct CutPrimitive {
+    std::vector<glm::vec3> moved;  // its positions, where those are not the scene's
+    std::vector<std::uint32_t> indices;
+    std::vector<Cluster> clusters;
+    ClusterTriangles triangles;
+    const std::vector<glm::vec3>& positions(const Primitive& p) const {
+        return moved.empty() ? p.positions : moved;
+    }
+};
+
+// Of every primitive, mesh by mesh.
+std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin) {
+    std::vector<const Primitive*> all;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) all.push_back(&p);
+    std::vector<CutPrimitive> cuts(all.size());
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+        const Primitive& p = *all[i];
+        CutPrimitive& made = cuts[i];
+        if (origin != glm::dvec3(0) && isRigid(p, scene)) made.moved = countedFrom(origin, p.positions);
+        if (p.indices.empty()) return;
+        made.indices = p.indices;
+        made.clusters = cutIntoClusters(made.positions(p), made.indices);
+        for (const Cluster& cluster : made.clusters)
+            made.triangles.add(
+                cluster, made.positions(p),
+                std::span(std::as_const(made.indices)).subspan(cluster.first_index, cluster.index_count));
+    });
+    return cuts;
+}
+
 }  // namespace
 
 Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : scene_(scene) {
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;
     std::vector<std::uint32_t> indices;
-    // After all indices, and of primitives that are more than one cluster alone.
-    std::vector<std::uint32_t> clustered;
-    const std::uint32_t allIndices = indicesOf(scene);
+    first_clustered_ = indexCountOf(scene);
     const std::vector<bool> mayBlend = materialsThatBlend(scene);
     const glm::dvec3 origin = originOf(scene);
+    std::vector<CutPrimitive> cuts = cut(scene, origin);
+    std::size_t next = 0;
     for (const Mesh& mesh : scene.meshes) {
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
@@ -102,12 +137,9 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             range.material = static_cast<std::uint32_t>(p.material);
             range.vertex_color = !p.colors.empty();
             range.vanishing_normals = mayVanish(p);
-            std::vector<glm::vec3> moved;
-            if (origin != glm::dvec3(0) && isRigid(p, scene)) {
-                range.origin = origin;
-                moved = countedFrom(origin, p.positions);
-            }
-            const std::vector<glm::vec3>& stored = moved.empty() ? p.positions : moved;
+            CutPrimitive made = std::move(cuts[next++]);
+            if (!made.moved.empty()) range.origin = origin;
+            const std::vector<glm::vec3>& stored = made.positions(p);
             if (!stored.empty()) range.bounds_min = range.bounds_max = stored[0];
             for (std::size_t i = 0; i < stored.size(); ++i) {
                 attributes.push_back(attributesOf(p, i));
@@ -117,17 +149,12 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             positions.insert(positions.end(), stored.begin(), stored.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
             range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
-            if (p.indices.size() > 3 * clusterTriangles) {
-                const auto first = static_cast<std::uint32_t>(clustered.size());
-                clustered.insert(clustered.end(), p.indices.begin(), p.indices.end());
-                for (Cluster cluster : cutIntoClusters(stored, std::span(clustered).subspan(first))) {
-                    cluster.first_index += allIndices + first;
-                    clusters_.push_back(cluster);
-                }
-            } else if (range.index_count > 0) {
-                clusters_.push_back(
-                    {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
+            for (Cluster cluster : made.clusters) {
+                cluster.first_index += first_clustered_ + static_cast<std::uint32_t>(clustered_.size());
+                clusters_.push_back(cluster);
             }
+            clustered_.insert(clustered_.end(), made.indices.begin(), made.indices.end());
+            cluster_triangles_.add(made.triangles);
             range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
             if (mayBlend[range.material]) {
                 range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
@@ -138,7 +165,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             ranges_.back().push_back(range);
         }
     }
-    indices.insert(indices.end(), clustered.begin(), clustered.end());
+    indices.insert(indices.end(), clustered_.begin(), clustered_.end());
     // Posing reads them by address, and copies what it leaves as it is.
     constexpr VkBufferUsageFlags posed =
         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -193,6 +220,10 @@ void Geometry::bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices) 
     bindVertices(commands);
     constexpr VkDeviceSize none = 0;
     vkCmdBindVertexBuffers(commands, 2, 1, &draws, &none);
+    bindIndices(commands, indices);
+}
+
+void Geometry::bindIndices(VkCommandBuffer commands, VkBuffer indices) const {
     vkCmdBindIndexBuffer(commands, indices != VK_NULL_HANDLE ? indices : indices_.handle(), 0,
                          VK_INDEX_TYPE_UINT32);
 }

@@ -2,7 +2,7 @@
 // Every primitive of a scene in three buffers: positions, other attributes, indices.
 #pragma once
 
-#include "shared/draw/clusters.h"
+#include "shared/draw/cluster_triangles.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/instances.h"
 #include "shared/vulkan/resources.h"
@@ -63,6 +63,12 @@ public:
     std::span<const Cluster> clusters(const PrimitiveRange& range) const {
         return std::span(clusters_).subspan(range.first_cluster, range.cluster_count);
     }
+    // By their number, which counts from PrimitiveRange::first_cluster on.
+    const Cluster& cluster(std::uint32_t number) const { return clusters_[number]; }
+    const ClusterTriangles& clusterTriangles() const { return cluster_triangles_; }
+    std::span<const std::uint32_t> indicesOf(const Cluster& cluster) const {
+        return std::span(clustered_).subspan(cluster.first_index - first_clustered_, cluster.index_count);
+    }
     PlacedPrimitive placed(const Pose& pose, const Instance& instance) const;
     std::span<const Cluster> clusters(const PlacedPrimitive& placed) const {
         return placed.box >= 0 ? std::span(&placed.whole, 1) : clusters(placed.range);
@@ -74,20 +80,28 @@ public:
     // `indices`: others than the scene's.
     void bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices = VK_NULL_HANDLE) const;
     void bindVertices(VkCommandBuffer commands) const;  // without draws and indices
+    void bindIndices(VkCommandBuffer commands, VkBuffer indices = VK_NULL_HANDLE) const;
     const Scene& scene() const { return scene_; }
     const GpuBuffer& positions() const { return positions_; }
     const GpuBuffer& attributes() const { return attributes_; }
     const GpuBuffer& indices() const { return indices_; }
     std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
-    // On the host, of what blends.
+    // On the host: of what blends, and of clusters.
     std::uint64_t hostBytes() const {
         return kept_positions_.size() * sizeof(glm::vec3) + kept_indices_.size() * sizeof(std::uint32_t);
+    }
+    std::uint64_t clusterBytes() const {
+        return clusters_.size() * sizeof(Cluster) + cluster_triangles_.bytes() +
+               clustered_.size() * sizeof(std::uint32_t);
     }
 
 private:
     const Scene& scene_;
     std::vector<std::vector<PrimitiveRange>> ranges_;
     std::vector<Cluster> clusters_;
+    ClusterTriangles cluster_triangles_;     // of these
+    std::vector<std::uint32_t> clustered_;   // their indices, as the device has them
+    std::uint32_t first_clustered_ = 0;      // where those begin there
     std::vector<glm::vec3> kept_positions_;  // of what blends
     std::vector<std::uint32_t> kept_indices_;
     GpuBuffer positions_, attributes_, indices_;

@@ -117,6 +117,10 @@ public:
                 inputs_.geometry.bindVertices(commands_);
             posed_ = posed;
         }
+        if (item.chosen != chosen_) {
+            inputs_.geometry.bindIndices(commands_, item.chosen ? inputs_.chosen_indices : VK_NULL_HANDLE);
+            chosen_ = item.chosen;
+        }
         vkCmdSetCullMode(commands_, culledOf(source_, item));
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
         vkCmdSetFrontFace(commands_,
@@ -138,7 +142,8 @@ private:
     const ConstantsOf& constants_of_;
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
-    bool posed_ = false;  // whether posed vertices are bound
+    bool posed_ = false;   // whether posed vertices are bound
+    bool chosen_ = false;  // whether indices of Culling are
 };
 
 template <class ConstantsOf>
@@ -147,12 +152,17 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
     inputs.geometry.bind(commands, source.buffer);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
     for (std::size_t i = 0; i < pipelines.size(); ++i) {
-        recorder.take(i);
         const DrawItem& item = source.items[i];
         const IndexRun whole{item.range.first_index, item.range.index_count};
         const std::span<const IndexRun> runs =
             item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
-        for (const IndexRun& run : runs) recorder.draw(run);
+        bool taken = false;
+        for (const IndexRun& run : runs) {
+            if (run.count == 0) continue;
+            if (!taken) recorder.take(i);
+            taken = true;
+            recorder.draw(run);
+        }
     }
 }
 

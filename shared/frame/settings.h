@@ -21,6 +21,7 @@ struct Settings {
     Assignment assign = Assignment::clustered;
     LightKernel light_kernel = LightKernel::automatic;
     Switch prepass = Switch::automatic;
+    bool cull = true;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
     DepthFormat depth_format = DepthFormat::d32f;
     LitFormat lit_format = LitFormat::fp32;
@@ -287,6 +288,14 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "on,off",
                 .for_surfaces = "on"},
           &Settings::prepass);
+    visit(Field{.option = "cull",
+                .help = "triangles of solid surfaces that cannot show are not drawn: beyond the view, turned "
+                        "away, or "
+                        "between samples; pictures are the same",
+                .off = "off",
+                .ignored = {.reference = "the reference draws no triangles"},
+                .for_surfaces = "on"},
+          &Settings::cull);
     visit(Field{.option = "gbuffer",
                 .help = "encoding of the deferred path's G-buffer",
                 .ignored = {.forward_plus = "forward_plus has no G-buffer",

@@ -450,6 +450,7 @@ TEST(CommandLine, HelpShowsTheSettings) {
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
         for (const char* option : {"gbuffer",
+                                   "cull",
                                    "pixel-lights",
                                    "spp",
                                    "reference-mode",

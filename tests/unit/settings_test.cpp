@@ -25,6 +25,7 @@ Settings everythingChanged() {
     s.assign = Assignment::per_object;
     s.light_kernel = LightKernel::gather;
     s.prepass = Switch::off;
+    s.cull = false;
     s.gbuffer = GBufferEncoding::full;
     s.depth_format = DepthFormat::d16;
     s.lit_format = LitFormat::b10g11r11;
@@ -380,6 +381,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"multiscatter", "fdez"},
         {"prepass", "on"},
         {"prepass", "off"},
+        {"cull", "off"},
         {"gbuffer", "compact"},
         {"gbuffer", "full"},
         {"size", "1x1"},
@@ -709,7 +711,7 @@ TEST(Settings, WhatIsNoSettingIsSentToWhereItBelongs) {
 }
 
 TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
-    for (const char* option : {"prepass", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
+    for (const char* option : {"prepass", "cull", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
                                "shadows", "evsm-bleed", "msaa", "haze", "haze-march-steps"})
         for (const std::string word : {"off", "none"}) {
             Settings said;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/culling.h"
+
+#include "shared/contract/features.h"
+
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace diptych {
+
+namespace {
+
+// Clusters that one thread goes through at a time.
+constexpr std::uint32_t partClusters = 64;
+
+SampleGrid gridOf(const Device& device, const View& view, int samples) {
+    // A step of the grid that corners are moved to; nothing says whether they go to the nearest.
+    return {view.width, view.height, samples,
+            std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
+}
+
+}  // namespace
+
+Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
+                 bool on, DrawList& draws)
+    : geometry_(geometry), draws_(draws), on_(on) {
+    const SampleGrid grid = gridOf(device, view, samples);
+    const glm::dmat4 clipFromWorld = view.clipFromWorld();
+    std::uint32_t place = 0;
+    draws_.runs.clear();
+    for (std::uint32_t i = 0; i < draws_.solid; ++i) {
+        DrawItem& item = draws_.items[i];
+        if (item.box >= 0) continue;
+        const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
+        const glm::dmat4 fromCamera = fromEye(placed, view.eye());
+        const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
+        const PrimitiveRange& range = item.range;
+        Item made{ShownClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
+                                oneSided, item.mirrored),
+                  glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
+                  range.first_cluster,
+                  range.cluster_count,
+                  static_cast<std::uint32_t>(order_.size()),
+                  static_cast<std::uint32_t>(parts_.size()),
+                  (range.cluster_count + partClusters - 1) / partClusters,
+                  place};
+        for (std::uint32_t first = 0; first < range.cluster_count; first += partClusters)
+            parts_.push_back({static_cast<std::uint32_t>(items_.size()), made.first + first,
+                              std::min(partClusters, range.cluster_count - first)});
+        order_.resize(order_.size() + range.cluster_count);
+        place += range.index_count;
+        item.chosen = true;
+        item.first_run = made.first_part;
+        item.runs = made.parts;
+        items_.push_back(made);
+    }
+    if (!any()) return;
+    draws_.runs.resize(parts_.size());
+    indices_ = GpuBuffer(device, "chosen indices", std::uint64_t{place} * sizeof(std::uint32_t),
+                         VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
+    run();
+}
+
+// From near to far by the middles of the clusters' boxes, so that what is hidden fails its depth test before
+// it is shaded.
+void Culling::order(const Item& item) {
+    struct Deep {
+        double depth;
+        std::uint32_t cluster;
+        bool operator<(const Deep& other) const {
+            return depth < other.depth || (depth == other.depth && cluster < other.cluster);
+        }
+    };
+    std::vector<Deep> sorted(item.clusters);
+    for (std::uint32_t k = 0; k < item.clusters; ++k) {
+        const std::uint32_t cluster = item.first_cluster + k;
+        sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.cluster(cluster)), 1)), cluster};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::uint32_t place = item.place;
+    for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p) {
+        Part& part = parts_[p];
+        part.place = place;
+        for (std::uint32_t k = part.first; k < part.first + part.clusters; ++k) {
+            order_[k] = sorted[k - item.first].cluster;
+            place += geometry_.cluster(order_[k]).index_count;
+        }
+    }
+}
+
+void Culling::choose(std::size_t part, std::uint32_t* indices) {
+    const Part& of = parts_[part];
+    const ShownClusters& shown = items_[of.item].shown;
+    const ClusterTriangles& triangles = geometry_.clusterTriangles();
+    std::uint32_t* next = indices + of.place;
+    for (std::uint32_t k = of.first; k < of.first + of.clusters; ++k) {
+        const Cluster& cluster = geometry_.cluster(order_[k]);
+        const ClusterTriangles::Entry& entry = triangles[order_[k]];
+        const TriangleSet set = on_ ? shown.of(cluster, triangles, entry) : entry.all();
+        const std::span<const std::uint32_t> all = geometry_.indicesOf(cluster);
+        if (set == entry.all()) {
+            std::memcpy(next, all.data(), all.size_bytes());
+            next += all.size();
+            continue;
+        }
+        for (TriangleSet left = set; left != 0; left &= left - 1, next += 3)
+            std::memcpy(next, all.data() + 3 * std::countr_zero(left), 3 * sizeof(std::uint32_t));
+    }
+    draws_.runs[part] = {of.place, static_cast<std::uint32_t>(next - (indices + of.place))};
+}
+
+double Culling::run() {
+    if (!any()) return 0;
+    const auto start = std::chrono::steady_clock::now();
+    auto* const indices = static_cast<std::uint32_t*>(indices_.mapped());
+    tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { order(items_[i]); });
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { choose(i, indices); });
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling) {
+    DrawnCounts counts;
+    std::vector<std::uint32_t> used;
+    for (const DrawItem& item : draws.items) {
+        counts.in_view += item.range.index_count / 3;
+        used.clear();
+        if (item.chosen)
+            for (const IndexRun& run : std::span(draws.runs).subspan(item.first_run, item.runs)) {
+                const std::span<const std::uint32_t> of = culling.chosen(run);
+                used.insert(used.end(), of.begin(), of.end());
+            }
+        else
+            for (const Cluster& cluster : geometry.clusters(item.range)) {
+                const std::span<const std::uint32_t> of = geometry.indicesOf(cluster);
+                used.insert(used.end(), of.begin(), of.end());
+            }
+        counts.drawn += used.size() / 3;
+        std::ranges::sort(used);
+        counts.vertices += static_cast<std::uint64_t>(std::ranges::unique(used).begin() - used.begin());
+    }
+    return counts;
+}
+
+}  // namespace diptych

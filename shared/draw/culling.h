@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The triangles of a view's solid draws, anew for every frame: clusters from near to far, and with --cull on
+// only what may show.
+#pragma once
+
+#include "shared/draw/draw_list.h"
+#include "shared/draw/shown_clusters.h"
+#include "shared/vulkan/resources.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+class Culling {
+public:
+    // `draws`: of the pose and the view, and drawn from then on with what is chosen; its items stay as they
+    // are. `on`: what cannot show is left out; what is left comes in the same order. Geometry and draws must
+    // outlive it. Posed instances are drawn whole, as in the scene: their clusters have moved.
+    Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
+            bool on, DrawList& draws);
+    Culling(const Culling&) = delete;
+    Culling& operator=(const Culling&) = delete;
+
+    // Chooses, into the buffer of indices(): before a frame is submitted that draws from it, and while none
+    // is drawn. Returns how long it took, ms; 0 where nothing is to choose.
+    double run();
+    bool any() const { return !parts_.empty(); }
+    VkBuffer indices() const { return indices_.handle(); }  // of DrawItem::chosen
+    std::span<const std::uint32_t> chosen(const IndexRun& run) const {
+        return {static_cast<const std::uint32_t*>(indices_.mapped()) + run.first, run.count};
+    }
+    std::uint64_t bytes() const { return any() ? indices_.size() : 0; }
+
+private:
+    // One instance: which of its clusters may show, and how deep they are.
+    struct Item {
+        ShownClusters shown;
+        glm::dvec4 depth;  // the view depth of an object's point is dot(depth, (point, 1)), m
+        std::uint32_t first_cluster, clusters;
+        std::uint32_t first;  // of as many, into order_
+        std::uint32_t first_part, parts;
+        std::uint32_t place;  // of its first index
+    };
+    // Clusters of one item that follow one another in order_, whose indices one run has.
+    struct Part {
+        std::uint32_t item, first, clusters;
+        std::uint32_t place = 0;  // of its first index
+    };
+    void order(const Item& item);
+    void choose(std::size_t part, std::uint32_t* indices);
+
+    const Geometry& geometry_;
+    DrawList& draws_;
+    bool on_;
+    std::vector<Item> items_;
+    std::vector<Part> parts_;           // each has the run of its number
+    std::vector<std::uint32_t> order_;  // numbers of clusters
+    GpuBuffer indices_;
+};
+
+// What the draws of a view amount to.
+struct DrawnCounts {
+    std::uint64_t in_view = 0;   // triangles of instances that are drawn at all
+    std::uint64_t drawn = 0;     // of these, those that Culling leaves
+    std::uint64_t vertices = 0;  // that differ, draw by draw: a device shades no fewer
+};
+DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling);
+
+}  // namespace diptych

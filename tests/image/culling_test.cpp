@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Triangles that --cull leaves out change no bit of a picture, and a device is spared them.
+#include "compare/render/prepared_view.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/shadow_scenes.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <functional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr auto litMode = static_cast<int>(gpu::DEBUG_lit);
+
+Settings cullingSettings(Path path, Size size = {160, 90}) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = path;
+    settings.size = size;
+    return settings;
+}
+
+// Every channel that the path makes.
+void expectSameCulled(Renderer& renderer, Settings settings, const std::string& name) {
+    RenderOptions options;
+    for (int mode = 0; mode < static_cast<int>(debugModes().size()); ++mode) options.channels.push_back(mode);
+    options.runs = 0;
+    settings.cull = true;
+    const Frame culled = renderer.draw(settings, options);
+    settings.cull = false;
+    const Frame all = renderer.draw(settings, options);
+    EXPECT_GE(culled.channels.size(), 10u);
+    ASSERT_EQ(culled.channels.size(), all.channels.size());
+    for (const auto& [mode, image] : culled.channels)
+        EXPECT_EQ(differingPixels(image, all.channels.at(mode)), 0u)
+            << name << " " << nameOf(settings.path) << " " << debugMode(mode).name;
+}
+
+void expectSameInBothPaths(Renderer& renderer, const std::string& name,
+                           const std::function<void(Settings&)>& change = {}) {
+    for (const Path path : drawn_paths) {
+        Settings settings = cullingSettings(path);
+        if (change) change(settings);
+        expectSameCulled(renderer, settings, name);
+    }
+}
+
+class CullingOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(CullingOf, ChangesNoBit) {
+    Renderer& renderer = uploaded(GetParam()).renderer;
+    expectSameInBothPaths(renderer, "plain");
+    expectSameInBothPaths(renderer, "four samples", [](Settings& s) { s.msaa = 4; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, CullingOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:coplanar",
+                                         "builtin:ortho", "builtin:cutout", "builtin:glass",
+                                         "builtin:mirrored", "builtin:stretched", "builtin:motion",
+                                         "builtin:far_away", "builtin:deep"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+TEST(Culling, ChangesNoBitUnderAnySetting) {
+    Renderer& gallery = uploaded("builtin:gallery").renderer;
+    for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::evsm, Shadows::clipmap})
+        expectSameInBothPaths(gallery, fmt::format("shadows {}", nameOf(shadows)), [&](Settings& s) {
+            s.shadows = shadows;
+            s.shadow_size = 256;
+        });
+    expectSameInBothPaths(gallery, "fitted shadows", [](Settings& s) { s.shadow_fit = ShadowFit::depth; });
+    expectSameInBothPaths(gallery, "pre-pass", [](Settings& s) { s.prepass = Switch::on; });
+    expectSameInBothPaths(gallery, "tiled", [](Settings& s) { s.assign = Assignment::tiled; });
+    expectSameInBothPaths(gallery, "by object", [](Settings& s) { s.assign = Assignment::per_object; });
+    expectSameInBothPaths(gallery, "16 bits of depth",
+                          [](Settings& s) { s.depth_format = DepthFormat::d16; });
+    expectSameInBothPaths(gallery, "samples shaded", [](Settings& s) {
+        s.msaa = 4;
+        s.msaa_shading = MsaaShading::sample;
+    });
+    Renderer& motion = uploaded("builtin:motion").renderer;
+    for (const Skinning skinning : {Skinning::compute, Skinning::vertex})
+        for (const double time : {0.3, 1.1})
+            expectSameInBothPaths(motion, fmt::format("{} {}", nameOf(skinning), time), [&](Settings& s) {
+                s.skinning = skinning;
+                s.time = time;
+            });
+    Renderer& blended = uploaded("builtin:crossed").renderer;
+    for (const auto& [transparency, name] : enumNames<Transparency>())
+        expectSameInBothPaths(blended, std::string(name),
+                              [&, order = transparency](Settings& s) { s.transparency = order; });
+}
+
+// A ball of clusters, and the same again in its place: whichever triangle comes last shows.
+Primitive ballTwice(int of_material, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> part(-1, 1);
+    constexpr int rings = 14;
+    Primitive ball;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i <= 2 * rings; ++i) {
+            const float phi = 3.14159265f * static_cast<float>(j) / rings,
+                        theta = 3.14159265f * static_cast<float>(i) / rings;
+            const glm::vec3 at(std::sin(phi) * std::cos(theta), std::cos(phi),
+                               -std::sin(phi) * std::sin(theta));
+            ball.positions.push_back(at * (1 + 0.1f * part(random)));
+            ball.normals.push_back(at);
+            ball.tangents.emplace_back(-std::sin(theta), 0, -std::cos(theta), 1);
+            ball.texcoords[0].emplace_back(part(random), part(random));
+        }
+    const auto at = [&](int j, int i) { return static_cast<std::uint32_t>(j * (2 * rings + 1) + i); };
+    for (int j = 0; j < rings; ++j)
+        for (int i = 0; i < 2 * rings; ++i)
+            ball.indices.insert(ball.indices.end(), {at(j, i), at(j + 1, i), at(j + 1, i + 1), at(j, i),
+                                                     at(j + 1, i + 1), at(j, i + 1)});
+    const std::vector<std::uint32_t> once = ball.indices;
+    const std::size_t corners = ball.positions.size();
+    for (std::size_t i = 0; i < corners; ++i) {
+        ball.positions.push_back(ball.positions[i]);
+        ball.normals.push_back(-ball.normals[i]);
+        ball.tangents.push_back(ball.tangents[i]);
+        ball.texcoords[0].push_back(-ball.texcoords[0][i]);
+    }
+    for (const std::uint32_t index : once)
+        ball.indices.push_back(static_cast<std::uint32_t>(corners) + index);
+    ball.material = of_material;
+    return ball;
+}
+
+// Mirrored, flattened, double-sided, within another, partly beyond the view, and coincident.
+TEST(Culling, ChangesNoBitAmongPlacedBalls) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> part(-1, 1);
+        Scene scene = groundUnder(sunAt(40));
+        scene.meshes.push_back({"ball", {ballTwice(1, seed)}});
+        scene.materials[1].double_sided = seed % 3 == 0;
+        for (int i = 0; i < 12; ++i) {
+            const double size = 0.1 + 0.4 * std::abs(part(random));
+            const glm::dvec3 at(3 * part(random), 0.8 + part(random), 3 * part(random)),
+                scale((i % 3 == 1 ? -1 : 1) * size, (i % 4 == 2 ? 0.1 : 1) * size, size);
+            scene.nodes.push_back({"ball", -1,
+                                   glm::scale(glm::rotate(glm::translate(glm::dmat4(1), at), part(random),
+                                                          glm::dvec3(0.6, 0, 0.8)),
+                                              scale),
+                                   1});
+        }
+        Renderer renderer(device(), scene, pipelines());
+        expectSameInBothPaths(renderer, fmt::format("seed {}", seed));
+        expectSameInBothPaths(renderer, fmt::format("seed {}, larger", seed), [](Settings& s) {
+            s.size = {400, 225};
+        });
+    }
+}
+
+// Of a ball that is seen from outside at most half is drawn.
+TEST(Culling, SparesADeviceWhatFacesAwayAndLiesBeyond) {
+    Settings settings = cullingSettings(Path::deferred, {1280, 720});
+    const auto counts = [&](bool cull) {
+        settings.cull = cull;
+        const Scene& scene = uploaded("builtin:spheres").scene;
+        SceneViews views(scene);
+        SharedResources shared(device(), scene, pipelines());
+        const PreparedView view(device(), shared, views.at(viewRequest(settings)), settings);
+        return drawnCounts(view.draws, shared.geometry, view.culling);
+    };
+    const DrawnCounts all = counts(false), culled = counts(true);
+    EXPECT_EQ(all.drawn, all.in_view);
+    EXPECT_EQ(culled.in_view, all.in_view);
+    EXPECT_LT(100 * culled.drawn, 40 * all.drawn);
+    EXPECT_LT(2 * culled.vertices, all.vertices);
+}
+
+}  // namespace
+}  // namespace diptych::tests
