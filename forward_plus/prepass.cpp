@@ -18,7 +18,7 @@ namespace {
 
 int texturesOf(const Variant& variant) {
     int count = 0;
-    for (const gpu::uint feature : slotFeatures) count += variant.get(feature) != 0;
+    for (const gpu::uint feature : slotFeatures) count += variant.get(feature) == gpu::TEXEL_OWN;
     return count;
 }
 

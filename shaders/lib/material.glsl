@@ -40,15 +40,38 @@ vec2 middleTexcoord(uint slot) {
 #endif
     return middle_texcoord;
 }
-vec4 slotTexel(sampler2D map, uint slot) {
+vec4 sampledTexel(sampler2D map, uint slot) {
     if (!multisampled()) return texture(map, slotTexcoord(slot));
     vec2 middle = middleTexcoord(slot);
     return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
 }
 
+// The texel of a slot that has a sample of its own or an image of one colour; `texel` is its feature. In
+// pixels that the triangle does not cover the latter may read 0: what takes differences to them samples the
+// map.
+vec4 slotTexel(sampler2D map, uint slot, uint texel) {
+    return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
+}
+vec4 baseColorTexel() { return slotTexel(base_color_texture, SLOT_base_color, feature_base_color_texture); }
+vec4 normalTexel() { return slotTexel(normal_texture, SLOT_normal, feature_normal_texture); }
+// Roughness in green, metallic in blue.
+vec4 metallicRoughnessTexel() {
+    if (feature_metallic_roughness_texture == TEXEL_ALPHAS)
+        return vec4(1.0, normalTexel().a, baseColorTexel().a, 1.0);
+    return slotTexel(metallic_roughness_texture, SLOT_metallic_roughness, feature_metallic_roughness_texture);
+}
+vec4 occlusionTexel() {
+    if (feature_occlusion_texture == TEXEL_SHARED) return metallicRoughnessTexel();
+    return slotTexel(occlusion_texture, SLOT_occlusion, feature_occlusion_texture);
+}
+vec4 emissiveTexel() {
+    if (feature_emissive_texture == TEXEL_SHARED) return baseColorTexel();
+    return slotTexel(emissive_texture, SLOT_emissive, feature_emissive_texture);
+}
+
 vec4 baseColor() {
     vec4 color = material.base_color;
-    if (on(feature_base_color_texture)) color *= slotTexel(base_color_texture, SLOT_base_color);
+    if (on(feature_base_color_texture)) color *= baseColorTexel();
     if (on(feature_vertex_color)) color *= shaded_color;
     return color;
 }
@@ -91,15 +114,19 @@ uint cutOut(vec4 base_color) {
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// The triangle's unit normal, facing the viewer, who is in the direction of `towards` (of any length). The
-// derivatives are scaled first, because in a tiny scene the square of their cross product's length would
-// underflow. For a triangle seen edge-on or without area it is the direction to the viewer.
-vec3 triangleNormal(vec3 towards) {
+// Along the triangle's normal, of any length but 0 and on either side. The derivatives are scaled first,
+// because in a tiny scene the square of their cross product's length would underflow. For a triangle seen
+// edge-on or without area it is the direction to the viewer, `towards` (of any length).
+vec3 alongTriangleNormal(vec3 towards) {
     vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
     vec3 n = crossProduct(dx * (1.0 / max(largestOf(dx), 1e-37)),
                           dy * (1.0 / max(largestOf(dy), 1e-37)));
-    vec3 facing = dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
-    vec3 unit = facing * inversesqrt(dot(facing, facing));
+    return dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
+}
+// The triangle's unit normal, on the viewer's side.
+vec3 triangleNormal(vec3 towards) {
+    vec3 along = alongTriangleNormal(towards);
+    vec3 unit = along * inversesqrt(dot(along, along));
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
@@ -110,7 +137,7 @@ vec3 mappedNormal(vec4 texel, float scale) {
     return t;
 }
 vec3 mappedNormal() {
-    return mappedNormal(slotTexel(normal_texture, SLOT_normal), material.normal_scale);
+    return mappedNormal(normalTexel(), material.normal_scale);
 }
 
 // `v` as a unit vector, or 0 where it has no direction.
@@ -126,16 +153,23 @@ vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
     return t.x * tangent.xyz + t.y * bitangent + t.z * n;
 }
 
-// On the back face of a double-sided material the result is negated. `triangle`, the triangle's normal,
-// replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants where
-// that can happen check for it.
-vec3 shadingNormal(vec3 triangle) {
+// On the back face of a double-sided material the result is negated. The triangle's normal replaces a normal
+// that vanished, flattened by the node's scale or by interpolation; only variants where that can happen check
+// for it. Either is made a unit vector by the same operations, which are then done once.
+vec3 shadingNormal(vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
     float length2 = dot(n, n);
-    if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
+    bool negated = on(feature_double_sided) && !gl_FrontFacing;
+    if (on(feature_vanishing_normals)) {
+        vec3 along = alongTriangleNormal(towards);
+        bool vanished = !(length2 > 0.0);
+        n = vanished ? along : n;
+        vec3 unit = n * inversesqrt(dot(n, n));
+        return (vanished ? dot(unit, towards) < 0.0 : negated) ? -unit : unit;
+    }
     vec3 unit = n * inversesqrt(length2);
-    return on(feature_double_sided) && !gl_FrontFacing ? -unit : unit;
+    return negated ? -unit : unit;
 }
 
 // The value in the pixels of a quad that the triangle covers, in all four. The others, whose differences make
@@ -176,10 +210,9 @@ Surface surfaceFromMaterial(vec4 base_color) {
     Material m = material;
     Surface s;
     s.position = positionFromDepth(shadedPixel(), fragmentDepth());
-    s.geometric_normal = vec3(0.0);
-    if (needsGeometricNormal() || on(feature_vanishing_normals))
-        s.geometric_normal = triangleNormal(on(feature_orthographic) ? view.backward : -v_world);
-    s.normal = shadingNormal(s.geometric_normal);
+    vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
+    s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
+    s.normal = shadingNormal(towards);
     s.material_id = constants.material;
     s.texcoord = shaded_texcoord;
     s.tangent = s.tangent_normal = vec3(0.0);
@@ -211,33 +244,35 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.metallic = m.metallic;
     s.roughness = m.roughness;
     if (on(feature_metallic_roughness_texture)) {
-        vec4 texel = slotTexel(metallic_roughness_texture, SLOT_metallic_roughness);
+        vec4 texel = metallicRoughnessTexel();
         s.roughness *= texel.g;
         s.metallic *= texel.b;
     }
     if (on(feature_specular_aa)) s.roughness = filteredRoughness(s.roughness);
     s.occlusion = 1.0;
     if (on(feature_occlusion_texture)) {
-        float texel = slotTexel(occlusion_texture, SLOT_occlusion).r;
+        float texel = occlusionTexel().r;
         s.occlusion = 1.0 + m.occlusion_strength * (texel - 1.0);
     }
     s.emission = vec3(0.0);
     if (on(feature_emission)) {
         s.emission = m.emission;
-        if (on(feature_emissive_texture))
-            s.emission *= slotTexel(emissive_texture, SLOT_emissive).rgb;
+        if (on(feature_emissive_texture)) s.emission *= emissiveTexel().rgb;
     }
-    if (on(feature_lightmap_texture))
-        s.lightmap = m.lightmap_intensity * slotTexel(lightmap_texture, SLOT_lightmap).rgb;
+    if (on(feature_lightmap_texture)) {
+        vec4 texel = slotTexel(lightmap_texture, SLOT_lightmap, feature_lightmap_texture);
+        s.lightmap = m.lightmap_intensity * texel.rgb;
+    }
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {
         s.dielectric_f0 = m.dielectric_f0;
         s.dielectric_f90 = m.specular;
         if (on(feature_specular_color_texture))
-            s.dielectric_f0 *= slotTexel(specular_color_texture, SLOT_specular_color).rgb;
+            s.dielectric_f0 *= slotTexel(specular_color_texture, SLOT_specular_color,
+                                         feature_specular_color_texture).rgb;
         if (on(feature_specular_texture))
-            s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular).a;
+            s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular, feature_specular_texture).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
     return s;

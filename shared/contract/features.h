@@ -14,7 +14,8 @@
 //   read by  the passes whose modules use the constant, a sum of PASS_*; a test holds it against the modules
 // clang-format off
 #define FEATURES(X)                                                                                         \
-    X(0,  base_color_texture,         item,    1, PASSES_DRAW)     /* material slots with a texture */      \
+    /* TEXEL_* of material.h: material slots with a texture */                                              \
+    X(0,  base_color_texture,         item,    1, PASSES_DRAW)                                              \
     X(1,  metallic_roughness_texture, item,    1, PASSES_SURFACE)                                           \
     X(2,  normal_texture,             item,    2, PASSES_SURFACE)                                           \
     X(3,  occlusion_texture,          item,    1, PASSES_SURFACE)                                           \

@@ -5,7 +5,7 @@
 #include "types.h"
 
 // The texture slots of a material, at these bindings of SET_MATERIAL. FEATURE_<name>_texture says that it has
-// one.
+// one, and where its texel is found: TEXEL_*.
 // clang-format off
 #define MATERIAL_SLOTS(X)        \
     X(0, base_color)             \
@@ -27,6 +27,15 @@ MATERIAL_SLOTS(DIPTYCH_SLOT_NUMBER)
 CONTRACT_CONST(uint, SLOT_COUNT, 0 MATERIAL_SLOTS(DIPTYCH_SLOT_ONE));
 #undef DIPTYCH_SLOT_ONE
 CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL, after the slots: uniform Material
+
+// Values of FEATURE_<slot>_texture: where its texel is found. All but the first take no sample of their own.
+CONTRACT_CONST(uint, TEXEL_OWN, 1);       // sampled
+CONTRACT_CONST(uint, TEXEL_CONSTANT, 2);  // Material::texels: the image has one colour
+// Sampled for another slot, which reads the same image in the same way: of occlusion metallic_roughness, of
+// emissive base_color.
+CONTRACT_CONST(uint, TEXEL_SHARED, 3);
+// Roughness is the alpha of the normal map, metallic that of base_color, where --textures packed put them.
+CONTRACT_CONST(uint, TEXEL_ALPHAS, 4);
 
 // Values of FEATURE_alpha_mask: a fragment is drawn where its alpha reaches the cutoff, or to as many of its
 // samples as its alpha, sharpened at the cutoff, says.
@@ -73,6 +82,7 @@ struct Material {
     float transmission;    // KHR_materials_transmission's transmissionFactor
     uint second_texcoord;  // bit SLOT_*: that slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
+    vec4 texels[SLOT_COUNT];  // of slots with TEXEL_CONSTANT, as the device decodes them
 };
 
 CONTRACT_END

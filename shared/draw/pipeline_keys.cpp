@@ -40,7 +40,7 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
     if (item.variant.get(gpu::FEATURE_lightmap_texture) != 0) objects &= ~gpu::OBJECT_LIGHTS_SH;
     key.variant.set(gpu::FEATURE_object_lights, objects);
     // Items without a lightmap, in a scene that has some, reflect exactly nothing of one.
-    key.variant.set(gpu::FEATURE_lightmap, item.variant.get(gpu::FEATURE_lightmap_texture));
+    key.variant.set(gpu::FEATURE_lightmap, item.variant.get(gpu::FEATURE_lightmap_texture) != 0);
     key.variant.set(gpu::FEATURE_light_batch, batch.kind);
     // Shadows begin where the triangle's normal says, which both paths quantise alike.
     if (key.variant.any(FeatureMask().with(gpu::FEATURE_shadows).with(gpu::FEATURE_local_shadows)))

@@ -70,11 +70,14 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
-// Texels of 8 bits as the device decodes and filters them, or decoded to 16 bits and floats before upload.
-enum class TexturePrecision { device, exact };
+// Texels of 8 bits as the device decodes and filters them; decoded to 16 bits and floats before upload; or as
+// the device does, of opaque surfaces with roughness in the normal map's alpha and metallic in base colour's.
+enum class TexturePrecision { device, exact, packed };
 template <>
-inline constexpr auto enum_names<TexturePrecision> = std::to_array<EnumName<TexturePrecision>>(
-    {{TexturePrecision::device, "device"}, {TexturePrecision::exact, "exact"}});
+inline constexpr auto enum_names<TexturePrecision> =
+    std::to_array<EnumName<TexturePrecision>>({{TexturePrecision::device, "device"},
+                                               {TexturePrecision::exact, "exact"},
+                                               {TexturePrecision::packed, "packed"}});
 
 // How blended surfaces are put in order: sorted, draws from far to near; unsorted, as in the scene;
 // triangles, those of all draws from far to near. By sums that need no order: weighted, by depth; moments, by

@@ -460,9 +460,8 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::area_lights);
     visit(Field{.option = "textures",
-                .help =
-                    "texels as the device decodes and filters them, or decoded to 16 bits and floats before "
-                    "upload",
+                .help = "texels as the device decodes and filters them; decoded to 16 bits and floats before "
+                        "upload; or metallic and roughness in unused alphas, a sample less",
                 .ignored = {.reference = "the reference decodes and filters in double",
                             .unless = row::shadesCaptures},
                 .sweep = "all"},

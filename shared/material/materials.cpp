@@ -3,6 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/material.h"
+#include "shared/material/texture_probe.h"
 #include "shared/material/textures.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
@@ -26,12 +27,13 @@ constexpr auto setTypes = bindingTypes({MATERIAL_SLOTS(DIPTYCH_SLOT_ROW) Binding
     gpu::BINDING_MATERIAL, "MATERIAL", binding_kind::uniform_buffer}});
 #undef DIPTYCH_SLOT_ROW
 
-Variant variantOf(const Material& material) {
+Variant variantOf(const Material& material, const SlotTexels& texels) {
     Variant variant;
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
-        if (!readsSlot(material, slot)) continue;
+        if (texels[slot] == 0) continue;
         const TextureSlot& texture = material.*materialSlots[slot].texture;
-        variant.set(slotFeatures[slot]);
+        variant.set(slotFeatures[slot], texels[slot]);
+        if (texels[slot] != gpu::TEXEL_OWN) continue;  // reads no coordinates of its own
         if (texture.texcoord == 1) variant.set(gpu::FEATURE_second_texcoord);
         if (isTransformed(texture)) variant.set(gpu::FEATURE_texture_transform);
     }
@@ -90,10 +92,17 @@ void Materials::make(Device& device, Uploader& uploader, const std::vector<Mater
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
     const VkDeviceSize stride = (sizeof(gpu::Material) + alignment - 1) / alignment * alignment;
     std::vector<std::byte> data(materials.size() * stride);
+    std::vector<SlotTexels> texels;
     for (const Material& material : materials) {
-        variants_.push_back(variantOf(material));
+        texels.push_back(
+            textures_->texelsOf(material, [&](const Material& m) { return textures_->hasPacked(m); }));
+        variants_.push_back(variantOf(material, texels.back()));
         blends_.push_back(diptych::blends(material));
-        const gpu::Material factors = gpuMaterial(material);
+        gpu::Material factors = gpuMaterial(material);
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (texels.back()[slot] == gpu::TEXEL_CONSTANT)
+                factors.texels[slot] = textures_->colors.at(
+                    {(material.*materialSlots[slot].texture).texture, materialSlots[slot].srgb});
         std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
     }
     buffer_ = makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -102,22 +111,52 @@ void Materials::make(Device& device, Uploader& uploader, const std::vector<Mater
     for (std::uint32_t m = 0; m < count(); ++m) {
         sets_.buffer(m, gpu::BINDING_MATERIAL, buffer_.handle(), m * stride, sizeof(gpu::Material));
         for (std::uint32_t slot = 0; slot < materialSlots.size(); ++slot) {
-            const int texture = (materials[m].*materialSlots[slot].texture).texture;
-            const bool read = readsSlot(materials[m], slot);
-            const std::size_t image = read ? textures_->image_of.at({texture, materialSlots[slot].srgb}) : 0;
-            const std::size_t sampler = read ? textures_->sampler_of.at(texture) : 0;
+            const bool bound = texels[m][slot] != 0 && texels[m][slot] != gpu::TEXEL_ALPHAS;
+            const Use use = bound ? textures_->useOf(materials[m], texels[m], slot) : Use{};
+            const std::size_t image = bound ? textures_->image_of.at(use) : 0;
+            const std::size_t sampler = bound ? textures_->sampler_of.at(use.texture) : 0;
             sets_.image(m, slot, textures_->images[image].view(), textures_->samplers[sampler],
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
     }
 }
 
+SlotTexels Materials::Textures::texelsOf(const Material& material,
+                                         const std::function<bool(const Material&)>& packed) const {
+    return slotTexels(material, {[&](int texture, std::size_t slot) {
+                                     return one_color.at({texture, slot});
+                                 },
+                                 [&](int a, int b) {
+                                     return image_number.at(a) == image_number.at(b) &&
+                                            sampler_of.at(a) == sampler_of.at(b);
+                                 },
+                                 packed});
+}
+
+bool Materials::Textures::hasPacked(const Material& material) const {
+    SlotTexels texels{};
+    texels[gpu::SLOT_metallic_roughness] = gpu::TEXEL_ALPHAS;
+    return image_of.contains(useOf(material, texels, gpu::SLOT_base_color)) &&
+           image_of.contains(useOf(material, texels, gpu::SLOT_normal));
+}
+
+Materials::Use Materials::Textures::useOf(const Material& material, const SlotTexels& texels,
+                                          std::size_t slot) const {
+    Use use{(material.*materialSlots[slot].texture).texture, materialSlots[slot].srgb,
+            texels[slot] == gpu::TEXEL_CONSTANT};
+    constexpr std::size_t green = 1, blue = 2;
+    if (texels[gpu::SLOT_metallic_roughness] == gpu::TEXEL_ALPHAS &&
+        (slot == gpu::SLOT_base_color || slot == gpu::SLOT_normal)) {
+        use.alpha_texture = material.metallic_roughness_texture.texture;
+        use.alpha_component = slot == gpu::SLOT_normal ? green : blue;
+    }
+    return use;
+}
+
 std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Uploader& uploader,
                                                              const Scene& scene, TexturePrecision precision) {
     // Every image that a slot reads, as sRGB or as linear; slots without a texture use index 0.
     const auto textures = std::make_shared<Textures>();
-    std::map<ImageUse, std::size_t> imageOf;
-    std::vector<ImageUse> uses;
     std::vector<Sampler> kinds{Sampler{}};
     const auto samplerOf = [&](const Sampler& sampler) {
         for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -126,39 +165,109 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         return kinds.size() - 1;
     };
     const std::set<int> moving = materialsThatMove(scene);
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
-            if (!mayReadSlot(scene.materials[m], slot, moving.contains(static_cast<int>(m)))) continue;
-            const int texture = (scene.materials[m].*materialSlots[slot].texture).texture;
-            const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
-            const ImageUse use{read.image, materialSlots[slot].srgb};
-            const auto [entry, isNew] = imageOf.try_emplace(use, uses.size() + 1);
-            if (isNew) uses.push_back(use);
-            textures->image_of[{texture, use.second}] = entry->second;
-            textures->sampler_of[texture] = samplerOf(read.sampler);
+    const auto eachRead = [&](const auto& use) {
+        for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+            const bool moves = moving.contains(static_cast<int>(m));
+            for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+                if (!mayReadSlot(scene.materials[m], slot, moves)) continue;
+                use(scene.materials[m], slot, moves);
+            }
         }
+    };
+    std::map<std::pair<int, std::size_t>, bool> oneColor;  // image and slot
+    eachRead([&](const Material& material, std::size_t slot, bool) {
+        const int texture = (material.*materialSlots[slot].texture).texture;
+        const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
+        const auto [known, isNew] = oneColor.try_emplace({read.image, slot});
+        if (isNew) known->second = hasOneColor(scene.images[static_cast<std::size_t>(read.image)], slot);
+        textures->one_color[{texture, slot}] = known->second;
+        textures->image_number[texture] = read.image;
+        textures->sampler_of[texture] = samplerOf(read.sampler);
+    });
+
+    std::map<Use, std::size_t> imageOf;  // by the first texture of the image that is used so
+    std::vector<Use> uses;
+    std::map<int, int> firstOf;  // image -> texture; samplers alone set others apart
+    const auto first = [&](int texture) {
+        return firstOf.try_emplace(textures->image_number.at(texture), texture).first->second;
+    };
+    const auto upload = [&](const Use& use) {
+        // What is magnified into an alpha depends on how its texture is wrapped.
+        Use same = use;
+        same.texture = first(use.texture);
+        const auto [entry, isNew] = imageOf.try_emplace(same, uses.size() + 1);
+        if (isNew) uses.push_back(same);
+        textures->image_of[use] = entry->second;
+    };
+    eachRead([&](const Material& material, std::size_t slot, bool moves) {
+        const int texture = (material.*materialSlots[slot].texture).texture;
+        SlotTexels texels{};
+        if (textures->one_color.at({texture, slot})) texels[slot] = gpu::TEXEL_CONSTANT;
+        if (precision == TexturePrecision::packed && !moves) {
+            const SlotTexels planned =
+                textures->texelsOf(material, [&](const Material& m) { return isPacked(m, scene); });
+            if (planned[gpu::SLOT_metallic_roughness] == gpu::TEXEL_ALPHAS) texels = planned;
+        }
+        if (texels[slot] != gpu::TEXEL_ALPHAS) upload(textures->useOf(material, texels, slot));
+    });
     textures->images.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
         VK_FORMAT_R8G8B8A8_UNORM));
     uploadInUse(device, uploader, scene, uses, precision, *textures);
+    probeColors(device, scene, precision, *textures);
     for (const Sampler& kind : kinds) textures->samplers.push_back(makeSampler(device, kind));
     return textures;
+}
+
+// As the device decodes them, so that a factor has the bits of a sample.
+void Materials::probeColors(Device& device, const Scene& scene, TexturePrecision precision,
+                            Textures& textures) {
+    for (const bool srgb : {false, true}) {
+        std::vector<int> of;
+        std::vector<std::array<std::uint8_t, 4>> colors;
+        for (const auto& [use, image] : textures.image_of) {
+            if (!use.one_color || use.srgb != srgb) continue;
+            of.push_back(use.texture);
+            const auto& rgba =
+                scene.images[static_cast<std::size_t>(textures.image_number.at(use.texture))].rgba;
+            colors.push_back({rgba[0], rgba[1], rgba[2], rgba[3]});
+        }
+        if (colors.empty()) continue;
+        const std::vector<glm::vec4> found = diptych::probeColors(device, colors, srgb, precision);
+        for (std::size_t i = 0; i < of.size(); ++i) textures.colors[{of[i], srgb}] = found[i];
+    }
 }
 
 // Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a
 // third of the scene's images again.
 void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                            const std::vector<ImageUse>& uses, TexturePrecision precision,
-                            Textures& textures) {
+                            const std::vector<Use>& uses, TexturePrecision precision, Textures& textures) {
+    const auto imageOf = [&](int texture) -> const TextureImage& {
+        return scene.images[static_cast<std::size_t>(textures.image_number.at(texture))];
+    };
     std::size_t next = 0, reduced = 0;
     const auto choose = [&](tbb::flow_control& flow) {
         if (next == uses.size()) flow.stop();
         return next++;
     };
     const auto make = [&](std::size_t i) {
-        const TextureImage& image = scene.images[static_cast<std::size_t>(uses[i].first)];
-        const TextureFormat format = textureFormat(device, image, uses[i].second, precision);
-        return std::pair(MipChain(image, uses[i].second, format.texels), format);
+        const Use& use = uses[i];
+        const TextureImage& image = imageOf(use.texture);
+        const TextureFormat format = textureFormat(device, image, use.srgb, precision);
+        if (use.one_color) {
+            const TextureImage texel{image.name, 1, 1, {image.rgba.begin(), image.rgba.begin() + 4}};
+            MipChain chain(texel, use.srgb, format.texels);
+            chain.own();
+            return std::pair(std::move(chain), format);
+        }
+        MipChain chain(image, use.srgb, format.texels);
+        if (use.alpha_texture >= 0) {
+            const Sampler& sampler = scene.textures[static_cast<std::size_t>(use.alpha_texture)].sampler;
+            chain.replaceAlpha(MipChain(imageOf(use.alpha_texture), false, Texels::linear8),
+                               use.alpha_component, sampler.wrap_s == Wrap::repeat,
+                               sampler.wrap_t == Wrap::repeat);
+        }
+        return std::pair(std::move(chain), format);
     };
     const auto upload = [&](const std::pair<MipChain, TextureFormat>& made) {
         textures.images.push_back(uploadTexture(device, uploader, made.first, made.second.format));

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // A scene's materials on the device, at rest or as animations have moved them: one buffer of factors, one
-// descriptor set and one Variant each. Textures are uploaded once for all times.
+// descriptor set and one Variant each. Textures are uploaded once for all times, of one colour as one texel.
 #pragma once
 
 #include "shared/contract/material.h"
 #include "shared/frame/setting_values.h"
+#include "shared/material/texel_plan.h"
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pipelines.h"
 #include "shared/vulkan/resources.h"
 
 #include <array>
+#include <compare>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -53,20 +56,38 @@ public:
     }  // what is sampled with fewer bits
 
 private:
+    // A texture as a slot reads it.
+    struct Use {
+        int texture = -1;        // into Scene::textures
+        bool srgb = false;       // of its colours
+        bool one_color = false;  // its first texel alone
+        int alpha_texture = -1;  // whose texels, roughness and metallic, are in its alpha
+        std::size_t alpha_component = 0;
+        auto operator<=>(const Use&) const = default;
+    };
     // What no animation changes.
     struct Textures {
-        using Use = std::pair<int, bool>;       // into Scene::textures; whether its colours are sRGB
-        std::map<Use, std::size_t> image_of;    // into images
-        std::map<int, std::size_t> sampler_of;  // texture -> into samplers
-        std::vector<GpuImage> images;           // the first is white
-        std::vector<OwnedSampler> samplers;     // the first is the default one
+        std::map<Use, std::size_t> image_of;                    // into images
+        std::map<int, std::size_t> sampler_of;                  // texture -> into samplers
+        std::map<int, int> image_number;                        // texture -> into Scene::images
+        std::map<std::pair<int, std::size_t>, bool> one_color;  // texture and slot
+        std::map<std::pair<int, bool>, glm::vec4> colors;       // of textures of one colour, by whether sRGB
+        std::vector<GpuImage> images;                           // the first is white
+        std::vector<OwnedSampler> samplers;                     // the first is the default one
         std::vector<std::string> notes;
+
+        // `packed` as TextureQuestions has it.
+        SlotTexels texelsOf(const Material& material,
+                            const std::function<bool(const Material&)>& packed) const;
+        bool hasPacked(const Material& material) const;
+        // Where texels says that it is on the device.
+        Use useOf(const Material& material, const SlotTexels& texels, std::size_t slot) const;
     };
-    using ImageUse = std::pair<int, bool>;  // into Scene::images; whether its colours are sRGB
     static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene,
                                                   TexturePrecision precision);
     static void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                            const std::vector<ImageUse>& uses, TexturePrecision precision,
+                            const std::vector<Use>& uses, TexturePrecision precision, Textures& textures);
+    static void probeColors(Device& device, const Scene& scene, TexturePrecision precision,
                             Textures& textures);
     void make(Device& device, Uploader& uploader, const std::vector<Material>& materials);
 

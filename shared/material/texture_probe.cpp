@@ -143,6 +143,31 @@ TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision) {
     return decode;
 }
 
+// In rows of blocks of 2 x 2 texels, each sampled in its middle.
+std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<std::uint8_t, 4>> colors,
+                                   bool srgb, TexturePrecision precision) {
+    constexpr std::size_t columns = 256;
+    const std::size_t rows = (colors.size() + columns - 1) / columns;
+    TextureImage blocks{"colours", static_cast<int>(2 * columns), static_cast<int>(2 * rows), {}};
+    blocks.rgba.resize(4 * 2 * columns * 2 * rows);
+    std::vector<glm::vec2> places;
+    for (std::size_t i = 0; i < columns * rows; ++i) {
+        const std::size_t x = i % columns, y = i / columns;
+        const std::array<std::uint8_t, 4> color =
+            i < colors.size() ? colors[i] : std::array<std::uint8_t, 4>{};
+        for (const std::size_t row : {2 * y, 2 * y + 1})
+            for (const std::size_t column : {2 * x, 2 * x + 1})
+                std::ranges::copy(color, &blocks.rgba[4 * (row * 2 * columns + column)]);
+        places.emplace_back((static_cast<float>(x) + 0.5f) / columns,
+                            (static_cast<float>(y) + 0.5f) / static_cast<float>(rows));
+    }
+    const std::vector<float> rgba = sampled(device, blocks, srgb, precision, true, places, columns);
+    std::vector<glm::vec4> found;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        found.emplace_back(rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]);
+    return found;
+}
+
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
                                       std::uint32_t seed, TexturePrecision precision) {
     constexpr int side = 256;

@@ -8,6 +8,8 @@
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
+#include <glm/vec4.hpp>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -48,6 +50,9 @@ struct TextureSampling {
 TextureSampling probeTextures(Device& device, TexturePrecision precision = TexturePrecision::device);
 // Of the red, green and blue components of an sRGB texel the one that is furthest off.
 TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision = TexturePrecision::device);
+// RGBA of images of one colour, RGBA of 8 bits, as a linear filter returns them.
+std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<std::uint8_t, 4>> colors,
+                                   bool srgb, TexturePrecision precision);
 // Of a picture of noise whose contrast differs from place to place, at 65536 places.
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
                                       std::uint32_t seed,

@@ -13,7 +13,7 @@ TextureFormat textureFormat(bool deep, bool srgb, TexturePrecision precision,
                             const std::function<bool(VkFormat)>& filters) {
     if (!deep && precision == TexturePrecision::exact && srgb)
         return {Texels::float16, VK_FORMAT_R16G16B16A16_SFLOAT, true};
-    if (!deep && precision == TexturePrecision::device)
+    if (!deep && precision != TexturePrecision::exact)
         return srgb ? TextureFormat{Texels::srgb8, VK_FORMAT_R8G8B8A8_SRGB, true}
                     : TextureFormat{Texels::linear8, VK_FORMAT_R8G8B8A8_UNORM, true};
     if (!srgb && filters(VK_FORMAT_R16G16B16A16_UNORM))

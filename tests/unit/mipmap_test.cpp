@@ -7,7 +7,9 @@
 #include <tbb/global_control.h>
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <random>
 
@@ -228,4 +230,49 @@ TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
     EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), false, Texels::linear8), std::logic_error);
     EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), true, Texels::srgb8), std::logic_error);
     EXPECT_THROW(MipChain(TextureImage{"none", 1, 1, {}}, true, Texels::srgb8), std::logic_error);
+}
+
+// The alpha of each level is the other chain's: as it is where the sizes are the same, and above as a linear
+// filter magnifies its first level, by hand: a texel's quarters lie at 1/4 and 3/4 between two centres.
+TEST(MipChain, AnAlphaIsReplacedByAnotherChainsComponent) {
+    const TextureImage large = noiseTexture(8, 4), small = noiseTexture(4, 2);
+    for (const bool srgb : {true, false})
+        for (const bool repeat : {true, false}) {
+            const Texels texels = srgb ? Texels::srgb8 : Texels::linear8;
+            MipChain chain(large, srgb, texels);
+            const MipChain plain(large, srgb, texels), from(small, false, Texels::linear8);
+            constexpr std::size_t blue = 2;
+            chain.replaceAlpha(from, blue, repeat, repeat);
+            ASSERT_EQ(chain.count(), 4u);
+            for (std::size_t k = 0; k < chain.count(); ++k)
+                for (std::size_t i = 0; i < chain.level(k).size(); ++i) {
+                    if (i % 4 != 3) {
+                        ASSERT_EQ(chain.level(k)[i], plain.level(k)[i]) << "colours stay";
+                    } else if (k > 0) {
+                        ASSERT_EQ(chain.level(k)[i], from.level(k - 1)[i - 3 + blue]) << k << ": " << i;
+                    }
+                }
+            const auto code = [&](int x, int y) {
+                const auto inside = [&](int k, int n) {
+                    return repeat ? (k + n) % n : std::clamp(k, 0, n - 1);
+                };
+                const auto texel = static_cast<std::size_t>(inside(y, 2) * 4 + inside(x, 4));
+                return static_cast<double>(small.rgba[4 * texel + blue]);
+            };
+            for (int y = 0; y < 4; ++y)
+                for (int x = 0; x < 8; ++x) {
+                    const int i = (x + 1) / 2 - 1, j = (y + 1) / 2 - 1;
+                    const double u = x % 2 == 0 ? 0.75 : 0.25, v = y % 2 == 0 ? 0.75 : 0.25;
+                    const double expected = (code(i, j) * (1 - u) + code(i + 1, j) * u) * (1 - v) +
+                                            (code(i, j + 1) * (1 - u) + code(i + 1, j + 1) * u) * v;
+                    const auto got =
+                        std::to_integer<int>(chain.level(0)[static_cast<std::size_t>(4 * (y * 8 + x) + 3)]);
+                    EXPECT_LE(std::abs(got - expected), 0.5 + 1e-4) << x << ", " << y;
+                }
+        }
+    MipChain chain(large, true, Texels::srgb8);
+    EXPECT_THROW(chain.replaceAlpha(MipChain(noiseTexture(4, 4), false, Texels::linear8), 1, true, true),
+                 std::logic_error);
+    EXPECT_THROW(chain.replaceAlpha(MipChain(noiseTexture(16, 8), false, Texels::linear8), 1, true, true),
+                 std::logic_error);
 }

@@ -50,7 +50,7 @@ Settings everythingChanged() {
     s.light_cutoff = 1e-3f;
     s.pixel_lights = 0;
     s.area_lights = AreaLights::representative;
-    s.textures = TexturePrecision::exact;
+    s.textures = TexturePrecision::packed;
     s.specular_albedo = SpecularAlbedo::fit;
     s.multiscatter = Multiscatter::fdez;
     s.base_layer = BaseLayer::component;
@@ -373,6 +373,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"light-cutoff", "0.01"},
         {"area-lights", "representative"},
         {"textures", "exact"},
+        {"textures", "packed"},
         {"specular-albedo", "fit"},
         {"base-layer", "component"},
         {"spot-cone", "smoothstep"},

@@ -243,4 +243,61 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     }
 }
 
+namespace {
+
+// The two texels between which a linear filter finds texel i of `to` where there are `from`, and the share of
+// the second.
+struct Between {
+    std::size_t first, second;
+    float share;
+};
+Between between(std::size_t i, std::size_t from, std::size_t to, bool repeat) {
+    const double at =
+        (static_cast<double>(i) + 0.5) * static_cast<double>(from) / static_cast<double>(to) - 0.5;
+    const auto n = static_cast<std::ptrdiff_t>(from), first = static_cast<std::ptrdiff_t>(std::floor(at));
+    const auto inside = [&](std::ptrdiff_t j) {
+        return static_cast<std::size_t>(repeat ? (j + n) % n : std::clamp(j, std::ptrdiff_t{0}, n - 1));
+    };
+    return {inside(first), inside(first + 1), static_cast<float>(at - static_cast<double>(first))};
+}
+
+}  // namespace
+
+void MipChain::own() {
+    if (levels_[0].empty()) levels_[0].assign(image_.begin(), image_.end());
+}
+
+void MipChain::replaceAlpha(const MipChain& from, std::size_t component, bool repeat_x, bool repeat_y) {
+    const std::size_t above = count() - std::min(count(), from.count());
+    if (bytesPerTexel(texels_) != 4 || bytesPerTexel(from.texels_) != 4 || count() != above + from.count() ||
+        width(above) != from.width() || height(above) != from.height())
+        throw std::logic_error("MipChain: " + from.name_ + " has not the sizes of levels of " + name_);
+    own();
+    for (std::size_t k = 0; k < count(); ++k) {
+        const std::span<const std::byte> texels = from.level(k < above ? 0 : k - above);
+        const auto columns = static_cast<std::size_t>(width(k)), rows = static_cast<std::size_t>(height(k)),
+                   stride = static_cast<std::size_t>(from.width());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 16), [&](const auto& range) {
+            for (std::size_t y = range.begin(); y < range.end(); ++y)
+                for (std::size_t x = 0; x < columns; ++x) {
+                    std::byte& alpha = levels_[k][4 * (y * columns + x) + 3];
+                    if (k >= above) {
+                        alpha = texels[4 * (y * columns + x) + component];
+                        continue;
+                    }
+                    const Between u = between(x, stride, columns, repeat_x),
+                                  v = between(y, static_cast<std::size_t>(from.height()), rows, repeat_y);
+                    const auto code = [&](std::size_t i, std::size_t j) {
+                        return static_cast<float>(texels[4 * (j * stride + i) + component]);
+                    };
+                    const auto row = [&](std::size_t j) {
+                        return code(u.first, j) * (1 - u.share) + code(u.second, j) * u.share;
+                    };
+                    alpha =
+                        static_cast<std::byte>(row(v.first) * (1 - v.share) + row(v.second) * v.share + 0.5f);
+                }
+        });
+    }
+}
+
 }  // namespace diptych

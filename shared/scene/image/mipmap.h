@@ -28,6 +28,15 @@ public:
     // float16 with values limited to 65504. srgb8 is of sRGB, linear8 and linear16 are of linear codes.
     MipChain(const TextureImage& image, bool srgb, Texels texels);
 
+    // Puts component `component` of another chain into the alpha of this one; both of 8 bits, linear but for
+    // colours of sRGB. From some level on both must have the same sizes; the levels above are that one's
+    // first as a linear filter magnifies it, in axes that repeat or else are clamped at the edge, rounded to
+    // codes.
+    void replaceAlpha(const MipChain& from, std::size_t component, bool repeat_x, bool repeat_y);
+
+    // Copies level 0 where it is the image's own memory, which then need not outlive the chain.
+    void own();
+
     const std::string& name() const { return name_; }
     Texels texels() const { return texels_; }
     std::size_t count() const { return levels_.size(); }

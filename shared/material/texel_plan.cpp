@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "shared/material/texel_plan.h"
+
+#include "shared/scene/model/material_slots.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+namespace {
+
+// Bit c: component c.
+constexpr std::array<unsigned, gpu::SLOT_COUNT> componentsRead = [] {
+    constexpr unsigned red = 1, green = 2, blue = 4, alpha = 8, color = red | green | blue;
+    std::array<unsigned, gpu::SLOT_COUNT> read{};
+    read[gpu::SLOT_base_color] = color | alpha;
+    read[gpu::SLOT_metallic_roughness] = green | blue;
+    read[gpu::SLOT_normal] = color;
+    read[gpu::SLOT_occlusion] = red;
+    read[gpu::SLOT_emissive] = color;
+    read[gpu::SLOT_specular] = alpha;
+    read[gpu::SLOT_specular_color] = color;
+    read[gpu::SLOT_lightmap] = color;
+    return read;
+}();
+
+const TextureSlot& textureOf(const Material& material, gpu::uint slot) {
+    return material.*materialSlots[slot].texture;
+}
+
+bool sameCoordinates(const TextureSlot& a, const TextureSlot& b) {
+    return a.texcoord == b.texcoord && a.u == b.u && a.v == b.v;
+}
+
+// By how many halvings `large` is `small`, or -1.
+int halvings(const TextureImage& large, const TextureImage& small) {
+    for (int n = 0; small.width <= large.width >> n; ++n)
+        if (small.width << n == large.width && small.height << n == large.height) return n;
+    return -1;
+}
+
+}  // namespace
+
+bool hasOneColor(const TextureImage& image, std::size_t slot) {
+    if (image.rgba.empty()) return false;
+    for (std::size_t c = 0; c < 4; ++c) {
+        if ((componentsRead[slot] >> c & 1u) == 0) continue;
+        for (std::size_t i = c; i < image.rgba.size(); i += 4)
+            if (image.rgba[i] != image.rgba[c]) return false;
+    }
+    return true;
+}
+
+SlotTexels slotTexels(const Material& material, const TextureQuestions& ask) {
+    SlotTexels texels{};
+    for (gpu::uint slot = 0; slot < gpu::SLOT_COUNT; ++slot)
+        if (readsSlot(material, slot))
+            texels[slot] =
+                ask.one_color(textureOf(material, slot).texture, slot) ? gpu::TEXEL_CONSTANT : gpu::TEXEL_OWN;
+    const auto share = [&](gpu::uint slot, gpu::uint sampled) {
+        const TextureSlot &a = textureOf(material, slot), &b = textureOf(material, sampled);
+        if (texels[slot] == gpu::TEXEL_OWN && texels[sampled] == gpu::TEXEL_OWN && sameCoordinates(a, b) &&
+            ask.same_image(a.texture, b.texture))
+            texels[slot] = gpu::TEXEL_SHARED;
+    };
+    share(gpu::SLOT_occlusion, gpu::SLOT_metallic_roughness);
+    share(gpu::SLOT_emissive, gpu::SLOT_base_color);
+    const auto sampled = [&](gpu::uint slot) { return texels[slot] == gpu::TEXEL_OWN; };
+    if (sampled(gpu::SLOT_metallic_roughness) && sampled(gpu::SLOT_normal) && sampled(gpu::SLOT_base_color) &&
+        texels[gpu::SLOT_occlusion] != gpu::TEXEL_SHARED && ask.packed(material))
+        texels[gpu::SLOT_metallic_roughness] = gpu::TEXEL_ALPHAS;
+    return texels;
+}
+
+bool isPacked(const Material& material, const Scene& scene) {
+    const TextureSlot &base = material.base_color_texture, &normal = material.normal_texture,
+                      &read = material.metallic_roughness_texture;
+    if (material.alpha_mode != AlphaMode::opaque || blends(material) ||
+        std::min({base.texture, normal.texture, read.texture}) < 0 || !sameCoordinates(base, read) ||
+        !sameCoordinates(normal, read))
+        return false;
+    const auto textureAt = [&](const TextureSlot& slot) -> const Texture& {
+        return scene.textures[static_cast<std::size_t>(slot.texture)];
+    };
+    const auto imageAt = [&](const TextureSlot& slot) -> const TextureImage& {
+        return scene.images[static_cast<std::size_t>(textureAt(slot).image)];
+    };
+    return std::ranges::all_of(std::array{&base, &normal}, [&](const TextureSlot* slot) {
+        return textureAt(*slot).sampler == textureAt(read).sampler && !imageAt(*slot).deep() &&
+               !imageAt(read).deep() && halvings(imageAt(*slot), imageAt(read)) >= 0;
+    });
+}
+
+}  // namespace diptych

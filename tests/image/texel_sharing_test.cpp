@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// What is not sampled has the bits of what is: images of one colour are factors, slots that read one image in
+// the same way share a sample; and how far --textures packed is from them.
+#include "shared/material/materials.h"
+#include "shared/scene/model/material_slots.h"
+#include "tests/image/square.h"
+
+#include <functional>
+#include <set>
+
+namespace diptych::tests {
+namespace {
+
+TextureImage noiseOf(int width, int height, std::uint32_t seed) {
+    TextureImage image{"noise", width, height, {}};
+    for (int i = 0; i < 4 * width * height; ++i) {
+        seed = seed * 1664525u + 1013904223u;
+        image.rgba.push_back(static_cast<std::uint8_t>(seed >> 24));
+    }
+    return image;
+}
+
+// The square turned, so that mip levels change across it, under a lamp and light from everywhere. Every slot
+// reads texture 0, whose image is `image`, with trilinear filters, and has factors of its own.
+Scene turnedSquare(const TextureImage& image) {
+    Scene scene = square();
+    scene.nodes[0].parent_from_node = glm::rotate(glm::dmat4(1.0), glm::radians(65.0), glm::dvec3(1, 0.3, 0));
+    scene.images = {image};
+    scene.textures = {{0, {}}};
+    Material& m = scene.materials[0];
+    m.base_color = {0.9f, 0.7f, 0.8f, 1};
+    m.metallic = 0.7f;
+    m.roughness = 0.9f;
+    m.emissive = {0.1f, 0.3f, 0.2f};
+    m.occlusion_strength = 0.6f;
+    m.normal_scale = 0.8f;
+    m.specular = 0.9f;
+    m.specular_color = {0.5f, 0.8f, 0.7f};
+    m.double_sided = true;
+    Light lamp;
+    lamp.kind = LightKind::point;
+    lamp.position = {0.2, 0.4, 0.8};
+    lamp.intensity = 4;
+    scene.lights = {lamp};
+    return scene;
+}
+
+Settings litPicture(TexturePrecision textures = TexturePrecision::device) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.ambient = {0.2f, 0.3f, 0.4f};
+    settings.textures = textures;
+    return settings;
+}
+
+// Where the slots of a scene's first material find their texels.
+SlotTexels texelsOnDevice(const Scene& scene, TexturePrecision textures = TexturePrecision::device) {
+    Uploader uploader(device());
+    const Materials materials(device(), uploader, scene, textures);
+    uploader.flush();
+    SlotTexels texels{};
+    for (std::size_t slot = 0; slot < texels.size(); ++slot)
+        texels[slot] = materials.variant(0).get(slotFeatures[slot]);
+    return texels;
+}
+
+void expectSamePictures(const Scene& a, const Scene& b, const Settings& settings) {
+    const std::vector<Frame> framesA = bothPaths(a, settings), framesB = bothPaths(b, settings);
+    for (std::size_t i = 0; i < framesA.size(); ++i) {
+        SCOPED_TRACE(framesA[i].name);
+        EXPECT_GT(coveredPixels(framesA[i]), 1000u);
+        expectSameChannels(framesA[i], framesB[i]);
+    }
+}
+
+// Beside the same image again, which is then sampled once more.
+TEST(TexelSharing, OneSampleHasTheBitsOfTwo) {
+    Scene shared = turnedSquare(noiseOf(64, 32, 3));
+    Material& m = shared.materials[0];
+    m.base_color_texture.texture = m.emissive_texture.texture = m.metallic_roughness_texture.texture =
+        m.occlusion_texture.texture = 0;
+    m.metallic_roughness_texture.u = m.occlusion_texture.u = {1.5, 0.2, 0.1};
+    for (const TexturePrecision textures : {TexturePrecision::device, TexturePrecision::exact}) {
+        Scene twice = shared;
+        twice.images.push_back(twice.images[0]);
+        twice.textures.push_back({1, {}});
+        twice.materials[0].emissive_texture.texture = twice.materials[0].occlusion_texture.texture = 1;
+        for (const gpu::uint slot : {gpu::SLOT_emissive, gpu::SLOT_occlusion}) {
+            EXPECT_EQ(texelsOnDevice(shared, textures)[slot], gpu::TEXEL_SHARED);
+            EXPECT_EQ(texelsOnDevice(twice, textures)[slot], gpu::TEXEL_OWN);
+        }
+        expectSamePictures(shared, twice, litPicture(textures));
+    }
+}
+
+// Beside an image that has another colour where nothing reads it, and is sampled.
+TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
+    constexpr int side = 16;
+    std::uint32_t state = 11;
+    for (const TexturePrecision textures : {TexturePrecision::device, TexturePrecision::exact})
+        for (const bool nearest : {false, true})
+            for (int round = 0; round < 3; ++round) {
+                std::vector<std::uint8_t> color;
+                for (int c = 0; c < 4; ++c) {
+                    state = state * 1664525u + 1013904223u;
+                    color.push_back(static_cast<std::uint8_t>(state >> 24));
+                }
+                color[2] |= 128;  // a normal that faces out
+                TextureImage image{"one", side, side, {}};
+                for (int i = 0; i < side * side; ++i)
+                    image.rgba.insert(image.rgba.end(), color.begin(), color.end());
+                Scene one = turnedSquare(image);
+                Sampler sampler;
+                sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+                sampler.mipmaps = sampler.mipmaps_linear = false;
+                sampler.magnify_linear = sampler.minify_linear = !nearest;
+                one.textures[0].sampler = sampler;
+                for (const MaterialSlot& slot : materialSlots)
+                    one.materials[0].*slot.texture = {0, 0, {0.5, 0, 0.1}, {0, 0.5, 0.1}};
+                Scene sampled = one;
+                for (std::size_t c = 0; c < 4; ++c)
+                    sampled.images[0].rgba[sampled.images[0].rgba.size() - 4 + c] ^= 255;
+                for (const gpu::uint texel : texelsOnDevice(one, textures))
+                    EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
+                SCOPED_TRACE(std::string(nameOf(textures)) + (nearest ? ", nearest, " : ", linear, ") +
+                             std::to_string(round));
+                expectSamePictures(one, sampled, litPicture(textures));
+            }
+}
+
+// A mask of one alpha, in every pass that cuts and with several samples a pixel, whose coverage is made of
+// differences of alpha.
+TEST(TexelSharing, AMaskOfOneColorCutsAlike) {
+    for (const int alpha : {100, 180}) {
+        TextureImage image{"one", 4, 4, {}};
+        for (int i = 0; i < 16; ++i) image.rgba.insert(image.rgba.end(), {90, 120, 200, std::uint8_t(alpha)});
+        Scene one = turnedSquare(image);
+        one.textures[0].sampler = {Wrap::clamp_to_edge, Wrap::clamp_to_edge, true, true, false, false};
+        Material& m = one.materials[0];
+        m.alpha_mode = AlphaMode::mask;
+        m.alpha_cutoff = 0.5f;
+        m.base_color_texture = {0, 0, {0.5, 0, 0.1}, {0, 0.5, 0.1}};
+        m.base_color.a = 0.9f;
+        Scene sampled = one;
+        sampled.images[0].rgba.back() ^= 255;
+        Settings settings = litPicture();
+        settings.prepass = Switch::on;
+        for (const int samples : {1, 4}) {
+            settings.msaa = samples;
+            settings.alpha_to_coverage = samples > 1;
+            SCOPED_TRACE(std::to_string(alpha) + ", " + std::to_string(samples));
+            const std::vector<Frame> a = bothPaths(one, settings), b = bothPaths(sampled, settings);
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                EXPECT_EQ(coveredPixels(a[i]) > 0, alpha == 180);
+                expectSameChannels(a[i], b[i]);
+            }
+        }
+    }
+}
+
+// Highlights widened by what a mapped normal changes by, which is a difference from pixel to pixel.
+TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
+    TextureImage image{"one", 4, 4, {}};
+    for (int i = 0; i < 16; ++i) image.rgba.insert(image.rgba.end(), {90, 160, 220, 255});
+    Scene one = turnedSquare(image);
+    one.textures[0].sampler = {Wrap::clamp_to_edge, Wrap::clamp_to_edge, true, true, false, false};
+    one.materials[0].normal_texture = {0, 0, {0.5, 0, 0.1}, {0, 0.5, 0.1}};
+    one.materials[0].roughness = 0.1f;
+    Primitive& p = one.meshes[0].primitives[0];
+    for (std::size_t i = 0; i < p.normals.size(); ++i)  // bent
+        p.normals[i] = glm::normalize(p.positions[i] * 0.5f + glm::vec3(0, 0, 1));
+    Scene sampled = one;
+    sampled.images[0].rgba[sampled.images[0].rgba.size() - 3] ^= 255;
+    Settings settings = litPicture();
+    settings.spec_aa = true;
+    settings.spec_aa_normals = SpecularNormals::mapped;
+    expectSamePictures(one, sampled, settings);
+}
+
+// Roughness and metallic that are as large as the other textures: what two linear samples of 8 bits hold
+// alike is the same to the bit, and metallic, which an sRGB sample filters in floats, is off by what rounding
+// of 8 bits does. Half as large: where their texels are magnified they are smoothed, by an eighth of what the
+// next ones differ by at most; seen from afar it is the same.
+TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
+    struct Case {
+        int width, height;
+        double least_distance;  // m, of the camera
+        double roughness, metallic;
+    };
+    constexpr double code = 1.0 / 255;
+    for (const Case& c :
+         {Case{64, 32, 1, 0, 2.5 * code}, Case{32, 16, 1, 0.5, 0.5}, Case{32, 16, 40, 0, 2.5 * code}}) {
+        Scene scene = turnedSquare(noiseOf(64, 32, 3));
+        scene.images.push_back(noiseOf(64, 32, 4));
+        scene.images.push_back(noiseOf(c.width, c.height, 5));
+        scene.textures = {{0, {}}, {1, {}}, {2, {}}};
+        scene.cameras[0].world_from_camera[3].z = c.least_distance;
+        scene.cameras[0].yfov = 2 * std::atan(1 / c.least_distance);
+        Material& m = scene.materials[0];
+        for (TextureSlot* slot : {&m.base_color_texture, &m.normal_texture, &m.metallic_roughness_texture})
+            slot->u.x = slot->v.y = c.least_distance > 1 ? 16 : 1;
+        m.base_color_texture.texture = 0;
+        m.normal_texture.texture = 1;
+        m.metallic_roughness_texture.texture = 2;
+        constexpr TexturePrecision packed = TexturePrecision::packed;
+        EXPECT_EQ(texelsOnDevice(scene)[gpu::SLOT_metallic_roughness], gpu::TEXEL_OWN);
+        EXPECT_EQ(texelsOnDevice(scene, packed)[gpu::SLOT_metallic_roughness], gpu::TEXEL_ALPHAS);
+        const std::vector<Frame> apart = bothPaths(scene, litPicture()),
+                                 together = bothPaths(scene, litPicture(packed));
+        expectSameChannels(together[0], together[1]);  // both paths
+        for (std::size_t i = 0; i < apart.size(); ++i) {
+            double worst[2] = {}, sum[2] = {};
+            for (const int k : {0, 1}) {
+                const int mode = k == 0 ? roughness : metallic;
+                const Image &a = apart[i].channels.at(mode), &b = together[i].channels.at(mode);
+                for (std::size_t p = 0; p < a.data.size(); ++p) {
+                    const double off = std::abs(double{a.data[p]} - double{b.data[p]});
+                    worst[k] = std::max(worst[k], off);
+                    sum[k] += off;
+                }
+                RecordProperty(std::to_string(c.width) + (k == 0 ? " roughness" : " metallic"),
+                               std::to_string(worst[k]));
+            }
+            EXPECT_LE(worst[0], c.roughness) << c.width << " at " << c.least_distance;
+            EXPECT_LE(worst[1], c.metallic) << c.width << " at " << c.least_distance;
+            if (c.roughness > 0.1) {
+                EXPECT_GT(worst[0], 0.01) << "it was magnified";
+            }
+            for (const int mode : {albedo, normals, emission, occlusion})
+                EXPECT_EQ(differingPixels(apart[i].channels.at(mode), together[i].channels.at(mode)), 0u)
+                    << debugMode(mode).name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
