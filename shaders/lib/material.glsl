@@ -52,6 +52,8 @@ vec4 sampledTexel(sampler2D map, uint slot) {
 vec4 slotTexel(sampler2D map, uint slot, uint texel) {
     return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
 }
+// Where a slot's texel is that of another's sample, it is written as the same sample once more, which
+// compilers take for one.
 vec4 baseColorTexel() { return slotTexel(base_color_texture, SLOT_base_color, feature_base_color_texture); }
 vec4 normalTexel() { return slotTexel(normal_texture, SLOT_normal, feature_normal_texture); }
 // Roughness in green, metallic in blue.

@@ -55,11 +55,11 @@ Settings litPicture(TexturePrecision textures = TexturePrecision::device) {
 // Where the slots of a scene's first material find their texels.
 SlotTexels texelsOnDevice(const Scene& scene, TexturePrecision textures = TexturePrecision::device) {
     Uploader uploader(device());
-    const Materials materials(device(), uploader, scene, textures);
+    const Materials onDevice(device(), uploader, scene, textures);
     uploader.flush();
     SlotTexels texels{};
     for (std::size_t slot = 0; slot < texels.size(); ++slot)
-        texels[slot] = materials.variant(0).get(slotFeatures[slot]);
+        texels[slot] = onDevice.variant(0).get(slotFeatures[slot]);
     return texels;
 }
 

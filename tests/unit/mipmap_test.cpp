@@ -234,7 +234,7 @@ TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
 
 // The alpha of each level is the other chain's: as it is where the sizes are the same, and above as a linear
 // filter magnifies its first level, by hand: a texel's quarters lie at 1/4 and 3/4 between two centres.
-TEST(MipChain, AnAlphaIsReplacedByAnotherChainsComponent) {
+TEST(Mipmap, AnAlphaIsReplacedByAnotherChainsComponent) {
     const TextureImage large = noiseTexture(8, 4), small = noiseTexture(4, 2);
     for (const bool srgb : {true, false})
         for (const bool repeat : {true, false}) {
