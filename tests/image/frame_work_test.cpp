@@ -62,6 +62,7 @@ TEST(FrameWork, AGBufferIsWrittenOnceAndReadOnce) {
     const std::uint64_t bytes = pixels * frames.described(0).bytes.gbuffer_per_pixel;
     EXPECT_EQ(passOf(work, "G-buffer").counts.written, bytes);
     EXPECT_EQ(passOf(work, "G-buffer").counts.read, 0u);
+    EXPECT_EQ(passOf(work, "G-buffer").lights, 0);
     EXPECT_GE(passOf(work, "shade").counts.read, bytes);
     EXPECT_LE(passOf(work, "shade").counts.fragments, pixels);
     EXPECT_EQ(passOf(work, "shade").texels, 0);
