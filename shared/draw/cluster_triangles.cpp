@@ -2,6 +2,7 @@
 #include "shared/draw/cluster_triangles.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,22 +21,13 @@ constexpr std::uint16_t filledUp(std::size_t count) {
     return static_cast<std::uint16_t>((count + laneCount - 1) / laneCount * laneCount);
 }
 
-struct Corner {
-    float x, y;
+// Of the edge from a to b, both from the first sample: positive where that lies inside, times `turn`; and
+// how it changes to the next sample across and down.
+struct EdgeSide {
+    float at, across, down;
+    EdgeSide(float turn, const glm::vec2& a, const glm::vec2& b)
+        : at(turn * (a.x * b.y - a.y * b.x)), across(turn * (a.y - b.y)), down(turn * (b.x - a.x)) {}
 };
-
-// Whether the corners, each of which may be off by `wide` pixels in any direction, leave the sample outside
-// for certain. `turn`: 1 where fronts are clockwise with y down, else -1.
-bool leavesOutside(const std::array<Corner, 3>& c, float x, float y, float margin, float turn, bool either) {
-    bool below = false, above = false;
-    for (std::size_t e = 0; e < 3; ++e) {
-        const Corner &a = c[e], &b = c[(e + 1) % 3];
-        const float side = turn * ((a.x - x) * (b.y - y) - (a.y - y) * (b.x - x));
-        below = below || side < -margin;
-        above = above || side > margin;
-    }
-    return below && (above || !either);
-}
 
 }  // namespace
 
@@ -122,11 +114,11 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
     const float* const px = values_.data() + entry.first_corner;
     const float *const py = px + entry.corners, *const pz = py + entry.corners;
     std::array<float, filledUp(3 * clusterTriangles)> atX, atY;
-    const glm::vec4 x = projection.x, y = projection.y, w = projection.w;
+    const glm::vec4 &rowX = projection.x, &rowY = projection.y, &w = projection.w;
     for (std::size_t i = 0; i < entry.corners; ++i) {
         const float scale = 1.0f / (w.x * px[i] + w.y * py[i] + w.z * pz[i] + w.w);
-        atX[i] = (x.x * px[i] + x.y * py[i] + x.z * pz[i] + x.w) * scale + projection.half.x;
-        atY[i] = (y.x * px[i] + y.y * py[i] + y.z * pz[i] + y.w) * scale + projection.half.y;
+        atX[i] = (rowX.x * px[i] + rowX.y * py[i] + rowX.z * pz[i] + rowX.w) * scale + projection.half.x;
+        atY[i] = (rowY.x * px[i] + rowY.y * py[i] + rowY.z * pz[i] + rowY.w) * scale + projection.half.y;
     }
     // A corner that is off by as much across and down.
     const float off = projection.off, wide = 1.4143f * off, turn = projection.clockwise ? 1.0f : -1.0f;
@@ -134,27 +126,36 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
     for (TriangleSet left = from; left != 0; left &= left - 1) {
         const int number = std::countr_zero(left);
         const std::uint8_t* const corners = numbers_.data() + entry.first_number + 3 * number;
-        const std::array<Corner, 3> c{{{atX[corners[0]], atY[corners[0]]},
-                                       {atX[corners[1]], atY[corners[1]]},
-                                       {atX[corners[2]], atY[corners[2]]}}};
-        const float low = std::min(c[0].x, std::min(c[1].x, c[2].x)) - off,
-                    right = std::max(c[0].x, std::max(c[1].x, c[2].x)) + off,
-                    top = std::min(c[0].y, std::min(c[1].y, c[2].y)) - off,
-                    bottom = std::max(c[0].y, std::max(c[1].y, c[2].y)) + off;
+        const glm::vec2 a(atX[corners[0]], atY[corners[0]]), b(atX[corners[1]], atY[corners[1]]),
+            c(atX[corners[2]], atY[corners[2]]);
+        const float low = std::min(a.x, std::min(b.x, c.x)) - off,
+                    right = std::max(a.x, std::max(b.x, c.x)) + off,
+                    top = std::min(a.y, std::min(b.y, c.y)) - off,
+                    bottom = std::max(a.y, std::max(b.y, c.y)) + off;
         // Of what lies wholly in a picture all places are above -1. Samples are in the middle of pixels.
-        const auto firstX = static_cast<int>(low + 1.5f) - 1, lastX = static_cast<int>(right + 1.5f) - 2,
-                   firstY = static_cast<int>(top + 1.5f) - 1, lastY = static_cast<int>(bottom + 1.5f) - 2;
-        const int across = lastX - firstX + 1, down = lastY - firstY + 1;
-        bool covers = false;
-        if (across > 0 && down > 0) {
-            covers = across * down > 6;
+        const auto firstX = static_cast<int>(low + 1.5f) - 1, firstY = static_cast<int>(top + 1.5f) - 1;
+        const int across = static_cast<int>(right + 1.5f) - 1 - firstX,
+                  down = static_cast<int>(bottom + 1.5f) - 1 - firstY;
+        const bool large = across * down > 6;
+        bool covers = large;
+        if (!large) {
             // A corner's move changes twice an area by its size times how far the others are, and those are
             // in this box with the sample; once more for what float32 rounds away.
             const float margin = wide * (2 * (right - low + bottom - top) + wide) * 1.01f;
-            for (int v = firstY; v <= lastY && !covers; ++v)
-                for (int u = firstX; u <= lastX && !covers; ++u)
-                    covers = !leavesOutside(c, static_cast<float>(u) + 0.5f, static_cast<float>(v) + 0.5f,
-                                            margin, turn, projection.either_side);
+            const glm::vec2 first(static_cast<float>(firstX) + 0.5f, static_cast<float>(firstY) + 0.5f);
+            const EdgeSide ab(turn, a - first, b - first), bc(turn, b - first, c - first),
+                ca(turn, c - first, a - first);
+            // Without branches on what a sample turns out to be, as one is like another.
+            for (int v = 0; v < down; ++v)
+                for (int u = 0; u < across; ++u) {
+                    const auto x = static_cast<float>(u), y = static_cast<float>(v);
+                    const float one = ab.at + x * ab.across + y * ab.down,
+                                two = bc.at + x * bc.across + y * bc.down,
+                                three = ca.at + x * ca.across + y * ca.down;
+                    const bool inside = std::min(one, std::min(two, three)) >= -margin,
+                               behind = std::max(one, std::max(two, three)) <= margin;
+                    covers = covers | inside | (behind & projection.either_side);
+                }
         }
         covering |= TriangleSet{covers} << number;
     }

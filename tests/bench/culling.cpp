@@ -13,6 +13,8 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,6 +27,20 @@ double cpuMs() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+// Of the threads that are not named so: lavapipe draws by those named llvmpipe-0, llvmpipe-1, ..., and one
+// other runs commands, shades vertices and sets triangles up.
+double cpuMsBeside(const std::string& name) {
+    double ms = 0;
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::string comm;
+        std::getline(std::ifstream(thread.path() / "comm"), comm);
+        double ns = 0;
+        std::ifstream(thread.path() / "schedstat") >> ns;
+        if (!comm.starts_with(name)) ms += 1e-6 * ns;
+    }
+    return ms;
 }
 
 std::string spread(std::vector<double> values) {
@@ -57,18 +73,21 @@ void measure(Device& device, const std::string& file, Settings settings, std::si
             each.push_back(settings);
         }
     PreparedFrames frames = renderer.prepare(each);
-    std::vector<std::vector<double>> wall(each.size()), cpu(each.size());
+    std::vector<std::vector<double>> wall(each.size()), cpu(each.size()), front(each.size());
     for (std::size_t run = 0; run <= runs; ++run)
         for (std::size_t i = 0; i < each.size(); ++i) {
-            const double before = cpuMs(), ms = frames.draw(i), used = cpuMs() - before;
+            const double beside = cpuMsBeside("llvmpipe"), before = cpuMs(), ms = frames.draw(i),
+                         used = cpuMs() - before, set = cpuMsBeside("llvmpipe") - beside;
             if (run == 0) continue;  // drivers compile
             wall[i].push_back(ms);
             cpu[i].push_back(used);
+            front[i].push_back(set);
         }
     fmt::print("{}: cut in {:.1f} ms\n", file, cutMs(scene));
     for (std::size_t i = 0; i < each.size(); ++i)
-        fmt::print("  {:<12} --cull {:<3}  {}   CPU {}\n", nameOf(each[i].path), each[i].cull ? "on" : "off",
-                   spread(wall[i]), spread(cpu[i]));
+        fmt::print("  {:<12} --cull {:<3}  {}   CPU {}   of it vertices and set-up {}\n",
+                   nameOf(each[i].path), each[i].cull ? "on" : "off", spread(wall[i]), spread(cpu[i]),
+                   spread(front[i]));
     for (std::size_t i = 0; i < each.size(); i += 2) {
         std::vector<double> ratios, used;
         for (std::size_t run = 0; run < runs; ++run) {

@@ -17,8 +17,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr auto litMode = static_cast<int>(gpu::DEBUG_lit);
-
 Settings cullingSettings(Path path, Size size = {160, 90}) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.path = path;
@@ -26,16 +24,21 @@ Settings cullingSettings(Path path, Size size = {160, 90}) {
     return settings;
 }
 
-// Every channel that the path makes.
-void expectSameCulled(Renderer& renderer, Settings settings, const std::string& name) {
+// What tells surfaces apart, and what follows from their light.
+const std::vector<int> fewChannels{static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
+                                   static_cast<int>(gpu::DEBUG_depth),
+                                   static_cast<int>(gpu::DEBUG_material_id)};
+
+void expectSameCulled(Renderer& renderer, Settings settings, const std::string& name,
+                      const std::vector<int>& channels) {
     RenderOptions options;
-    for (int mode = 0; mode < static_cast<int>(debugModes().size()); ++mode) options.channels.push_back(mode);
+    options.channels = channels;
     options.runs = 0;
     settings.cull = true;
     const Frame culled = renderer.draw(settings, options);
     settings.cull = false;
     const Frame all = renderer.draw(settings, options);
-    EXPECT_GE(culled.channels.size(), 10u);
+    EXPECT_GE(culled.channels.size(), 4u);
     ASSERT_EQ(culled.channels.size(), all.channels.size());
     for (const auto& [mode, image] : culled.channels)
         EXPECT_EQ(differingPixels(image, all.channels.at(mode)), 0u)
@@ -43,11 +46,12 @@ void expectSameCulled(Renderer& renderer, Settings settings, const std::string& 
 }
 
 void expectSameInBothPaths(Renderer& renderer, const std::string& name,
-                           const std::function<void(Settings&)>& change = {}) {
+                           const std::function<void(Settings&)>& change = {},
+                           const std::vector<int>& channels = fewChannels) {
     for (const Path path : drawn_paths) {
         Settings settings = cullingSettings(path);
         if (change) change(settings);
-        expectSameCulled(renderer, settings, name);
+        expectSameCulled(renderer, settings, name, channels);
     }
 }
 
@@ -55,7 +59,7 @@ class CullingOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(CullingOf, ChangesNoBit) {
     Renderer& renderer = uploaded(GetParam()).renderer;
-    expectSameInBothPaths(renderer, "plain");
+    expectSameInBothPaths(renderer, "plain", {}, allChannels());
     expectSameInBothPaths(renderer, "four samples", [](Settings& s) { s.msaa = 4; });
 }
 
