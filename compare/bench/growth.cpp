@@ -59,10 +59,11 @@ std::string lineInWords(const GrowthLine& line, const char* what, const std::vec
         amounts.front(), unit, numberText(values.front()), amounts.back(), numberText(values.back()));
     const Bend bend = bendOf(values, amounts);
     if (!bend.found) return begin + "; flat";
-    if (bend.value == values.front())
-        return fmt::format("{}; grows as the power {:.2f} from the first on{}", begin, bend.exponent, why);
-    return fmt::format("{}; flat up to {}, then as the power {:.2f}{}", begin, numberText(bend.value),
-                       bend.exponent, why);
+    const std::string from =
+        bend.value == values.front() ? "" : fmt::format("flat up to {}, then ", numberText(bend.value));
+    const std::string to =
+        bend.until == values.back() ? "" : fmt::format(" up to {}", numberText(bend.until));
+    return fmt::format("{}; {}grows as the power {:.2f}{}{}", begin, from, bend.exponent, to, why);
 }
 
 }  // namespace
@@ -87,13 +88,19 @@ std::vector<GrowthLine> growthLines(const Bench& bench) {
 
 Bend bendOf(const std::vector<double>& values, const std::vector<double>& amounts) {
     if (values.size() != amounts.size()) throw std::logic_error("a value has no amount");
-    // From the last backwards: the longest end every step of which grows.
-    std::size_t first = values.empty() ? 0 : values.size() - 1;
-    while (first > 0 &&
-           slope(values[first - 1], amounts[first - 1], values[first], amounts[first]) >= flatExponent)
-        --first;
-    if (first + 1 >= values.size()) return {};
-    return {values[first], slope(values[first], amounts[first], values.back(), amounts.back()), true};
+    Bend most;
+    double grown = 0;  // the logarithm of what it grows by
+    for (std::size_t first = 0, last = 0; first + 1 < values.size(); first = std::max(last, first + 1)) {
+        last = first;
+        while (last + 1 < values.size() &&
+               slope(values[last], amounts[last], values[last + 1], amounts[last + 1]) >= flatExponent)
+            ++last;
+        if (last == first || std::log(amounts[last] / amounts[first]) <= grown) continue;
+        grown = std::log(amounts[last] / amounts[first]);
+        most = {values[first], values[last],
+                slope(values[first], amounts[first], values[last], amounts[last]), true};
+    }
+    return most;
 }
 
 double memoryMib(const BenchRow& row) {

@@ -18,10 +18,10 @@ struct GrowthLine {
     std::vector<const BenchRow*> rows;  // ascending
 };
 
-// Where a line bends: up to `value` it grows by less than the square root of what grows, from there on to the
-// last value as its `exponent`: 1 is in proportion. Nothing where it never does, or from the first on.
+// Where a line grows most: from `value` to `until` as the power `exponent` of what grows (1 is in
+// proportion), in every step by more than its square root. Not found where no step does.
 struct Bend {
-    double value = 0;
+    double value = 0, until = 0;
     double exponent = 0;
     bool found = false;
 };

@@ -37,7 +37,10 @@ TEST(BenchGrowth, BendsWhereItBeginsToGrow) {
     EXPECT_EQ(all.value, 2);
     EXPECT_NEAR(all.exponent, 2, 1e-12);
     EXPECT_FALSE(bendOf({1, 10, 100}, {5, 6, 7}).found);
-    EXPECT_FALSE(bendOf({1, 10, 100}, {5, 50, 60}).found) << "what has stopped growing is flat at its end";
+    const Bend early = bendOf({1, 10, 100, 1000, 10000}, {5, 50, 60, 70, 300});
+    EXPECT_EQ(early.value, 1) << "tenfold is more than five times";
+    EXPECT_EQ(early.until, 10);
+    EXPECT_NEAR(early.exponent, 1, 1e-12);
     EXPECT_FALSE(bendOf({1}, {5}).found);
     EXPECT_FALSE(bendOf({}, {}).found);
     EXPECT_THROW(bendOf({1, 2}, {1}), std::logic_error);
@@ -51,9 +54,10 @@ TEST(BenchGrowth, SaysWhereAndWhy) {
     EXPECT_EQ(memoryMib(*lines[0].rows[0]), 4);
     const std::vector<std::string> words = growthInWords(bench);
     ASSERT_EQ(words.size(), 2u);
-    EXPECT_EQ(words[0],
-              "deferred, time over draws: 5 ms at 10, 50 at 1000; flat up to 100, then as the power 0.92; "
-              "100 % of what is added is G-buffer");
+    EXPECT_EQ(
+        words[0],
+        "deferred, time over draws: 5 ms at 10, 50 at 1000; flat up to 100, then grows as the power 0.92; "
+        "100 % of what is added is G-buffer");
     EXPECT_EQ(words[1], "deferred, memory over draws: 4 MiB at 10, 4 at 1000; flat");
     EXPECT_TRUE(growthInWords(grownBench({{10, 5}})).empty()) << "one point grows nowhere";
 }
