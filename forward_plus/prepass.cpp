@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace diptych {
 
@@ -53,6 +54,14 @@ private:
     OwnedQueryPool pool_;
 };
 
+// Whether any triangle of a solid draw may show.
+bool drawsSolids(const DrawList& draws) {
+    return std::ranges::any_of(draws.solids(), [&](const DrawItem& item) {
+        const auto runs = std::span(draws.runs).subspan(item.first_run, item.runs);
+        return runs.empty() || std::ranges::any_of(runs, [](const IndexRun& run) { return run.count > 0; });
+    });
+}
+
 }  // namespace
 
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height) {
@@ -63,7 +72,8 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
         overdraw.textures += static_cast<double>(triangles) * texturesOf(item.variant);
     }
     overdraw.textures /= static_cast<double>(std::max<std::uint64_t>(overdraw.triangles, 1));
-    if (inputs.draws.solid == 0 || !inputs.device.countsFragments()) return overdraw;
+    // lavapipe 22.3 crashes where nothing is drawn before a full-screen triangle without a fragment shader.
+    if (!drawsSolids(inputs.draws) || !inputs.device.countsFragments()) return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);
