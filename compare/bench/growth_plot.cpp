@@ -20,15 +20,6 @@ struct Figure {
 const Figure figures[] = {{"time of a frame, ms", [](const BenchRow& row) { return row.time.median; }},
                           {"memory on the device, MiB", memoryMib}};
 
-std::string signAt(Path path, double x, double y) {
-    constexpr double r = 4;
-    return path == Path::deferred
-               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
-                             svgNumber(y), r)
-               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-                             svgNumber(x - r), svgNumber(y - r), 2 * r, 2 * r);
-}
-
 std::string inGroup(Path path, const std::string& inside) {
     return fmt::format("<g class=\"series {} clustered\">{}</g>", nameOf(path), inside);
 }
@@ -59,7 +50,7 @@ std::string panelOf(const std::vector<GrowthLine>& lines, const Figure& figure, 
                 fmt::format("<g><title>{}</title>{}</g>",
                             page::markup(fmt::format("{}, {:.6g} {}: {:.4g}", nameOf(line.path),
                                                      row->growth->value, nameOf(axis), figure.amount(*row))),
-                            signAt(line.path, px, py));
+                            markAt(line.path, px, py));
         }
         out += inGroup(line.path, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", trace, marks));
     }
@@ -92,7 +83,7 @@ std::string growthPlot(const Bench& bench, PlotPlace place) {
     for (const Path path : paths) {
         const auto [x, y] = legend.next();
         out += inGroup(path, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(x),
-                                         svgNumber(y), signAt(path, x + 12, y)) +
+                                         svgNumber(y), markAt(path, x + 12, y)) +
                                  legend.words(std::string(nameOf(path))));
     }
     return plotElement(plotWidth, std::max(legend.end(), panelHeight), "How a frame grows", place, out);

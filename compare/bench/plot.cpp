@@ -40,16 +40,6 @@ std::vector<Series> seriesOf(const Bench& bench, const Size& size) {
     return all;
 }
 
-// Paths differ in the shape of points and the dash of lines, assignments in colour.
-std::string markAt(Path path, double x, double y) {
-    constexpr double r = 4;
-    return path == Path::deferred
-               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
-                             svgNumber(y), r)
-               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-                             svgNumber(x - r), svgNumber(y - r), 2 * r, 2 * r);
-}
-
 std::string groupOf(const Series& series, const std::string& inside) {
     return fmt::format("<g class=\"series {} {}\">{}</g>", nameOf(series.path), nameOf(series.assign),
                        inside);
@@ -96,6 +86,15 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
 }
 
 }  // namespace
+
+std::string markAt(Path path, double x, double y) {
+    constexpr double r = 4;
+    return path == Path::deferred
+               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
+                             svgNumber(y), r)
+               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                             svgNumber(x - r), svgNumber(y - r), 2 * r, 2 * r);
+}
 
 std::string benchPlot(const Bench& bench, PlotPlace place) {
     if (bench.options.table == BenchTable::growth) return growthPlot(bench, place);

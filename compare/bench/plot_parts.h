@@ -32,6 +32,9 @@ private:
     int entries_ = 0;
 };
 
+// A point of a line, at the drawing's place: paths differ in the shape of points and the dash of lines.
+std::string markAt(Path path, double x, double y);
+
 // A bar a row, stacked of the medians of its passes, with a mark at the median of the whole frames and a line
 // from their least to their most. Lengths are proportional to time.
 Panel barsOf(const Bench& bench, const Size& size, double above);
