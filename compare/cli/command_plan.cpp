@@ -86,6 +86,8 @@ Json jsonOf(const ScenePlan& plan) {
                          {"triangles_in_view", path.drawn.in_view},
                          {"triangles_drawn", path.drawn.drawn},
                          {"vertices_drawn", path.drawn.vertices},
+                         {"instances_drawn", path.drawn.instances},
+                         {"draws", path.drawn.draws},
                          {"notes", path.notes}});
     }
     return {{"scene", plan.scene},
@@ -126,8 +128,11 @@ void print(const ScenePlan& plan) {
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
                 : "");
-        fmt::print("    {} of {} triangles are in view and {} drawn, with {} vertices\n", path.drawn.in_view,
-                   needs.triangles, path.drawn.drawn, path.drawn.vertices);
+        fmt::print(
+            "    {} of {} triangles are in view and {} drawn, with {} vertices, by {} draws of {} "
+            "instances\n",
+            path.drawn.in_view, needs.triangles, path.drawn.drawn, path.drawn.vertices, path.drawn.draws,
+            path.drawn.instances);
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
     for (const FrameWork& work : plan.work) print(work);

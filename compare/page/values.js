@@ -28,28 +28,30 @@ function base91Bytes(text) {
   return bytes;
 }
 
-async function inflated(text) {
+// An empty text is of zeros alone.
+async function inflated(text, bytes) {
+  if (!text) return new Uint8Array(bytes);
   const stream = new Blob([base91Bytes(text)]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 // `smooth`: what is stored are the differences to the left neighbours.
-function wordsOf(raw, plane, file, smooth) {
+function wordsOf(raw, file, smooth) {
   const pixels = file.width * file.height, bytes = file.bits / 8;
   const words = file.bits === 16 ? new Uint16Array(pixels) : new Uint32Array(pixels);
-  for (let i = 0, at = plane * pixels * bytes; i < pixels; ++i) {
+  for (let i = 0; i < pixels; ++i) {
     let word = 0;
-    for (let byte = 0; byte < bytes; ++byte) word |= raw[at + byte * pixels + i] << 8 * byte;
+    for (let byte = 0; byte < bytes; ++byte) word |= raw[byte * pixels + i] << 8 * byte;
     words[i] = word + (smooth && i % file.width ? words[i - 1] : 0);
   }
   return words;
 }
 
 class Values {
-  constructor(file, raw) {
-    const { components: n, images } = file, planes = n * images + (file.errors ? 1 : 0);
+  constructor(file, raws) {
+    const { components: n, images } = file;
     this.file = file;
-    this.planes = Array.from({ length: planes }, (_, plane) => wordsOf(raw, plane, file, plane < n));
+    this.planes = raws.map((raw, plane) => wordsOf(raw, file, plane < n));
     for (let plane = n; plane < n * images; ++plane)
       this.planes[plane].forEach((word, i, all) => { all[i] = word + this.planes[plane - n][i]; });
     if (file.bits === 32) this.planes = this.planes.map(words => new Float32Array(words.buffer));
@@ -77,7 +79,8 @@ class Values {
 }
 
 window.diptychValues = async (name, file) => {
-  values.set(name, new Values(file, await inflated(file.data)));
+  const bytes = file.width * file.height * file.bits / 8;
+  values.set(name, new Values(file, await Promise.all(file.data.map(text => inflated(text, bytes)))));
   for (const then of waiting.get(name) || []) then();
   waiting.delete(name);
 };

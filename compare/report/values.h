@@ -25,10 +25,10 @@ struct ChannelValues {
 inline constexpr std::size_t mostPixelsOfValues = std::size_t{16} << 20;
 
 // diptychValues("NAME", {...}): width, height, components, images (1 or 2), bits, exact, exponent, errorUnit,
-// and `data`, in base 91 zlib's format of these planes of W x H words of 16 or 32 bits, one after the other:
-// the components of baseline, each word as the difference to its left neighbour in the row; those of test,
-// less the baseline's words (all modulo 2^bits); the errors. A plane is stored by bytes: the lowest bytes of
-// all words first.
+// and `data`, a text for each of these planes of W x H words of 16 or 32 bits, in base 91 zlib's format of
+// it, empty where all of its words are 0: the components of baseline, each word as the difference to its left
+// neighbour in the row; those of test, less the baseline's words (all modulo 2^bits); the errors. A plane is
+// stored by bytes: the lowest bytes of all words first.
 //
 // 32 bits: exact float32, used if baseline and test take at most 1 MiB. 16 bits: float16 of the
 // value x 2^exponent, by which the largest magnitude stays below 2^15, so that 11 bits are left of all that

@@ -29,7 +29,7 @@ struct Draw {
 // Push constants of a draw. With FEATURE_light_batch it walks the packets [light_first, light_end) of each
 // list, counted from the list's begin.
 struct DrawConstants {
-    uint draw;      // into the draws
+    uint draw;      // into the draws, with FEATURE_object_lights; else 0
     uint material;  // its number: the channel material_id
     uint light_first;
     uint light_end;

@@ -26,6 +26,17 @@ SampleGrid gridOf(const Device& device, const View& view, int samples) {
             std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
+// How many items from number i on may be drawn as instances of one mesh, which has one cluster: a draw saves
+// more than the triangles of a cluster that face away.
+std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
+    std::size_t end = i + 1;
+    if (draws.items[i].range.cluster_count != 1) return 1;
+    while (end < draws.solid && isNextInstance(draws.items[end - 1], draws.items[end]) &&
+           draws.items[end].variant == draws.items[i].variant)
+        ++end;
+    return static_cast<std::uint32_t>(end - i);
+}
+
 }  // namespace
 
 Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
@@ -35,13 +46,23 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t place = 0;
     draws_.runs.clear();
+    const DeviceCosts& costs = device.profile().costs;
+    std::uint32_t together = 0;  // of the instances that one draw may draw, those that are still to come
     for (std::uint32_t i = 0; i < draws_.solid; ++i) {
         DrawItem& item = draws_.items[i];
         if (item.box >= 0) continue;
+        const PrimitiveRange& range = item.range;
+        if (together == 0) {
+            together = togetherFrom(draws_, i);
+            if (together > 1)
+                instances_.push_back({static_cast<std::uint32_t>(parts_.size()), together,
+                                      costs.draw / (costs.triangle * range.index_count / 3)});
+        }
         const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
         const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
-        const PrimitiveRange& range = item.range;
+        const bool whole = !instances_.empty() && parts_.size() >= instances_.back().first_part &&
+                           parts_.size() < instances_.back().first_part + instances_.back().count;
         Item made{ShownClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
                                 oneSided, item.mirrored),
                   glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
@@ -50,20 +71,22 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
                   static_cast<std::uint32_t>(order_.size()),
                   static_cast<std::uint32_t>(parts_.size()),
                   (range.cluster_count + partClusters - 1) / partClusters,
-                  place};
+                  place,
+                  whole};
         for (std::uint32_t first = 0; first < range.cluster_count; first += partClusters)
             parts_.push_back({static_cast<std::uint32_t>(items_.size()), made.first + first,
                               std::min(partClusters, range.cluster_count - first)});
         order_.resize(order_.size() + range.cluster_count);
-        place += range.index_count;
-        item.chosen = true;
+        if (!whole) place += range.index_count;
+        item.chosen = !whole;
         item.first_run = made.first_part;
         item.runs = made.parts;
         items_.push_back(made);
+        --together;
     }
     if (!any()) return;
     draws_.runs.resize(parts_.size());
-    indices_ = GpuBuffer(device, "chosen indices", std::uint64_t{place} * sizeof(std::uint32_t),
+    indices_ = GpuBuffer(device, "chosen indices", std::uint64_t{std::max(place, 1u)} * sizeof(std::uint32_t),
                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
     run();
 }
@@ -104,6 +127,10 @@ void Culling::choose(std::size_t part, std::uint32_t* indices) {
         const Cluster& cluster = geometry_.cluster(order_[k]);
         const ClusterTriangles::Entry& entry = triangles[order_[k]];
         const TriangleSet set = on_ ? shown.of(cluster, triangles, entry) : entry.all();
+        if (items_[of.item].whole) {
+            draws_.runs[part] = {cluster.first_index, set != 0 ? cluster.index_count : 0};
+            return;
+        }
         const std::span<const std::uint32_t> all = geometry_.indicesOf(cluster);
         if (set == entry.all()) {
             std::memcpy(next, all.data(), all.size_bytes());
@@ -116,23 +143,49 @@ void Culling::choose(std::size_t part, std::uint32_t* indices) {
     draws_.runs[part] = {of.place, static_cast<std::uint32_t>(next - (indices + of.place))};
 }
 
+void Culling::fillGaps(const Instances& instances) {
+    const std::span<IndexRun> runs = std::span(draws_.runs).subspan(instances.first_part, instances.count);
+    std::size_t after = runs.size();  // the one that was shown last; at first none
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (runs[i].count == 0) continue;
+        if (after < i && static_cast<double>(i - after) <= instances.gap)
+            for (std::size_t k = after; k < i; ++k) runs[k] = runs[i];
+        after = i + 1;
+    }
+}
+
 double Culling::run() {
     if (!any()) return 0;
     const auto start = std::chrono::steady_clock::now();
     auto* const indices = static_cast<std::uint32_t*>(indices_.mapped());
     tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { order(items_[i]); });
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { choose(i, indices); });
+    if (on_)
+        tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t i) { fillGaps(instances_[i]); });
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling) {
     DrawnCounts counts;
     std::vector<std::uint32_t> used;
+    const DrawItem* last = nullptr;
     for (const DrawItem& item : draws.items) {
         counts.in_view += item.range.index_count / 3;
+        const auto runs = std::span(draws.runs).subspan(item.first_run, item.runs);
+        const auto drawn = static_cast<std::uint64_t>(
+            std::ranges::count_if(runs, [](const IndexRun& run) { return run.count > 0; }));
+        if (item.runs > 0 && drawn == 0) {
+            last = nullptr;
+            continue;
+        }
+        ++counts.instances;
+        const bool together = last != nullptr && !item.chosen && !item.blended &&
+                              isNextInstance(*last, item) && last->variant == item.variant;
+        if (!together) counts.draws += std::max<std::uint64_t>(drawn, 1);
+        last = &item;
         used.clear();
         if (item.chosen)
-            for (const IndexRun& run : std::span(draws.runs).subspan(item.first_run, item.runs)) {
+            for (const IndexRun& run : runs) {
                 const std::span<const std::uint32_t> of = culling.chosen(run);
                 used.insert(used.end(), of.begin(), of.end());
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The triangles of a view's solid draws, anew for every frame: clusters from near to far, and with --cull on
-// only what may show.
+// only what may show. Instances of one small mesh that follow one another are shown whole or not at all, so
+// that one draw draws them.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -42,6 +43,13 @@ private:
         std::uint32_t first;  // of as many, into order_
         std::uint32_t first_part, parts;
         std::uint32_t place;  // of its first index
+        bool whole;           // drawn as the scene has it, or not at all; of one cluster
+    };
+    // Instances that one draw may draw. Fewer than `gap` of them that cannot show are drawn all the same
+    // where they stand between two that may, since another draw would take longer.
+    struct Instances {
+        std::uint32_t first_part, count;
+        double gap;
     };
     // Clusters of one item that follow one another in order_, whose indices one run has.
     struct Part {
@@ -50,21 +58,25 @@ private:
     };
     void order(const Item& item);
     void choose(std::size_t part, std::uint32_t* indices);
+    void fillGaps(const Instances& instances);
 
     const Geometry& geometry_;
     DrawList& draws_;
     bool on_;
     std::vector<Item> items_;
-    std::vector<Part> parts_;           // each has the run of its number
+    std::vector<Part> parts_;  // each has the run of its number
+    std::vector<Instances> instances_;
     std::vector<std::uint32_t> order_;  // numbers of clusters
     GpuBuffer indices_;
 };
 
 // What the draws of a view amount to.
 struct DrawnCounts {
-    std::uint64_t in_view = 0;   // triangles of instances that are drawn at all
-    std::uint64_t drawn = 0;     // of these, those that Culling leaves
-    std::uint64_t vertices = 0;  // that differ, draw by draw: a device shades no fewer
+    std::uint64_t in_view = 0;    // triangles of instances that are drawn at all
+    std::uint64_t drawn = 0;      // of these, those that Culling leaves
+    std::uint64_t vertices = 0;   // that differ, draw by draw: a device shades no fewer
+    std::uint64_t instances = 0;  // that are drawn
+    std::uint64_t draws = 0;      // of all of them, blended ones too
 };
 DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling);
 

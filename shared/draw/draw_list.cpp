@@ -139,11 +139,30 @@ void add(DrawList& list, DrawItem item, const PlacedPrimitive& placed, const glm
 void sort(DrawList& list) {
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
         const auto key = [](const DrawItem& i) {
-            return std::tie(i.masked, i.distance, i.variant, i.range.material);
+            return std::tie(i.masked, i.distance, i.variant, i.range.material, i.range.first_index,
+                            i.mirrored);
         };
         return key(a) < key(b);
     });
     list.solid = list.items.size();
+}
+
+// Numbers the draws in the order of the items, so that instances of one mesh that follow one another have
+// numbers that do, as one draw of them needs.
+void number(DrawList& list) {
+    constexpr std::uint32_t none = ~0u;
+    std::vector<std::uint32_t> numbers(list.draws.size(), none);
+    std::vector<gpu::Draw> draws;
+    draws.reserve(list.draws.size());
+    for (DrawItem& item : list.items) {
+        std::uint32_t& now = numbers[item.draw];
+        if (now == none) {
+            now = static_cast<std::uint32_t>(draws.size());
+            draws.push_back(list.draws[item.draw]);
+        }
+        item.draw = now;
+    }
+    list.draws = std::move(draws);
 }
 
 // `blended`: in the scene's order.
@@ -221,6 +240,12 @@ bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, 
 
 }  // namespace
 
+bool isNextInstance(const DrawItem& item, const DrawItem& next) {
+    return next.draw == item.draw + 1 && next.range.first_index == item.range.first_index &&
+           next.range.material == item.range.material && next.mirrored == item.mirrored && item.box < 0 &&
+           next.box < 0 && next.sides == item.sides && next.chosen == item.chosen;
+}
+
 glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
     glm::dmat4 fromCamera = placed.world_from_object;
     fromCamera[3] -= glm::dvec4(eye, 0.0);
@@ -267,6 +292,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
     list.items.erase(first, list.items.end());
     sort(list);
     addBlended(list, std::move(blended), transparency);
+    number(list);
     if (transparency == Transparency::triangles) sortTriangles(list, pose, geometry, view);
     return list;
 }
@@ -294,6 +320,7 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
         add(list, item, placed, request.eye, request.clip_from_world);
     }
     sort(list);
+    number(list);
     return list;
 }
 

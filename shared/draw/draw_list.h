@@ -24,6 +24,7 @@ struct ViewDepths {
 // Indices that follow one another.
 struct IndexRun {
     std::uint32_t first = 0, count = 0;
+    bool operator==(const IndexRun&) const = default;
 };
 
 // Triangles of one draw that follow one another in an order of all draws' triangles.
@@ -72,20 +73,23 @@ struct DrawList {
     std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
 };
 
+// Whether the item after `item` may be drawn with it as one more instance, where both draw the same indices
+// with one pipeline: all that they differ in is in their draws, which stand side by side.
+bool isNextInstance(const DrawItem& item, const DrawItem& next);
+
 // World axes from the eye, of a primitive's stored positions.
 glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
 
 // Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
-// then by variant and material, then as in the scene. What encloses other things, a room or a ground, comes
-// after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
-// only where its bounding box lies wholly beyond one plane of the view. Triangles of a solid draw come in the
-// order of clusters, but where it is posed in the scene's.
-// Blended draws come after all others: from far to near by the centre of the bounding box, a double-sided one
-// twice, first its backs (`Transparency::sorted`), or as in the scene. With `Transparency::triangles` they
-// stay as in the scene, and `sorted_runs` has the order in which their triangles are drawn: from far to near
-// by the view depth of the centroid, and where two are equal as in the scene.
-// There are none of `Transparency::off`; for `Transparency::list` they come from near to far, which spares it
-// work.
+// then by variant, material and mesh, then as in the scene. What encloses other things, a room or a ground,
+// comes after them, so most of what is hidden fails its depth test before it is shaded. An instance is left
+// out only where its bounding box lies wholly beyond one plane of the view. Triangles of a solid draw come in
+// the order of clusters, but where it is posed in the scene's. Blended draws come after all others: from far
+// to near by the centre of the bounding box, a double-sided one twice, first its backs
+// (`Transparency::sorted`), or as in the scene. With `Transparency::triangles` they stay as in the scene, and
+// `sorted_runs` has the order in which their triangles are drawn: from far to near by the view depth of the
+// centroid, and where two are equal as in the scene. There are none of `Transparency::off`; for
+// `Transparency::list` they come from near to far, which spares it work.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency = Transparency::sorted);
 

@@ -6,6 +6,7 @@
 #include "shared/contract/material.h"
 #include "shared/draw/pipeline_keys.h"
 
+#include <cstring>
 #include <memory>
 #include <span>
 #include <utility>
@@ -43,7 +44,8 @@ void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint ver
 
 gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) {
     gpu::DrawConstants constants{};
-    constants.draw = item.draw;
+    // Else alike for as many draws as may be, since what does not change is not pushed again.
+    if (inputs.variant.get(gpu::FEATURE_object_lights) != 0) constants.draw = item.draw;
     constants.material = item.range.material;
     constants.posing = inputs.posing.address(item);
     return constants;
@@ -121,17 +123,25 @@ public:
             inputs_.geometry.bindIndices(commands_, item.chosen ? inputs_.chosen_indices : VK_NULL_HANDLE);
             chosen_ = item.chosen;
         }
-        vkCmdSetCullMode(commands_, culledOf(source_, item));
+        const VkCullModeFlags culled = culledOf(source_, item);
+        if (last_ == nullptr || culled != culled_) vkCmdSetCullMode(commands_, culled);
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
-        vkCmdSetFrontFace(commands_,
-                          item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        push(commands_, inputs_, constants_of_(item));
+        if (last_ == nullptr || item.mirrored != last_->mirrored)
+            vkCmdSetFrontFace(commands_,
+                              item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        const gpu::DrawConstants constants = constants_of_(item);
+        if (last_ == nullptr || std::memcmp(&constants, &constants_, sizeof constants) != 0)
+            push(commands_, inputs_, constants);
+        constants_ = constants;
+        culled_ = culled;
         last_ = &item;
         taken_ = i;
     }
-    void draw(const IndexRun& run) const {
-        vkCmdDrawIndexed(commands_, run.count, 1, run.first, inputs_.posing.vertexOffset(*last_),
+    // `instances`: of the item taken and those after it.
+    void draw(const IndexRun& run, std::uint32_t instances = 1) const {
+        vkCmdDrawIndexed(commands_, run.count, instances, run.first, inputs_.posing.vertexOffset(*last_),
                          last_->draw);
+        inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
     }
 
 private:
@@ -142,26 +152,59 @@ private:
     const ConstantsOf& constants_of_;
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
+    gpu::DrawConstants constants_{};
+    VkCullModeFlags culled_ = 0;
     bool posed_ = false;   // whether posed vertices are bound
     bool chosen_ = false;  // whether indices of Culling are
 };
+
+// What a source draws of item i: runs of indices, of which some may be empty.
+struct ItemRuns {
+    ItemRuns(const DrawSource& source, std::size_t i)
+        : item(source.items[i]), whole{item.range.first_index, item.range.index_count}, source_(source) {}
+    std::span<const IndexRun> all() const {
+        return item.runs == 0 ? std::span(&whole, 1) : source_.runs.subspan(item.first_run, item.runs);
+    }
+    const DrawItem& item;
+    IndexRun whole;
+
+private:
+    const DrawSource& source_;
+};
+
+// How many items from number i on are instances of the same triangles, which one draw draws: what they differ
+// in has its place in the draws, which they have side by side.
+std::uint32_t instancesFrom(std::size_t i, const FrameInputs& inputs, const DrawSource& source,
+                            const std::vector<VkPipeline>& pipelines) {
+    const ItemRuns first(source, i);
+    // Shaders find the lights of an object by a push constant.
+    if (first.all().size() != 1 || inputs.variant.get(gpu::FEATURE_object_lights) != 0) return 1;
+    std::size_t end = i + 1;
+    for (; end < pipelines.size(); ++end) {
+        const ItemRuns next(source, end);
+        const bool same = isNextInstance(source.items[end - 1], next.item) &&
+                          pipelines[end] == pipelines[i] && next.all().size() == 1 &&
+                          next.all().front() == first.all().front();
+        if (!same) break;
+    }
+    return static_cast<std::uint32_t>(end - i);
+}
 
 template <class ConstantsOf>
 void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
-    for (std::size_t i = 0; i < pipelines.size(); ++i) {
-        const DrawItem& item = source.items[i];
-        const IndexRun whole{item.range.first_index, item.range.index_count};
-        const std::span<const IndexRun> runs =
-            item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
+    std::uint32_t instances = 1;
+    for (std::size_t i = 0; i < pipelines.size(); i += instances) {
+        instances = instancesFrom(i, inputs, source, pipelines);
+        const ItemRuns runs(source, i);
         bool taken = false;
-        for (const IndexRun& run : runs) {
+        for (const IndexRun& run : runs.all()) {
             if (run.count == 0) continue;
             if (!taken) recorder.take(i);
             taken = true;
-            recorder.draw(run);
+            recorder.draw(run, instances);
         }
     }
 }

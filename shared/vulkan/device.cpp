@@ -50,6 +50,7 @@ struct Device::State {
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
+    std::optional<DrawDivision> draw_division;
     std::uint32_t family = 0;
     std::optional<PipelineCache> pipeline_cache;
     VkQueue queue = VK_NULL_HANDLE;
@@ -84,6 +85,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.timestamp_bits = queues.at(family).timestampValidBits;
     s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
     s.device.reset(createDevice(s.physical, family));
+    s.draw_division.emplace(s.device.get(), s.profile.bins_at_once);
     s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
     s.pipeline_cache.emplace(s.physical, s.device.get(), userCacheFolder());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
@@ -166,9 +168,20 @@ std::uint32_t Device::queueFamily() const {
     return state_->family;
 }
 
+void Device::record(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record) {
+    recordCommands(commands, [&](VkCommandBuffer begun) {
+        state_->draw_division->begin(begun);
+        record(begun);
+    });
+}
+
+DrawDivision& Device::drawDivision() {
+    return *state_->draw_division;
+}
+
 double Device::submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what) {
     State& s = *state_;
-    recordCommands(s.commands, record);
+    this->record(s.commands, record);
     const auto start = std::chrono::steady_clock::now();
     VkResult result = submitCommands(s.queue, s.commands, s.fence);
     const VkFence fence = s.fence;

@@ -4,6 +4,7 @@
 
 #include "shared/vulkan/device_info.h"
 #include "shared/vulkan/device_profile.h"
+#include "shared/vulkan/draw_division.h"
 #include "shared/vulkan/memory.h"
 #include "shared/vulkan/owned.h"
 
@@ -68,6 +69,11 @@ public:
 
     VkQueue queue() const;
     std::uint32_t queueFamily() const;
+
+    // Records a command buffer from its begin to its end, ready to be submitted to queue().
+    void record(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record);
+    // What draws of many triangles tell of them.
+    DrawDivision& drawDivision();
 
     // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.
     // Throws std::runtime_error that says `what` was running where the device is lost.

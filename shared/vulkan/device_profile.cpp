@@ -9,7 +9,8 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
     const bool software = info.type == "cpu";
     const bool asSoftware = software && choices == ProfileChoices::of_device;
     // Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
-    constexpr DeviceCosts lavapipe{.triangle = 65,
+    constexpr DeviceCosts lavapipe{.draw = 7'000,
+                                   .triangle = 65,
                                    .depth = 1,
                                    .surface = 20,
                                    .texture = 10,
@@ -17,7 +18,8 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
                                    .list = 40,
                                    .listed = 15,
                                    .evaluated = 5};
-    constexpr DeviceCosts gpu{.triangle = 0.6,
+    constexpr DeviceCosts gpu{.draw = 70,
+                              .triangle = 0.6,
                               .depth = 0.01,
                               .surface = 0.2,
                               .texture = 0.1,
@@ -34,6 +36,7 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             .packets_per_draw = asSoftware ? 65'000u : 1u << 20,
             .fetches_depth = !asSoftware,
             .shades_failed_samples = asSoftware,
+            .bins_at_once = asSoftware && timestampBits > 0 ? 15'000u : 0u,
             .warm_up_ms = asSoftware ? 0.0 : 300.0,
             .longest_submit_ms = asSoftware ? std::numeric_limits<double>::infinity() : 100,
             .costs = asSoftware ? lavapipe : gpu};

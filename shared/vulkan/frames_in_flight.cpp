@@ -35,7 +35,7 @@ std::uint32_t FramesInFlight::nextSlot() {
 
 void FramesInFlight::submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what) {
     Slot& slot = slots_[nextSlot()];
-    recordCommands(slot.commands, record);
+    device_.record(slot.commands, record);
     slot.what = what;
     checkResult(submitCommands(device_.queue(), slot.commands, slot.fence), "running " + what);
     slot.under_way = true;

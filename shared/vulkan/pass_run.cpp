@@ -185,6 +185,7 @@ void PassList::renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer 
     vkCmdSetScissor(commands, 0, 1, &rows);
     if (pass.record_) pass.record_(commands);
     vkCmdEndRendering(commands);
+    device_.drawDivision().endPass();
 }
 
 std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last) const {

@@ -51,7 +51,8 @@ TEST_P(GpuChoices, DrawTheSamePictures) {
     EXPECT_EQ(asGpu().validationMessages(), 0u) << asGpu().firstValidationMessage();
 }
 INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
-                         testing::Values("builtin:cutout", "builtin:ortho", "builtin:points"),
+                         testing::Values("builtin:cutout", "builtin:ortho", "builtin:points",
+                                         "builtin:spheres"),
                          [](const auto& test) { return testName(test.param); });
 
 // Groups of samples after a pixel's first are shaded from a list, or by a draw each that the depth test
@@ -94,6 +95,28 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
     compared(loadScene("builtin:gallery"), {161, 91}, MsaaEdges::all);
     compared(loadScene("builtin:cutout"), {4097, 3}, MsaaEdges::exact);
     EXPECT_GT(compared(fineMesh(450), {300, 300}, MsaaEdges::exact), gpu::FURTHER_WIDTH * gpu::FURTHER_ROWS);
+}
+
+// Of many triangles, and of those of many instances.
+TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
+    const auto stamps = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene) {
+        Settings settings = smallPicture(GBufferEncoding::standard);
+        settings.path = Path::deferred;
+        settings.shadows = Shadows::off;
+        settings.cull = false;
+        SharedResources shared(on, scene, set);
+        const SceneView view = makeSceneView(scene, viewRequest(settings));
+        PreparedFrame(on, shared, view, settings).passes.run();
+        return on.drawDivision().stamps();
+    };
+    for (const char* name : {"builtin:spheres", "builtin:array?objects=20000&triangles=40000&meshes=1"}) {
+        const Scene scene = loadScene(name);
+        if (device().profile().bins_at_once > 0) {
+            EXPECT_GT(stamps(device(), pipelines(), scene), 0u) << name;
+        }
+        EXPECT_EQ(asGpu().profile().bins_at_once, 0u);
+    }
+    EXPECT_EQ(stamps(device(), pipelines(), loadScene("builtin:points")), 0u) << "few triangles";
 }
 
 // That they are what is drawn with: each shows in the frame.

@@ -50,20 +50,25 @@ Decoded decoded(const std::string& script) {
                       components = head["components"], images = head["images"],
                       planes = components * images + head["errors"].get<bool>(),
                       bytes = head["bits"].get<std::size_t>() / 8;
-    const std::string packed = fromBase91(head["data"]);
-    std::vector<unsigned char> raw(planes * pixels * bytes + 1);
-    uLongf size = static_cast<uLongf>(raw.size());
-    EXPECT_EQ(uncompress(raw.data(), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                         static_cast<uLong>(packed.size())),
-              Z_OK);
-    EXPECT_EQ(size, raw.size() - 1) << "no byte more than the planes have";
+    EXPECT_EQ(head["data"].size(), planes);
+    std::vector<std::vector<unsigned char>> raw;  // a byte more than each plane has
+    for (const Json& text : head["data"]) {
+        raw.emplace_back(pixels * bytes + 1);
+        if (text == "") continue;
+        const std::string packed = fromBase91(text);
+        uLongf size = static_cast<uLongf>(raw.back().size());
+        EXPECT_EQ(uncompress(raw.back().data(), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                             static_cast<uLong>(packed.size())),
+                  Z_OK);
+        EXPECT_EQ(size, pixels * bytes) << "no byte more than the plane has";
+    }
     std::vector<std::vector<std::uint32_t>> words(planes, std::vector<std::uint32_t>(pixels));
     const std::uint32_t mask = bytes == 2 ? 0xffffu : ~0u;
     for (std::size_t plane = 0; plane < planes; ++plane)
         for (std::size_t i = 0; i < pixels; ++i) {
             std::uint32_t word = 0;
             for (std::size_t byte = 0; byte < bytes; ++byte)
-                word += std::uint32_t{raw[(plane * bytes + byte) * pixels + i]} << (8 * byte);
+                word += std::uint32_t{raw[plane][byte * pixels + i]} << (8 * byte);
             const bool first = i % head["width"].get<std::size_t>() == 0 || plane >= components;
             words[plane][i] = (word + (first ? 0 : words[plane][i - 1])) & mask;
         }
