@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/deferred.h"
 
+#include "deferred/compute_lighting.h"
 #include "deferred/lighting_variant.h"
 #include "deferred/sample_groups.h"
 #include "shared/contract/debug_mode.h"
@@ -84,7 +85,7 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
 }
 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
-    return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
+    return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
         addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_light_batch_frag,
                             lightingVariant(inputs), {litFormat, litFormat}, batch, inputs.samples);
     });
@@ -106,16 +107,22 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     const FurtherGroups further = addGroups(passes, inputs, images);
     const FrameImages shaded = forLighting(images);
-    const LightBatch last = addEarlierLighting(passes, inputs, shaded);
-    const ImageRef lit =
-        passes.image({.name = "lit",
-                      .format = inputs.lit_format,
-                      .samples = inputs.samples,
-                      .usage = further.any() ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT} : 0});
-    Pass& shade = passes.draw("shade").color(lit, Load::clear);
-    addDeferredLighting(passes, shade, inputs, shaded, Shader::deferred_shade_frag, lightingVariant(inputs),
-                        {inputs.lit_format}, last,
-                        further.any() ? 1u : static_cast<gpu::uint>(inputs.samples));
+    const bool computes = inputs.lighting == Lighting::compute, stores = further.any() || computes;
+    const ImageRef lit = passes.image({.name = "lit",
+                                       .format = inputs.lit_format,
+                                       .samples = inputs.samples,
+                                       .usage = stores && inputs.lit_format == litFormat
+                                                    ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT}
+                                                    : 0});
+    const gpu::uint groups = further.any() ? 1u : static_cast<gpu::uint>(inputs.samples);
+    if (computes) {
+        addComputeLighting(passes, inputs, shaded, groups, lit);
+    } else {
+        const LightBatch last = addEarlierLighting(passes, inputs, shaded);
+        addDeferredLighting(passes, passes.draw("shade").color(lit, Load::clear), inputs, shaded,
+                            Shader::deferred_shade_frag, lightingVariant(inputs), {inputs.lit_format}, last,
+                            groups);
+    }
     addFurtherGroups(passes, inputs, shaded, further, lit);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);

@@ -59,7 +59,7 @@ std::shared_ptr<DescriptorSets> setOf(PassList& passes, const FrameInputs& input
     };
     store(gpu::BINDING_FURTHER_COUNT, further.count);
     store(gpu::BINDING_FURTHER_LIST, further.list);
-    store(gpu::BINDING_LIT_SAMPLES, lit);
+    store(gpu::BINDING_LIT_TARGET, lit);
     return sets;
 }
 

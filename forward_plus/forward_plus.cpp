@@ -74,9 +74,9 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
         });
         drawn = true;
     };
-    const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
-        addShading(pass, batch, forwardBatchKey);
-    });
+    const LightBatch last = addEarlierBatches(
+        passes, inputs,
+        [&](Pass& pass, const LightBatch& batch, const auto&) { addShading(pass, batch, forwardBatchKey); });
     const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
     addShading(passes.draw("shade").color(lit, Load::clear), last, forwardKey);
     addBackground(passes, inputs, images.depth, lit);
@@ -101,12 +101,14 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
             if (whole) key.variant.set(gpu::FEATURE_half_shading, 0);
             return quantised(std::move(key), inputs, encoded);
         };
-        const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
-            pass.depthTest(frame.depth);
-            addShadedDraws(
-                pass, passes, inputs, frame, batch,
-                [&](const DrawItem& item) { return keyOf(forwardBatchKey(inputs, item, batch)); }, shaded);
-        });
+        const LightBatch last =
+            addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
+                pass.depthTest(frame.depth);
+                addShadedDraws(
+                    pass, passes, inputs, frame, batch,
+                    [&](const DrawItem& item) { return keyOf(forwardBatchKey(inputs, item, batch)); },
+                    shaded);
+            });
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);

@@ -40,6 +40,12 @@ void drawAll(Related& related, const Subject&) {
     related.changed.settings.cull = false;
 }
 
+void shadeInCompute(Related& related, const Subject&) {
+    related.own_base = true;
+    related.base.settings.lighting = Lighting::fragment;
+    related.changed.settings.lighting = Lighting::compute;
+}
+
 std::string lacksStillness(const Subject& subject) {
     return subject.moves ? "something in the scene is animated" : "";
 }
@@ -86,6 +92,12 @@ std::vector<Relation> wayRelations() {
              .lacks = lacksNone,
              .change = drawAll,
              .same_pipelines = true,
+             .of_settings = true},
+            {.name = "lighting",
+             .changes = "the G-buffer is shaded in compute instead of by a full-screen triangle",
+             .because = "both shade each pixel by the same code",
+             .lacks = lacksNone,
+             .change = shadeInCompute,
              .of_settings = true},
             {.name = "still_time",
              .changes = "10 s later, of a scene in which nothing moves",

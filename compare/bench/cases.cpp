@@ -105,6 +105,10 @@ std::vector<Transparency> benchTransparencies(const std::string& words) {
     return valuesOf(words, "--transparencies", "transparency", &Settings::transparency);
 }
 
+std::vector<Lighting> benchLightings(const std::string& words) {
+    return valuesOf(words, "--lightings", "lighting", &Settings::lighting);
+}
+
 std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
     std::vector<std::uint32_t> counts;
     for (const std::string& word : wordsOf(words, "--light-counts")) {
@@ -212,6 +216,8 @@ void checkSampleTable(const BenchOptions& options) {
     if (!options.transparencies.empty())
         throw std::runtime_error(
             "--transparencies: --table msaa has rows without blended surfaces and with --transparency");
+    if (!options.lightings.empty())
+        throw std::runtime_error("--lightings: --table msaa is of one --lighting; run it once for each");
     if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table msaa");
 }
 
@@ -224,6 +230,12 @@ std::vector<Transparency> transparenciesOf(const Settings& given, const BenchOpt
     if (options.table == BenchTable::msaa && given.transparency != Transparency::off)
         return {Transparency::off, given.transparency};
     return options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
+}
+
+// Forward+ has one way to light.
+std::vector<Lighting> lightingsOf(Path path, const Settings& given, const BenchOptions& options) {
+    return path == Path::deferred && !options.lightings.empty() ? options.lightings
+                                                                : std::vector{given.lighting};
 }
 
 std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& options) {
@@ -240,10 +252,11 @@ namespace {
 BenchCases growthCases(const Settings& given, const BenchOptions& options) {
     if (options.assign.size() > 1)
         throw std::runtime_error("--table growth: is of one --assign; run it once for each");
-    if (!options.light_counts.empty() || !options.sizes.empty() || !options.transparencies.empty())
+    if (!options.light_counts.empty() || !options.sizes.empty() || !options.transparencies.empty() ||
+        !options.lightings.empty())
         throw std::runtime_error(
-            "--table growth: takes no --light-counts, --sizes or --transparencies: lights and pixels are "
-            "axes");
+            "--table growth: takes no --light-counts, --sizes, --transparencies or --lightings: lights and "
+            "pixels are axes");
     if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table growth");
     BenchCases cases;
     for (const GrowthRow& row : growthRows) {
@@ -295,18 +308,20 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
         for (const Size& size : sizes)
             for (const Assignment assign : assignments)
                 for (const Path path : paths)
-                    for (const Transparency transparency : transparencies) {
-                        Settings settings = lit;
-                        settings.path = path;
-                        settings.assign = assign;
-                        settings.size = size;
-                        settings.transparency = transparency;
-                        for (const Settings& sampled : bySamples(settings, options))
-                            if (const auto problem = sampled.problem())
-                                skip({path, assign, std::nullopt, std::nullopt, {}, *problem});
-                            else
-                                group.settings.push_back(sampled);
-                    }
+                    for (const Transparency transparency : transparencies)
+                        for (const Lighting lighting : lightingsOf(path, lit, options)) {
+                            Settings settings = lit;
+                            settings.path = path;
+                            settings.assign = assign;
+                            settings.size = size;
+                            settings.transparency = transparency;
+                            settings.lighting = lighting;
+                            for (const Settings& sampled : bySamples(settings, options))
+                                if (const auto problem = sampled.problem())
+                                    skip({path, assign, std::nullopt, std::nullopt, {}, *problem});
+                                else
+                                    group.settings.push_back(sampled);
+                        }
         if (!group.settings.empty()) cases.groups.push_back(std::move(group));
     }
     if (cases.groups.empty())
@@ -329,6 +344,7 @@ ModeParts partsOf(const BenchOptions& options, const Settings& settings) {
     ModeParts parts;
     if (by_samples || options.transparencies.size() > 1) parts.transparency = settings.transparency;
     if (by_samples) parts.samples = settings.msaa;
+    if (options.lightings.size() > 1 && settings.path == Path::deferred) parts.lighting = settings.lighting;
     return parts;
 }
 
@@ -336,6 +352,7 @@ namespace {
 std::string ending(const ModeParts& parts) {
     std::string words;
     if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
+    if (parts.lighting) words += fmt::format(", {}", nameOf(*parts.lighting));
     if (parts.samples) words += fmt::format(", {} sample{}", *parts.samples, *parts.samples == 1 ? "" : "s");
     return words;
 }

@@ -35,6 +35,7 @@ struct BenchOptions {
     std::vector<Assignment> assign;            // all
     std::vector<Size> sizes;                   // --size
     std::vector<Transparency> transparencies;  // --transparency
+    std::vector<Lighting> lightings;           // of deferred; --lighting
     std::vector<std::uint32_t> light_counts;   // the scene's own lights; ascending
     double max_ms = 2000;                      // a frame that takes longer is not repeated
     bool frames = true, kernels = true;
@@ -45,6 +46,7 @@ std::vector<Path> benchPaths(const std::string& words);
 std::vector<Assignment> benchAssignments(const std::string& words);
 std::vector<Size> benchSizes(const std::string& words);
 std::vector<Transparency> benchTransparencies(const std::string& words);
+std::vector<Lighting> benchLightings(const std::string& words);
 std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // each once, ascending
 
 BenchTable benchTableOf(const std::string& word);
@@ -54,7 +56,8 @@ std::string_view nameOf(GrowthAxis axis);
 // What of a mode is named because several were asked for.
 struct ModeParts {
     std::optional<Transparency> transparency = {};
-    std::optional<int> samples = {};  // a pixel
+    std::optional<int> samples = {};        // a pixel
+    std::optional<Lighting> lighting = {};  // of deferred
     bool operator==(const ModeParts&) const = default;
 };
 

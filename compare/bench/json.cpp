@@ -28,6 +28,7 @@ Json jsonOf(const BenchRow& row) {
             {"path", nameOf(row.settings.path)},
             {"assign", nameOf(row.settings.assign)},
             {"transparency", nameOf(row.settings.transparency)},
+            {"lighting", nameOf(row.settings.lighting)},
             {"samples", row.settings.msaa},
             {"same_picture", !drawsAnotherPicture(row.settings.assign)},
             {"scene", row.scene},

@@ -32,7 +32,7 @@ BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup&
 
 bool isMode(const Settings& a, const Settings& b) {
     return a.path == b.path && a.assign == b.assign && a.size == b.size && a.transparency == b.transparency &&
-           a.msaa == b.msaa;
+           a.msaa == b.msaa && a.lighting == b.lighting;
 }
 
 // Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must

@@ -197,6 +197,7 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     if (!parsed.bench_sizes.empty()) bench.sizes = benchSizes(parsed.bench_sizes);
     if (!parsed.bench_transparencies.empty())
         bench.transparencies = benchTransparencies(parsed.bench_transparencies);
+    if (!parsed.bench_lightings.empty()) bench.lightings = benchLightings(parsed.bench_lightings);
     if (!parsed.light_counts.empty()) bench.light_counts = benchLightCounts(parsed.light_counts);
     bench.max_ms = parsed.max_ms;
     if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))

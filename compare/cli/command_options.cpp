@@ -353,6 +353,8 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.add_option("--transparencies", parsed.bench_transparencies,
                    "ways to put blended surfaces in order (--transparency)")
         ->type_name(acceptedValues("transparency") + ",...");
+    app.add_option("--lightings", parsed.bench_lightings, "ways to shade deferred's G-buffer (--lighting)")
+        ->type_name(acceptedValues("lighting") + ",...");
     app.add_option(
            "--light-counts", parsed.light_counts,
            "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "

@@ -33,7 +33,7 @@ struct ParsedOptions {
     std::optional<double> tolerance;
     std::optional<int> frames;
     std::optional<double> fps;
-    std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts;
+    std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, bench_lightings, light_counts;
     std::string bench_axes;
     std::string bench_table = "modes", kernels = "on", keep = "all";
     double max_ms = 2000;

@@ -23,7 +23,8 @@ PassWork workOf(Path path, const PassCounts& counts, double textures, double lig
         work.vertex_bytes = static_cast<double>(counts.vertices) *
                             (positionBytes + (counts.fragments > 0 ? attributeBytes : 0));
     }
-    if (shades) work.lights = fragments * lights;
+    // Of --lighting compute threads shade, those of the background among them.
+    if (shades) work.lights = (fragments + static_cast<double>(counts.compute)) * lights;
     return work;
 }
 

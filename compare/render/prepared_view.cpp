@@ -152,6 +152,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .lists = buffers.lists(),
           .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, draws, settings),
           .gbuffer = gbuffer,
+          .lighting = settings.lighting,
           .depth = depthStorage(settings.depth_format),
           .lit_format = litFormatOf(settings.lit_format),
           .shadow = shadow,

@@ -1,37 +1,46 @@
 // SPDX-License-Identifier: MIT
-// The Surface that deferred lighting shades at a fragment. With several samples a pixel (SAMPLES) a draw
-// shades one group of samples of each pixel, its number in the push constants, and covers these samples
-// alone: SET_GBUFFER's depth is then the image of groups, which the draw is tested against.
+// The Surface that deferred lighting shades at a pixel. With several samples a pixel (SAMPLES) a draw or
+// dispatch shades one group of samples of each pixel, its number in the push constants, and covers these
+// samples alone: SET_GBUFFER's depth is then the image of groups, which a draw is tested against.
 #ifndef DEFERRED_GLSL
 #define DEFERRED_GLSL
 
 #include "shaders/lib/draw.glsl"
 #include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/pixel.glsl"
 #if SAMPLES
 #include "shaders/lib/sample_groups.glsl"
 
+#ifdef STAGE_frag
 // A mask that a shader writes must not put the test off until it has run.
 layout(early_fragment_tests) in;
 #endif
 
-// Surfaces that are shaded at the fragment's pixel.
+SampleGroup groupHere() { return sampleGroup(depthAt(pixelHere()), constants.group); }
+#endif
+
+// Surfaces that are shaded at the pixel.
 uint shadedSurfaces() {
 #if SAMPLES
-    return groupsOf(depthAt(ivec2(gl_FragCoord.xy)));
+    return groupsOf(depthAt(pixelHere()));
 #else
     return 1u;
 #endif
 }
 
+// Of pixels of one sample.
+bool isDrawnHere() { return depthAt(pixelHere()) > 0.0; }
+
 Surface deferredSurface(out float z) {
-    ivec2 p = ivec2(gl_FragCoord.xy);
     int shaded = 0;
 #if SAMPLES
-    SampleGroup group = sampleGroup(depthAt(p), constants.group);
+    SampleGroup group = groupHere();
+#ifdef STAGE_frag
     gl_SampleMask[0] = int(group.mask);
+#endif
     shaded = group.first;
 #endif
-    return surfaceFromGBuffer(p, shaded, z);
+    return surfaceFromGBuffer(pixelHere(), shaded, z);
 }
 
 #endif

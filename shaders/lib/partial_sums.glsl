@@ -4,12 +4,12 @@
 #ifndef PARTIAL_SUMS_GLSL
 #define PARTIAL_SUMS_GLSL
 
-#include "shaders/lib/contract.glsl"
+#include "shaders/lib/pixel.glsl"
 
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform sampler2D partial_diffuse;
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform sampler2D partial_specular;
 
-vec4 partialDiffuse() { return texelFetch(partial_diffuse, ivec2(gl_FragCoord.xy), 0); }
-vec4 partialSpecular() { return texelFetch(partial_specular, ivec2(gl_FragCoord.xy), 0); }
+vec4 partialDiffuse() { return texelFetch(partial_diffuse, pixelHere(), 0); }
+vec4 partialSpecular() { return texelFetch(partial_specular, pixelHere(), 0); }
 
 #endif

@@ -24,7 +24,7 @@ layout(location = 0) flat in uvec4 flat_view[PACKED_VIEW_TEXELS];
 #endif
 #endif
 
-#ifdef STAGE_frag
+#if defined(STAGE_frag) || defined(TEXEL_VIEW)
 
 uvec4 viewTexel(int i) {
 #ifdef FLAT_VIEW

@@ -11,7 +11,7 @@
 #include "shaders/lib/sample_groups.glsl"
 #include "shaders/lib/shade.glsl"
 
-layout(set = SET_GBUFFER, binding = BINDING_LIT_SAMPLES, rgba32f) writeonly uniform image2DMS lit_samples;
+layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly uniform image2DMS lit_samples;
 
 void main() {
     uint entry = entryAt(uvec2(gl_FragCoord.xy), constants.group);

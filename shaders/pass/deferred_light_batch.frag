@@ -4,16 +4,14 @@
 // HALF: 0 to 1
 
 #define FLAT_VIEW
-#include "shaders/lib/deferred.glsl"
+#include "shaders/lib/deferred_lighting.glsl"
 #include "shaders/lib/shade.glsl"
 
 layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;
 
 void main() {
-    float z;
-    Surface s = deferredSurface(z);
-    Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, z));
-    out_diffuse = vec4(radiance.diffuse, radiance.local_seen);
-    out_specular = vec4(radiance.specular, radiance.local_light);
+    PartialSums sums = partialSumsHere();
+    out_diffuse = sums.diffuse;
+    out_specular = sums.specular;
 }

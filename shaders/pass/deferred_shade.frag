@@ -5,13 +5,9 @@
 
 // SAMPLES: 0 to 1
 #define FLAT_VIEW
-#include "shaders/lib/deferred.glsl"
+#include "shaders/lib/deferred_lighting.glsl"
 #include "shaders/lib/shade.glsl"
 
 layout(location = 0) out vec4 out_lit;
 
-void main() {
-    float z;
-    Surface s = deferredSurface(z);
-    out_lit = vec4(lit(shade(s, lightsAt(gl_FragCoord.xy, z))), 1.0);
-}
+void main() { out_lit = litHere(); }

@@ -36,13 +36,15 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 
 // Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list,
 // so that what shades them has no fragments beside them: each in a texel, its number above twice
-// FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH.
-// number  name  kind  what it holds
+// FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH. Four storage images are what
+// every device has. number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
     X(14, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: how many are listed")            \
     X(15, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
-    X(16, LIT_SAMPLES, storage_image, "RGBA32F: radiance of each sample, W/(sr m^2)")
+    X(16, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
+                                      " batch in compute the diffuse sum")                     \
+    X(17, SPECULAR_TARGET, storage_image, "RGBA32F: of a light batch in compute the specular sum")
 // clang-format on
 
 #define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
@@ -53,6 +55,10 @@ CONTRACT_CONST(uint, FURTHER_WIDTH_BITS, 12);
 CONTRACT_CONST(uint, FURTHER_WIDTH, 1 << FURTHER_WIDTH_BITS);
 // They are shaded by draws of a fragment each, FURTHER_WIDTH wide and of so many rows at most.
 CONTRACT_CONST(uint, FURTHER_ROWS, 32);
+
+// Side of the square of pixels that a workgroup of deferred lighting shades: it lies in one tile of light
+// lists, whose side is as long or a multiple of it.
+CONTRACT_CONST(uint, LIGHTING_GROUP, 8);
 
 CONTRACT_END
 

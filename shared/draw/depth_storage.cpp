@@ -70,6 +70,17 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
     if (!draws(litFormatOf(settings.lit_format),
                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT))
         return lacks("lit-format", "draws to no such images", "fp32");
+    if (settings.path == Path::deferred && settings.lighting == Lighting::compute) {
+        const auto samples = static_cast<VkSampleCountFlags>(settings.msaa);
+        const bool stores = settings.msaa == 1 || device.storesSamples();
+        if (!stores || (device.sampleCounts(litFormatOf(LitFormat::fp32),
+                                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
+                        samples) == 0)
+            return lacks("lighting",
+                         fmt::format("stores to no such images of --msaa {}", settings.msaa).c_str(),
+                         "fragment");
+    }
     if (settings.shading_precision == ShadingPrecision::fp16 && !device.hasFloat16())
         return lacks("shading-precision", "has no shaderFloat16", "fp32");
     return {};

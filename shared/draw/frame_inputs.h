@@ -36,6 +36,7 @@ struct FrameInputs {
     LightLists& lists;
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
+    Lighting lighting = Lighting::fragment;  // of the deferred path
     DepthStorage depth{};
     VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // of what a picture's radiance is drawn to
     ShadowMaps& shadow;

@@ -21,8 +21,9 @@ struct Layouts {
     ListLayouts lists;
 };
 
-// The shader stages that read the push constants of a draw.
-constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+// The shader stages that read the push constants of a draw, or of a dispatch in its place.
+constexpr VkShaderStageFlags drawStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
 // Descriptor types of a set's bindings, indexed by binding.
 std::span<const VkDescriptorType> frameBindings();

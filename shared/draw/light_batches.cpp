@@ -6,9 +6,20 @@
 
 namespace diptych {
 
-void LightBatch::read(Pass& pass) const {
+void LightBatch::read(Pass& pass, VkPipelineStageFlags2 stages) const {
     if (sums)
-        for (const ImageRef image : images) pass.samples(image, inFragment);
+        for (const ImageRef image : images) pass.samples(image, stages);
+}
+
+std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, const FrameInputs& inputs,
+                                              const std::array<ImageRef, 2>& images) {
+    auto sums =
+        std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.partial_sums, partialSumBindings(), 1);
+    pass.prepare([&passes, sums, images, sampler = inputs.layouts.nearest.get()] {
+        for (gpu::uint i = 0; i < images.size(); ++i)
+            sums->image(0, i, passes.view(images[i]), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    });
+    return sums;
 }
 
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
@@ -25,24 +36,25 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
     return pixels * (costs.surface + costs.light * lights * std::max(1.0, each)) * 1e-6;
 }
 
-LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add) {
+LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn) {
     const gpu::uint packets = inputs.longest_list, most = inputs.device.profile().packets_per_draw;
     if (packets <= most) return {};
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
     while (batch.first + most < packets) {
-        Pass& pass = passes.draw("shade earlier lights");
-        const auto sum = [&](const char* name) {
-            return passes.image({.name = name, .format = litFormat, .life = Life::transient});
+        const bool stored = drawn == SumsBy::storage;
+        constexpr const char* name = "shade earlier lights";
+        const auto sum = [&](const char* of) {
+            return passes.image({.name = of,
+                                 .format = litFormat,
+                                 .usage = stored ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT} : 0,
+                                 .life = Life::transient});
         };
         const std::array<ImageRef, 2> images{sum("partial diffuse sum"), sum("partial specular sum")};
-        for (const ImageRef image : images) pass.color(image, Load::clear);
-        add(pass, batch);
-        auto sums = std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.partial_sums,
-                                                     partialSumBindings(), 1);
-        pass.prepare([&passes, sums, images, sampler = inputs.layouts.nearest.get()] {
-            for (gpu::uint i = 0; i < images.size(); ++i)
-                sums->image(0, i, passes.view(images[i]), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        });
+        Pass& pass = stored ? passes.compute(name) : passes.draw(name);
+        if (!stored)
+            for (const ImageRef image : images) pass.color(image, Load::clear);
+        add(pass, batch, images);
+        std::shared_ptr<DescriptorSets> sums = partialSumSet(passes, pass, inputs, images);
         batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, packets), images, std::move(sums)};
     }
     return batch;

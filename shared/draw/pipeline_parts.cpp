@@ -108,6 +108,10 @@ PipelineParts partsOf(const PipelineKey& key, int inputSets) {
 
 }  // namespace
 
+const ShaderModule& computeModule(Shader shader, const Variant& variant) {
+    return *moduleOf(shader, 0, variant, 3);
+}
+
 ChooseParts pipelinePartsFor(const DeviceProfile& device) {
     return [sets = device.input_sets](const PipelineKey& key) { return partsOf(key, sets); };
 }

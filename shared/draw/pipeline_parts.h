@@ -17,4 +17,7 @@ enum VertexFormat : std::uint32_t {
 // shared/contract/geometry.h has them.
 ChooseParts pipelinePartsFor(const DeviceProfile& device);
 
+// The module of a compute shader that serves the variant, as of a fragment shader's.
+const ShaderModule& computeModule(Shader shader, const Variant& variant);
+
 }  // namespace diptych

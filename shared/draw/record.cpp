@@ -16,18 +16,18 @@ namespace diptych {
 
 namespace {
 
-void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, VkDescriptorSet descriptors) {
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set, 1,
-                            &descriptors, 0, nullptr);
+void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, VkDescriptorSet descriptors,
+          VkPipelineBindPoint point = VK_PIPELINE_BIND_POINT_GRAPHICS) {
+    vkCmdBindDescriptorSets(commands, point, inputs.layouts.pipeline, set, 1, &descriptors, 0, nullptr);
 }
 
 // All sets but SET_MATERIAL.
 void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch,
-               const DescriptorSets* gbuffer) {
+               const DescriptorSets* gbuffer, VkPipelineBindPoint point = VK_PIPELINE_BIND_POINT_GRAPHICS) {
     const Placeholders& none = inputs.placeholders;
-    bind(commands, inputs, gpu::SET_FRAME, inputs.frame_set);
-    bind(commands, inputs, gpu::SET_GBUFFER, gbuffer != nullptr ? (*gbuffer)[0] : none.gbuffer());
-    bind(commands, inputs, gpu::SET_PARTIAL_SUMS, batch.sums ? (*batch.sums)[0] : none.partialSums());
+    bind(commands, inputs, gpu::SET_FRAME, inputs.frame_set, point);
+    bind(commands, inputs, gpu::SET_GBUFFER, gbuffer != nullptr ? (*gbuffer)[0] : none.gbuffer(), point);
+    bind(commands, inputs, gpu::SET_PARTIAL_SUMS, batch.sums ? (*batch.sums)[0] : none.partialSums(), point);
 }
 
 void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawConstants& constants) {
@@ -301,6 +301,22 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
             push(commands, inputs, constants);
             recordTriangle(commands, pipeline);
         }
+    };
+}
+
+std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
+    const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
+    const LightBatch& batch, std::uint32_t across, gpu::uint group) {
+    return [&inputs, pipeline, gbuffer = std::move(gbuffer), batch, across, group](VkCommandBuffer commands,
+                                                                                   const Pass::Rows& rows) {
+        bindFrame(commands, inputs, batch, gbuffer.get(), VK_PIPELINE_BIND_POINT_COMPUTE);
+        gpu::DrawConstants constants{};
+        constants.light_first = batch.first;
+        constants.light_end = batch.end;
+        constants.group = group;
+        push(commands, inputs, constants);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdDispatchBase(commands, 0, rows.first, 0, across, rows.count, 1);
     };
 }
 

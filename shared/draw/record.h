@@ -41,7 +41,12 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
 std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
                                                     std::shared_ptr<const DescriptorSets> gbuffer,
                                                     gpu::uint vertices, gpu::uint draws);
-// The same of a shader that puts blended surfaces together.
+// What records a dispatch of rows of `across` workgroups with the sets of deferred lighting. `group`: of
+// samples.
+std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
+    const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
+    const LightBatch& batch, std::uint32_t across, gpu::uint group);
+// As recordFullScreen() of a shader that puts blended surfaces together.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,
                                                       const gpu::BlendedConstants& constants);

@@ -151,6 +151,12 @@ template <>
 inline constexpr auto enum_names<LitFormat> = std::to_array<EnumName<LitFormat>>(
     {{LitFormat::fp32, "fp32"}, {LitFormat::fp16, "fp16"}, {LitFormat::b10g11r11, "b10g11r11"}});
 
+// What shades the deferred path's G-buffer: fragments of a full-screen triangle, or workgroups of threads.
+enum class Lighting { fragment, compute };
+template <>
+inline constexpr auto enum_names<Lighting> =
+    std::to_array<EnumName<Lighting>>({{Lighting::fragment, "fragment"}, {Lighting::compute, "compute"}});
+
 enum class ShadingPrecision { fp32, fp16 };
 template <>
 inline constexpr auto enum_names<ShadingPrecision> = std::to_array<EnumName<ShadingPrecision>>(

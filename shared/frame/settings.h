@@ -23,6 +23,7 @@ struct Settings {
     Switch prepass = Switch::automatic;
     bool cull = true;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
+    Lighting lighting = Lighting::fragment;
     DepthFormat depth_format = DepthFormat::d32f;
     LitFormat lit_format = LitFormat::fp32;
     ShadingPrecision shading_precision = ShadingPrecision::fp32;
@@ -304,6 +305,15 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all",
                 .for_surfaces = "full"},  // the geometric normal is not packed either
           &Settings::gbuffer);
+    visit(Field{.option = "lighting",
+                .help =
+                    "what shades the deferred path's G-buffer: fragments of a triangle over the picture, or "
+                    "threads of compute shaders; pictures are the same",
+                .ignored = {.forward_plus = "forward_plus shades what it draws",
+                            .reference = "the reference shades on the CPU"},
+                .sweep = "all",
+                .for_surfaces = "fragment"},
+          &Settings::lighting);
     visit(Field{.option = "depth-format",
                 .help = "what the scene's depth is stored as: reversed floats, floats that grow with the "
                         "distance, or reversed steps of 24 or 16 bits",

@@ -230,11 +230,11 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         .uses(listed, write);
 }
 
-void LightLists::read(PassList& passes, Pass& pass) const {
+void LightLists::read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages) const {
     if (!any()) return;
-    pass.uses(passes.buffer("list heads", heads_), access::texelRead(inFragment))
-        .uses(passes.buffer("light lists", indices_), access::texelRead(inFragment))
-        .uses(passes.buffer("list counts", listed_), access::storageRead(inFragment));
+    pass.uses(passes.buffer("list heads", heads_), access::texelRead(stages))
+        .uses(passes.buffer("light lists", indices_), access::texelRead(stages))
+        .uses(passes.buffer("list counts", listed_), access::storageRead(stages));
 }
 
 std::uint64_t LightLists::overflowed() const {

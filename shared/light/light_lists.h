@@ -64,7 +64,7 @@ public:
                    ImageRef depth);
 
     // Declares that the pass's fragment shaders walk the lists.
-    void read(PassList& passes, Pass& pass) const;
+    void read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
 
     std::uint64_t overflowed() const;  // lists of the last frame that found no room; reads back
     std::uint64_t bytes() const;

@@ -165,8 +165,8 @@ void LocalShadows::addPasses(PassList& passes, const FrameInputs& inputs) {
                  VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
 }
 
-void LocalShadows::read(Pass& pass) const {
-    if (draws()) pass.samples(image_, inFragment);
+void LocalShadows::read(Pass& pass, VkPipelineStageFlags2 stages) const {
+    if (draws()) pass.samples(image_, stages);
 }
 
 std::uint64_t LocalShadows::bytes() const {

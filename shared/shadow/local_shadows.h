@@ -36,7 +36,7 @@ public:
     // list's.
     void addPasses(PassList& passes, const FrameInputs& inputs);
     // Declares that the pass's fragment shaders read the atlas.
-    void read(Pass& pass) const;
+    void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
 
     std::uint64_t bytes() const;  // of buffers; the atlas is the pass list's
     // How far across a light's rays something is read for a surface, a share of the distance from the light:

@@ -34,10 +34,10 @@ public:
         sun.addPasses(passes, inputs);
         local.addPasses(passes, inputs);
     }
-    // Declares that the pass's fragment shaders read it.
-    void read(Pass& pass) const {
-        sun.read(pass);
-        local.read(pass);
+    // Declares that these shaders of the pass read it.
+    void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const {
+        sun.read(pass, stages);
+        local.read(pass, stages);
     }
     // Passes that follow the one that draws `depth`.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {

@@ -304,8 +304,8 @@ void SunShadow::addPasses(PassList& passes, const FrameInputs& inputs) {
         moments_ ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
 }
 
-void SunShadow::read(Pass& pass) const {
-    if (image_.valid()) pass.samples(image_, inFragment);
+void SunShadow::read(Pass& pass, VkPipelineStageFlags2 stages) const {
+    if (image_.valid()) pass.samples(image_, stages);
 }
 
 void SunShadow::addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {

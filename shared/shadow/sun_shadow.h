@@ -48,7 +48,7 @@ public:
     // Passes named "shadow maps", before the first that reads them. Binds the maps, which are the list's.
     void addPasses(PassList& passes, const FrameInputs& inputs);
     // Declares that the pass's fragment shaders read the maps.
-    void read(Pass& pass) const;
+    void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
     // Marks the clipmap's pages that the picture needs, once its depth is drawn.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth);
 

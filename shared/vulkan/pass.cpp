@@ -47,7 +47,13 @@ Pass& Pass::uses(BufferRef buffer, const Access& access) {
 }
 
 Pass& Pass::prepare(std::function<void()> make) {
-    prepare_ = std::move(make);
+    if (prepare_)
+        prepare_ = [earlier = std::move(prepare_), later = std::move(make)] {
+            earlier();
+            later();
+        };
+    else
+        prepare_ = std::move(make);
     return *this;
 }
 
@@ -58,6 +64,12 @@ Pass& Pass::takes(double ms) {
 
 Pass& Pass::record(std::function<void(VkCommandBuffer)> commands) {
     record_ = std::move(commands);
+    return *this;
+}
+
+Pass& Pass::recordRows(std::uint32_t rows, std::function<void(VkCommandBuffer, const Rows&)> commands) {
+    rows_ = rows;
+    record_rows_ = std::move(commands);
     return *this;
 }
 

@@ -73,14 +73,20 @@ public:
     Pass& uses(BufferRef buffer, const Access& access);
 
     // Called once before the pass is recorded for the first time, when all images have memory: makes what
-    // holds views.
+    // holds views. Several are called in the order that they were given in.
     Pass& prepare(std::function<void()> make);
-    // About how long a draw takes on this device, ms. One that takes longer than a device may be kept busy
-    // for (DeviceProfile::longest_submit_ms) is drawn in bands of rows, each in a submit of its own: its
-    // commands are recorded once a band. Not stated: never divided.
+    // About how long a draw takes on this device, or a dispatch of rows, ms. One that takes longer than a
+    // device may be kept busy for (DeviceProfile::longest_submit_ms) is drawn in bands of rows, each in a
+    // submit of its own: its commands are recorded once a band. Not stated: never divided.
     Pass& takes(double ms);
     // Called every time the list runs, for each band. Leaves the scissor as it is.
     Pass& record(std::function<void(VkCommandBuffer)> commands);
+    // Of a compute pass whose dispatch has so many rows of workgroups, which may come in bands as those of a
+    // draw do: called for each with its rows.
+    struct Rows {
+        std::uint32_t first, count;
+    };
+    Pass& recordRows(std::uint32_t rows, std::function<void(VkCommandBuffer, const Rows&)> commands);
 
 private:
     friend class PassList;
@@ -110,6 +116,8 @@ private:
     std::function<void()> prepare_;
     double ms_ = 0;
     std::function<void(VkCommandBuffer)> record_;
+    std::uint32_t rows_ = 1;  // of record_rows_
+    std::function<void(VkCommandBuffer, const Rows&)> record_rows_;
 };
 
 }  // namespace diptych

@@ -161,6 +161,7 @@ private:
     std::vector<Span> spans(std::size_t first, std::size_t last) const;
     std::vector<Piece> pieces(const std::vector<Span>& spans) const;
     std::string describe(const std::vector<Piece>& pieces) const;
+    static Pass::Rows rowsOf(std::uint32_t rows, const Piece& piece);
     void runPiece(const Piece& piece, VkCommandBuffer commands);
     void renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer commands);
     std::vector<double> runSpans(const std::vector<Span>& spans);

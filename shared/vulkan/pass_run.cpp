@@ -100,6 +100,14 @@ void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
         if (resources_[i]->before && resources_[i]->first == pass) tracker.alias(i, *resources_[i]->before);
 }
 
+// Those of the band.
+Pass::Rows PassList::rowsOf(std::uint32_t rows, const Piece& piece) {
+    const auto row = [&](std::uint32_t band) {
+        return static_cast<std::uint32_t>(std::uint64_t{rows} * band / piece.bands);
+    };
+    return {row(piece.band), row(piece.band + 1) - row(piece.band)};
+}
+
 void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
     const Pass& pass = *passes_[piece.pass];
     last_run_ = piece.pass;
@@ -115,6 +123,8 @@ void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
     device_.beginLabel(commands, pass.name_);
     if (pass.kind_ == Pass::Kind::draw)
         renderPass(pass, piece, commands);
+    else if (pass.record_rows_)
+        pass.record_rows_(commands, rowsOf(pass.rows_, piece));
     else if (pass.record_)
         pass.record_(commands);
     device_.endLabel(commands);
@@ -177,12 +187,9 @@ void PassList::renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer 
                               depths.farthest,
                               depths.nearest};
     vkCmdSetViewport(commands, 0, 1, &viewport);
-    const auto row = [&](std::uint32_t band) {
-        return static_cast<std::int32_t>(std::uint64_t{extent.height} * band / piece.bands);
-    };
-    const VkRect2D rows{{0, row(piece.band)},
-                        {extent.width, static_cast<std::uint32_t>(row(piece.band + 1) - row(piece.band))}};
-    vkCmdSetScissor(commands, 0, 1, &rows);
+    const Pass::Rows rows = rowsOf(extent.height, piece);
+    const VkRect2D scissor{{0, static_cast<std::int32_t>(rows.first)}, {extent.width, rows.count}};
+    vkCmdSetScissor(commands, 0, 1, &scissor);
     if (pass.record_) pass.record_(commands);
     vkCmdEndRendering(commands);
     device_.drawDivision().endPass();
@@ -198,14 +205,14 @@ std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last)
     return all;
 }
 
-// Draws that take longer than the device may be kept busy for come in bands.
+// Draws and dispatches of rows that take longer than the device may be kept busy for come in bands.
 std::vector<PassList::Piece> PassList::pieces(const std::vector<Span>& spans) const {
     const double longest = device_.profile().longest_submit_ms;
     std::vector<Piece> all;
     for (std::size_t span = 0; span < spans.size(); ++span)
         for (std::size_t i = spans[span].first; i < spans[span].last; ++i) {
             const Pass& pass = *passes_[i];
-            const double rows = pass.kind_ == Pass::Kind::draw ? extentOf(pass).height : 1;
+            const double rows = pass.kind_ == Pass::Kind::draw ? extentOf(pass).height : pass.rows_;
             const auto bands =
                 static_cast<std::uint32_t>(std::clamp(std::ceil(pass.ms_ / longest), 1.0, rows));
             for (std::uint32_t band = 0; band < bands; ++band)

@@ -106,6 +106,7 @@ VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant
     const OwnedShaderModule code = specializedModule(device_.handle(), module, variant);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
     info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;

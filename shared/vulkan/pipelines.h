@@ -73,7 +73,8 @@ public:
 
     VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
     std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
-    // A compute shader, with a layout of its own; `number`: of its module.
+    // A compute shader, with a layout of its own, whose dispatches may begin at any workgroup; `number`: of
+    // its module.
     VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout,
                        std::uint32_t number = 0) {
         return compute(plainModule(shader, number), variant, layout);

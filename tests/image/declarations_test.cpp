@@ -60,13 +60,14 @@ std::string textOf(const RecordedBarrier& barrier) {
 class Declared {
 public:
     Declared(Path path, Assignment assign, LightKernel kernel = LightKernel::scatter,
-             const char* lights = "point:40,spot:10")
+             const char* lights = "point:40,spot:10", Lighting lighting = Lighting::fragment)
         : scene_(loadScene("builtin:triangle")), shared_(device(), scene_, pipelines()) {
         Settings settings = smallPicture(GBufferEncoding::standard);
         settings.path = path;
         settings.assign = assign;
         settings.lights = lights;
         settings.light_kernel = kernel;
+        settings.lighting = lighting;
         settings.prepass = Switch::on;
         seen_.emplace(makeSceneView(scene_, viewRequest(settings)));
         frame_ = std::make_unique<PreparedFrame>(device(), shared_, *seen_, settings);
@@ -182,9 +183,13 @@ TEST(Declarations, NoneIsInVain) {
             for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather})
                 EXPECT_EQ(inVain(Declared(path, assign, kernel).passes()), "")
                     << nameOf(path) << ", " << nameOf(assign) << ", " << nameOf(kernel);
-    EXPECT_EQ(
-        inVain(Declared(Path::deferred, Assignment::every, LightKernel::scatter, "point:70000").passes()),
-        "");
+    for (const Lighting lighting : {Lighting::fragment, Lighting::compute})
+        for (const char* lights : {"point:70000", "point:40,spot:10"})
+            EXPECT_EQ(
+                inVain(Declared(Path::deferred, Assignment::every, LightKernel::scatter, lights, lighting)
+                           .passes()),
+                "")
+                << nameOf(lighting) << ", " << lights;
 }
 
 TEST(Declarations, OneInVainIsFound) {

@@ -104,6 +104,7 @@ const std::map<std::string_view, std::function<void(Case&)>>& plantedFaults() {
         {"light_kernel", [](Case& of) { of.scene.lights.pop_back(); }},
         {"prepass", nudge},
         {"cull", nudge},
+        {"lighting", nudge},
         {"still_time", nudge}};
     return faults;
 }

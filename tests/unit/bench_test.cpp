@@ -42,6 +42,30 @@ BenchOptions asked(const std::vector<std::string>& words) {
     return parseCommandLine(line).bench;
 }
 
+TEST(BenchCases, DeferredIsTimedByEachWayToShadeThatIsAskedFor) {
+    const auto names = [](const BenchOptions& options) {
+        std::vector<std::string> all;
+        for (const Settings& s : makeBenchCases("builtin:spheres", {}, options).groups.front().settings)
+            all.push_back(modeName(s.path, s.assign, partsOf(options, s)));
+        return all;
+    };
+    EXPECT_EQ(names(asked({"--assign", "tiled", "--lightings", "fragment,compute"})),
+              (std::vector<std::string>{"deferred, tiled, fragment", "deferred, tiled, compute",
+                                        "forward_plus, tiled"}));
+    EXPECT_EQ(names(asked({"--assign", "tiled", "--lightings", "compute"})),
+              (std::vector<std::string>{"deferred, tiled", "forward_plus, tiled"}));
+    EXPECT_NE(thrownBy([] {
+                  asked({"--lightings", "raster"});
+              }).find("--lightings raster"),
+              std::string::npos);
+    for (const char* table : {"msaa", "growth"})
+        EXPECT_NE(thrownBy([&] {
+                      makeBenchCases("builtin:spheres", {},
+                                     asked({"--table", table, "--lightings", "fragment,compute"}));
+                  }).find("--lightings"),
+                  std::string::npos);
+}
+
 TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
     const BenchOptions bench =
         asked({"--paths", "forward_plus", "--assign", "every,tiled,every", "--sizes", "16x12,8x8",

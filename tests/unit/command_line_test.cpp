@@ -451,6 +451,7 @@ TEST(CommandLine, HelpShowsTheSettings) {
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
         for (const char* option : {"gbuffer",
                                    "cull",
+                                   "lighting",
                                    "pixel-lights",
                                    "spp",
                                    "reference-mode",

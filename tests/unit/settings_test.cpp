@@ -27,6 +27,7 @@ Settings everythingChanged() {
     s.prepass = Switch::off;
     s.cull = false;
     s.gbuffer = GBufferEncoding::full;
+    s.lighting = Lighting::compute;
     s.depth_format = DepthFormat::d16;
     s.lit_format = LitFormat::b10g11r11;
     s.shading_precision = ShadingPrecision::fp16;
@@ -385,6 +386,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"cull", "off"},
         {"gbuffer", "compact"},
         {"gbuffer", "full"},
+        {"lighting", "compute"},
         {"size", "1x1"},
         {"size", "16384x1"},
         {"camera", "0"},

@@ -267,7 +267,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 2 + 9 + 5 + 3 + 13 + 9);
+    EXPECT_EQ(bindingTables().size(), 21u + 2 + 9 + 5 + 4 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

@@ -54,7 +54,7 @@ std::vector<Without> withouts() {
            "        radiance = radiance * hazed.transmittance + hazed.scattered;\n"
            "    }\n"}},
          {"background.frag", "deferred_capture.frag.1", "deferred_channel_terms.frag",
-          "deferred_channels.frag", "deferred_further.frag", "deferred_shade.frag",
+          "deferred_channels.frag", "deferred_further.frag", "deferred_shade.comp", "deferred_shade.frag",
           "deferred_shade.frag.area", "forward_blended.frag", "forward_blended_list.frag",
           "forward_blended_moments.frag", "forward_blended_weighted.frag", "forward_capture.frag.1",
           "forward_shade.frag"}},

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// HALF: 0 to 1
+
+// As deferred_light_batch.frag; stores nothing where nothing was drawn.
+#define TEXEL_VIEW
+#include "shaders/lib/deferred_lighting.glsl"
+#include "shaders/lib/shade.glsl"
+
+layout(set = SET_GBUFFER, binding = BINDING_SPECULAR_TARGET, rgba32f)
+writeonly uniform image2D specular_target;
+
+void main() {
+    if (!isInPicture() || !isDrawnHere()) return;
+    PartialSums sums = partialSumsHere();
+    imageStore(lit_target, pixelHere(), sums.diffuse);
+    imageStore(specular_target, pixelHere(), sums.specular);
+}

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Deferred lighting by fragments and in compute (--lighting) has the same bits.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "shared/contract/samples.h"
+#include "tests/image/shadow_scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+Settings lightingSettings(Size size = {160, 90}) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::deferred;
+    settings.size = size;
+    return settings;
+}
+
+// lit of the frame that is timed, which no capture replaces.
+Image timedLit(Renderer& renderer, const Settings& settings) {
+    RenderOptions options;
+    options.channels = {lit};
+    options.runs = 0;
+    options.recheck = false;
+    return renderer.draw(settings, options).channels.at(lit);
+}
+
+// Returns it.
+Image expectSameLighting(Renderer& renderer, Settings settings, const std::string& name) {
+    settings.lighting = Lighting::fragment;
+    Image fragments = timedLit(renderer, settings);
+    settings.lighting = Lighting::compute;
+    EXPECT_EQ(differingPixels(fragments, timedLit(renderer, settings)), 0u) << name;
+    return fragments;
+}
+
+using Change = std::function<void(Settings&)>;
+Image expectSameLighting(const std::string& scene, const std::string& name, const Change& change = {}) {
+    Settings settings = lightingSettings();
+    if (change) change(settings);
+    return expectSameLighting(uploaded(scene).renderer, settings, scene + ", " + name);
+}
+
+std::size_t distinctTexels(const Image& image) {
+    std::vector<std::array<float, 3>> texels;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* p = image.pixel(i);
+        texels.push_back({p[0], p[1], p[2]});
+    }
+    std::ranges::sort(texels);
+    return static_cast<std::size_t>(std::unique(texels.begin(), texels.end()) - texels.begin());
+}
+
+class LightingOf : public testing::TestWithParam<std::string> {};
+
+// With what a report draws: the capture of `lit`, by fragments, must reproduce the frame that compute shades.
+TEST_P(LightingOf, ChangesNoBit) {
+    Settings settings = lightingSettings();
+    const Image image = expectSameLighting(uploaded(GetParam()).renderer, settings, GetParam());
+    EXPECT_GT(distinctTexels(image), 100u) << "there is something to compare";
+    settings.lighting = Lighting::compute;
+    const Frame frame = drawnBy(Path::deferred, uploaded(GetParam()).renderer, settings, {lit});
+    EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
+    expectSameLighting(GetParam(), "four samples", [](Settings& s) { s.msaa = 4; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, LightingOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:points",
+                                         "builtin:ortho", "builtin:cutout", "builtin:glass", "builtin:areas",
+                                         "builtin:dielectrics", "builtin:occlusion", "builtin:far_away",
+                                         "builtin:deep", "builtin:normals"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// Whatever chooses lights, whatever a surface is packed in.
+TEST(LightingImages, AreTheSameForEveryAssignmentAndEncoding) {
+    for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})
+        for (const auto& [encoding, encoded] : enumNames<GBufferEncoding>())
+            for (const char* lights : {"point:40,spot:10", "point:3"})
+                expectSameLighting("builtin:gallery",
+                                   fmt::format("{} {} {}", nameOf(assign), encoded, lights),
+                                   [&, as = encoding](Settings& s) {
+                                       s.assign = assign;
+                                       s.gbuffer = as;
+                                       s.lights = lights;
+                                   });
+    for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather})
+        expectSameLighting("builtin:points", std::string(nameOf(kernel)),
+                           [&](Settings& s) { s.light_kernel = kernel; });
+}
+
+// A device rounds what it draws to fewer bits, and what it stores, in ways of its own.
+TEST(LightingImages, AreTheSameInEveryFormat) {
+    for (const auto& [lit_format, of_lit] : enumNames<LitFormat>())
+        for (const auto& [depth_format, of_depth] : enumNames<DepthFormat>())
+            expectSameLighting("builtin:gallery", fmt::format("{} {}", of_lit, of_depth),
+                               [&, to = lit_format, depth = depth_format](Settings& s) {
+                                   s.lit_format = to;
+                                   s.depth_format = depth;
+                               });
+    if (device().hasFloat16())
+        expectSameLighting("builtin:gallery", "light in 16 bits",
+                           [](Settings& s) { s.shading_precision = ShadingPrecision::fp16; });
+    // Beyond the largest number of 16 bits.
+    Scene bright = loadScene("builtin:points");
+    for (Light& light : bright.lights) light.intensity *= 1e6f;
+    Renderer renderer(device(), bright, pipelines());
+    for (const LitFormat format : {LitFormat::fp16, LitFormat::b10g11r11}) {
+        Settings settings = lightingSettings();
+        settings.lit_format = format;
+        const Image image = expectSameLighting(renderer, settings, "bright");
+        EXPECT_GT(*std::ranges::max_element(image.data), 6e4f);
+    }
+}
+
+TEST(LightingImages, AreTheSameUnderEveryShadow) {
+    for (const auto& [shadows, name] : enumNames<Shadows>())
+        expectSameLighting("builtin:gallery", std::string(name), [&, kind = shadows](Settings& s) {
+            s.shadows = kind;
+            s.shadow_size = 256;
+        });
+    for (const float exponent : {5.0f, 44.36f})
+        expectSameLighting("builtin:gallery", fmt::format("evsm {}", exponent), [&](Settings& s) {
+            s.shadows = Shadows::evsm;
+            s.shadow_size = 256;
+            s.evsm_precision = EvsmPrecision::fp32;
+            s.evsm_exponent = exponent;
+        });
+    expectSameLighting("builtin:gallery", "lamps cast", [](Settings& s) {
+        s.shadows = Shadows::pcf;
+        s.shadow_size = 256;
+        s.shadow_lights = 4;
+        s.lights = "point:8,spot:4";
+    });
+}
+
+TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
+    Scene sky = loadScene("builtin:gallery");
+    sky.environment = {"sky", Image(8, 4, 3, 0.5f)};
+    for (std::size_t i = 0; i < sky.environment->radiance.data.size(); ++i)
+        sky.environment->radiance.data[i] = 0.1f * static_cast<float>(i % 7);
+    Renderer renderer(device(), sky, pipelines());
+    for (const Ibl ibl : {Ibl::split, Ibl::sampled})
+        for (const int samples : {1, 4}) {
+            Settings settings = lightingSettings({96, 54});
+            settings.ibl = ibl;
+            settings.ibl_diffuse = ibl == Ibl::split ? IblDiffuse::sh : IblDiffuse::map;
+            settings.ibl_samples = 16;
+            settings.haze = samples > 1;
+            settings.msaa = samples;
+            expectSameLighting(renderer, settings, fmt::format("{} {}", nameOf(ibl), samples));
+        }
+    for (const auto& [multiscatter, name] : enumNames<Multiscatter>()) {
+        if (multiscatter == Multiscatter::walk) continue;  // the reference's alone
+        expectSameLighting("builtin:gallery", std::string(name), [&, kind = multiscatter](Settings& s) {
+            s.ambient = {0.3f, 0.4f, 0.5f};
+            s.multiscatter = kind;
+        });
+    }
+    expectSameLighting("builtin:gallery", "a fit", [](Settings& s) {
+        s.ambient = {0.3f, 0.4f, 0.5f};
+        s.specular_albedo = SpecularAlbedo::fit;
+    });
+    expectSameLighting("builtin:areas", "one point of each lamp",
+                       [](Settings& s) { s.area_lights = AreaLights::representative; });
+    expectSameLighting("builtin:points", "other falloffs", [](Settings& s) {
+        s.lights = "point:20,spot:20";
+        s.spot_cone = SpotFalloff::smoothstep;
+        s.range_window = RangeWindow::squared;
+    });
+    for (const int steps : {0, 8})
+        expectSameLighting("builtin:gallery", fmt::format("haze {}", steps), [&](Settings& s) {
+            s.haze = true;
+            s.haze_density = 1000;
+            s.haze_march_steps = steps;
+        });
+}
+
+// Of workgroups at the right and lower edge only a part lies in the picture.
+TEST(LightingImages, AreTheSameOfEverySize) {
+    constexpr auto side = static_cast<int>(gpu::LIGHTING_GROUP);
+    for (const Size size : {Size{1, 1}, Size{33, 17}, Size{side, side}, Size{side - 1, side + 1},
+                            Size{2 * side + 1, 1}, Size{1, 3 * side - 1}, Size{257, 131}})
+        for (const int samples : {1, 4})
+            for (const Assignment assign : {Assignment::clustered, Assignment::tiled})
+                expectSameLighting(
+                    "builtin:gallery",
+                    fmt::format("{}x{}, {} samples, {}", size.width, size.height, samples, nameOf(assign)),
+                    [&](Settings& s) {
+                        s.size = size;
+                        s.msaa = samples;
+                        s.assign = assign;
+                        s.lights = "point:30";
+                    });
+}
+
+TEST(LightingImages, AreTheSameOfSeveralSamples) {
+    for (const auto& [edges, name] : enumNames<MsaaEdges>())
+        for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full})
+            expectSameLighting("builtin:gallery", fmt::format("{} {}", name, nameOf(encoding)),
+                               [&, which = edges](Settings& s) {
+                                   s.msaa = 4;
+                                   s.msaa_edges = which;
+                                   s.gbuffer = encoding;
+                               });
+    for (const Shadows shadows : {Shadows::pcf, Shadows::evsm})
+        expectSameLighting("builtin:cutout", std::string(nameOf(shadows)), [&](Settings& s) {
+            s.msaa = 4;
+            s.shadows = shadows;
+            s.alpha_to_coverage = true;
+        });
+    expectSameLighting("builtin:cutout", "tone-mapped, samples shaded", [](Settings& s) {
+        s.msaa = 4;
+        s.resolve = Resolve::tonemapped;
+        s.msaa_shading = MsaaShading::sample;
+    });
+}
+
+// Sums of earlier batches are stored, not drawn; the sun and those that cast are among them.
+TEST(LightingImages, AreTheSameInBatches) {
+    for (const Shadows shadows : {Shadows::off, Shadows::pcf})
+        for (const Size size : {Size{24, 14}, Size{33, 17}})
+            expectSameLighting("builtin:gallery", fmt::format("{}", nameOf(shadows)), [&](Settings& s) {
+                s.size = size;
+                s.assign = Assignment::every;
+                s.shadows = shadows;
+                s.shadow_size = 256;
+                s.shadow_lights = shadows == Shadows::off ? 0 : 2;
+                s.lights = fmt::format("point:{}", 2 * device().profile().packets_per_draw + 7);
+            });
+}
+
+TEST(LightingImages, AreTheSameUnderWhatIsBlended) {
+    for (const auto& [transparency, name] : enumNames<Transparency>())
+        expectSameLighting("builtin:glass", std::string(name), [&, order = transparency](Settings& s) {
+            s.transparency = order;
+            s.lit_format = LitFormat::fp16;
+        });
+}
+
+// Rows of workgroups come in bands where a device may not be kept busy for as long as a dispatch takes.
+TEST(LightingImages, AreTheSameInBands) {
+    Device on({.choice = "", .validate = true, .choices = ProfileChoices::gpu});
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(on, scene, makePipelineSet(on));
+    Settings settings = lightingSettings({200, 131});
+    settings.assign = Assignment::every;
+    settings.lights = "point:30000";
+    expectSameLighting(renderer, settings, "bands");
+    settings.msaa = 4;
+    settings.lights = "point:300";
+    expectSameLighting(renderer, settings, "as a GPU has it, four samples");
+    EXPECT_EQ(on.validationMessages(), 0u) << on.firstValidationMessage();
+}
+
+// That it is what is drawn: no full-screen triangle shades, and the G-buffer is read in compute.
+TEST(LightingImages, AreMadeInCompute) {
+    const Scene scene = loadScene("builtin:points");
+    for (const Lighting lighting : {Lighting::fragment, Lighting::compute})
+        for (const int samples : {1, 4}) {
+            Settings settings = lightingSettings();
+            settings.lighting = lighting;
+            settings.msaa = samples;
+            settings.msaa_edges = MsaaEdges::all;
+            SharedResources shared(device(), scene, pipelines());
+            const SceneView view = makeSceneView(scene, viewRequest(settings));
+            const PreparedFrame frame(device(), shared, view, settings);
+            std::size_t computed = 0, drawn = 0;
+            for (const DeclaredUse& use : frame.passes.declarations()) {
+                if (use.pass != "shade" || use.resource != "albedo") continue;
+                computed += (use.access.stages & inCompute) != 0;
+                drawn += (use.access.stages & inFragment) != 0;
+            }
+            const bool computes = lighting == Lighting::compute;
+            EXPECT_EQ(computed, computes ? static_cast<std::size_t>(samples) : 0u);
+            EXPECT_EQ(drawn, computes ? 0u : 1u);
+        }
+}
+
+}  // namespace
+}  // namespace diptych::tests
