@@ -16,13 +16,6 @@
 
 layout(location = 0) out vec4 out_channels[ATTACHMENTS];
 
-uint captureMode(uint attachment) {
-    uint modes[CAPTURE_ATTACHMENTS] =
-        uint[](feature_capture_0, feature_capture_1, feature_capture_2, feature_capture_3, feature_capture_4,
-               feature_capture_5, feature_capture_6, feature_capture_7);
-    return modes[attachment];
-}
-
 // shaded: Surfaces that are shaded at the pixel, where it has several samples.
 void capture(Surface s, float z, uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z);
@@ -33,8 +26,31 @@ void capture(Surface s, float z, uint shaded) {
 #else
     Radiance radiance = noRadiance();
 #endif
-    for (uint i = 0; i < ATTACHMENTS; ++i)
-        out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z, shaded);
+    // Written out, so that each constant picks its channel before a driver sees the others.
+#define CAPTURE(attachment, mode) out_channels[attachment] = debugValue(mode, s, lights, radiance, z, shaded);
+    CAPTURE(0, feature_capture_0)
+#if ATTACHMENTS > 1
+    CAPTURE(1, feature_capture_1)
+#endif
+#if ATTACHMENTS > 2
+    CAPTURE(2, feature_capture_2)
+#endif
+#if ATTACHMENTS > 3
+    CAPTURE(3, feature_capture_3)
+#endif
+#if ATTACHMENTS > 4
+    CAPTURE(4, feature_capture_4)
+#endif
+#if ATTACHMENTS > 5
+    CAPTURE(5, feature_capture_5)
+#endif
+#if ATTACHMENTS > 6
+    CAPTURE(6, feature_capture_6)
+#endif
+#if ATTACHMENTS > 7
+    CAPTURE(7, feature_capture_7)
+#endif
+#undef CAPTURE
 }
 
 #endif
