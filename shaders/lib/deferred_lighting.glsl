@@ -21,8 +21,8 @@ struct PartialSums {
 };
 PartialSums partialSumsHere() {
     Radiance radiance = radianceHere();
-    return PartialSums(vec4(radiance.diffuse, radiance.local_seen),
-                       vec4(radiance.specular, radiance.local_light));
+    return PartialSums(vec4(flushed(radiance.diffuse), radiance.local_seen),
+                       vec4(flushed(radiance.specular), radiance.local_light));
 }
 
 #endif

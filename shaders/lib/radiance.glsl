@@ -3,6 +3,7 @@
 #define RADIANCE_GLSL
 
 #include "shaders/lib/contract.glsl"
+#include "shaders/lib/flushed.glsl"
 
 // W/(sr m^2), towards the viewer.
 struct Radiance {
@@ -25,7 +26,7 @@ Radiance noRadiance() {
 vec3 lit(Radiance radiance) {
     vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;
-    return sum;
+    return flushed(sum);
 }
 
 // The mean over the points and spots that cast, weighted by their light; 1 where none does.

@@ -183,6 +183,28 @@ TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
         });
 }
 
+// Of light that is as good as none; whether fragments flush it depends on what a process has drawn before:
+// 16-bit floats here.
+TEST(LightingImages, KeepNoDenormals) {
+    Scene dim = loadScene("builtin:points");
+    for (Light& light : dim.lights) light.intensity *= 1e-38f;
+    Renderer renderer(device(), dim, pipelines());
+    Settings settings = lightingSettings();
+    for (int drawn = 0; drawn < 2; ++drawn) {
+        const Image image = expectSameLighting(renderer, settings, "dim");
+        std::size_t normal = 0;
+        for (const float value : image.data) {
+            EXPECT_TRUE(value == 0 || value >= std::numeric_limits<float>::min()) << value;
+            normal += value != 0;
+        }
+        EXPECT_GT(normal, 100u);
+        EXPECT_LT(normal, image.data.size());
+        Settings half = settings;
+        half.lit_format = LitFormat::fp16;
+        timedLit(renderer, half);
+    }
+}
+
 // Of workgroups at the right and lower edge only a part lies in the picture.
 TEST(LightingImages, AreTheSameOfEverySize) {
     constexpr auto side = static_cast<int>(gpu::LIGHTING_GROUP);
