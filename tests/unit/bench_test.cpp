@@ -45,7 +45,8 @@ BenchOptions asked(const std::vector<std::string>& words) {
 TEST(BenchCases, DeferredIsTimedByEachWayToShadeThatIsAskedFor) {
     const auto names = [](const BenchOptions& options) {
         std::vector<std::string> all;
-        for (const Settings& s : makeBenchCases("builtin:spheres", {}, options).groups.front().settings)
+        const BenchCases cases = makeBenchCases("builtin:spheres", {}, options);
+        for (const Settings& s : cases.groups.front().settings)
             all.push_back(modeName(s.path, s.assign, partsOf(options, s)));
         return all;
     };
