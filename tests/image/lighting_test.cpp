@@ -183,6 +183,17 @@ TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
         });
 }
 
+// Where nothing was drawn light that is everywhere shows whoever shades it.
+TEST(LightingImages, LeaveTheBackground) {
+    for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full}) {
+        const Image image = expectSameLighting("builtin:spheres", "ambient light", [&](Settings& s) {
+            s.ambient = {0.3f, 0.4f, 0.5f};
+            s.gbuffer = encoding;
+        });
+        EXPECT_GT(std::ranges::count(image.data, 0.0f), 3000);
+    }
+}
+
 // Of light that is as good as none; whether fragments flush it depends on what a process has drawn before:
 // 16-bit floats here.
 TEST(LightingImages, KeepNoDenormals) {
