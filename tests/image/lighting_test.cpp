@@ -37,10 +37,10 @@ Image timedLit(Renderer& renderer, const Settings& settings) {
 
 // Below this, W/(sr m^2), terms that lavapipe's fragments flush to 0 in one process and keep in another,
 // being less than 2^-126, have been seen to change radiance: up to 6e-37.
-constexpr float darkest = 1e-30f;
+constexpr float leastCompared = 1e-30f;
 Image withoutDarkness(Image image) {
     for (float& value : image.data)
-        if (std::abs(value) < darkest) value = 0;
+        if (std::abs(value) < leastCompared) value = 0;
     return image;
 }
 
