@@ -111,7 +111,9 @@ TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
     const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     const DrawList list = listOf({at(40), at(2), at(3), at(90), at(20)}, viewAlongZ(), {0, 1, 0, 1, 0});
     std::vector<std::uint32_t> order;
-    for (const DrawItem& item : list.items) order.push_back(item.draw);
+    for (const DrawItem& item : list.items) order.push_back(item.instance);
+    for (std::uint32_t i = 0; i < list.items.size(); ++i)
+        EXPECT_EQ(list.items[i].draw, i) << "numbered in this order";
     EXPECT_EQ(order, (std::vector<std::uint32_t>{2, 4, 0, 1, 3}));
     EXPECT_FALSE(list.items[2].masked);
     EXPECT_TRUE(list.items[3].masked);
