@@ -6,6 +6,7 @@
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/commands.h"
 
 #include <fmt/format.h>
 
@@ -25,16 +26,8 @@ int texturesOf(const Variant& variant) {
 
 class Queries {
 public:
-    explicit Queries(Device& device) : device_(device) {
-        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                         .pNext = nullptr,
-                                         .flags = 0,
-                                         .queryType = VK_QUERY_TYPE_OCCLUSION,
-                                         .queryCount = 2,
-                                         .pipelineStatistics = 0};
-        VkQueryPool pool = VK_NULL_HANDLE;
-        checkResult(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
-        pool_ = OwnedQueryPool(device.handle(), pool);
+    explicit Queries(Device& device)
+        : device_(device), pool_(makeQueryPool(device.handle(), VK_QUERY_TYPE_OCCLUSION, 2)) {
         device.submit([&](VkCommandBuffer commands) { vkCmdResetQueryPool(commands, pool_, 0, 2); });
     }
     void begin(VkCommandBuffer commands, std::uint32_t query) const {

@@ -37,7 +37,8 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 // Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list,
 // so that what shades them has no fragments beside them: each in a texel, its number above twice
 // FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH. Four storage images are what
-// every device has. number  name  kind  what it holds
+// every device has.
+// number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
     X(14, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: how many are listed")            \

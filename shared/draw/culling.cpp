@@ -47,22 +47,22 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
     std::uint32_t place = 0;
     draws_.runs.clear();
     const DeviceCosts& costs = device.profile().costs;
-    std::uint32_t together = 0;  // of the instances that one draw may draw, those that are still to come
+    std::uint32_t to_come = 0;  // of instances that one draw may draw
+    bool whole = false;         // the item is one of them
     for (std::uint32_t i = 0; i < draws_.solid; ++i) {
         DrawItem& item = draws_.items[i];
         if (item.box >= 0) continue;
         const PrimitiveRange& range = item.range;
-        if (together == 0) {
-            together = togetherFrom(draws_, i);
-            if (together > 1)
-                instances_.push_back({static_cast<std::uint32_t>(parts_.size()), together,
+        if (to_come == 0) {
+            to_come = togetherFrom(draws_, i);
+            whole = to_come > 1;
+            if (whole)
+                instances_.push_back({static_cast<std::uint32_t>(parts_.size()), to_come,
                                       costs.draw / (costs.triangle * range.index_count / 3)});
         }
         const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
         const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
-        const bool whole = !instances_.empty() && parts_.size() >= instances_.back().first_part &&
-                           parts_.size() < instances_.back().first_part + instances_.back().count;
         Item made{ShownClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
                                 oneSided, item.mirrored),
                   glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
@@ -82,7 +82,7 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
         item.first_run = made.first_part;
         item.runs = made.parts;
         items_.push_back(made);
-        --together;
+        --to_come;
     }
     if (!any()) return;
     draws_.runs.resize(parts_.size());

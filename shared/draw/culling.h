@@ -45,7 +45,7 @@ private:
         std::uint32_t place;  // of its first index
         bool whole;           // drawn as the scene has it, or not at all; of one cluster
     };
-    // Instances that one draw may draw. Fewer than `gap` of them that cannot show are drawn all the same
+    // Instances that one draw may draw. At most `gap` of them that cannot show are drawn all the same
     // where they stand between two that may, since another draw would take longer.
     struct Instances {
         std::uint32_t first_part, count;

@@ -92,6 +92,10 @@ VkCullModeFlags culledOf(const DrawSource& source, const DrawItem& item) {
     return twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
 }
 
+bool areSame(const gpu::DrawConstants& a, const gpu::DrawConstants& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 // Records draws of a source's items, and between them only what changes.
 template <class ConstantsOf>
 class ItemRecorder {
@@ -130,8 +134,7 @@ public:
             vkCmdSetFrontFace(commands_,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         const gpu::DrawConstants constants = constants_of_(item);
-        if (last_ == nullptr || std::memcmp(&constants, &constants_, sizeof constants) != 0)
-            push(commands_, inputs_, constants);
+        if (last_ == nullptr || !areSame(constants, constants_)) push(commands_, inputs_, constants);
         constants_ = constants;
         culled_ = culled;
         last_ = &item;
@@ -173,18 +176,21 @@ private:
 };
 
 // How many items from number i on are instances of the same triangles, which one draw draws: what they differ
-// in has its place in the draws, which they have side by side.
-std::uint32_t instancesFrom(std::size_t i, const FrameInputs& inputs, const DrawSource& source,
-                            const std::vector<VkPipeline>& pipelines) {
+// in has its place in the draws, which they have side by side. What shaders find by push constants (lights by
+// object, numbers of blended triangles) must be the same.
+template <class ConstantsOf>
+std::uint32_t instancesFrom(std::size_t i, const DrawSource& source, const std::vector<VkPipeline>& pipelines,
+                            const ConstantsOf& constantsOf) {
     const ItemRuns first(source, i);
-    // Shaders find the lights of an object by a push constant.
-    if (first.all().size() != 1 || inputs.variant.get(gpu::FEATURE_object_lights) != 0) return 1;
+    if (first.all().size() != 1) return 1;
+    const gpu::DrawConstants constants = constantsOf(first.item);
     std::size_t end = i + 1;
     for (; end < pipelines.size(); ++end) {
         const ItemRuns next(source, end);
         const bool same = isNextInstance(source.items[end - 1], next.item) &&
                           pipelines[end] == pipelines[i] && next.all().size() == 1 &&
-                          next.all().front() == first.all().front();
+                          next.all().front() == first.all().front() &&
+                          areSame(constantsOf(next.item), constants);
         if (!same) break;
     }
     return static_cast<std::uint32_t>(end - i);
@@ -197,7 +203,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
     std::uint32_t instances = 1;
     for (std::size_t i = 0; i < pipelines.size(); i += instances) {
-        instances = instancesFrom(i, inputs, source, pipelines);
+        instances = instancesFrom(i, source, pipelines, constantsOf);
         const ItemRuns runs(source, i);
         bool taken = false;
         for (const IndexRun& run : runs.all()) {

@@ -33,6 +33,19 @@ OwnedFence makeFence(VkDevice device) {
     return {device, fence};
 }
 
+OwnedQueryPool makeQueryPool(VkDevice device, VkQueryType type, std::uint32_t count,
+                             VkQueryPipelineStatisticFlags statistics) {
+    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                     .pNext = nullptr,
+                                     .flags = 0,
+                                     .queryType = type,
+                                     .queryCount = count,
+                                     .pipelineStatistics = statistics};
+    VkQueryPool pool = VK_NULL_HANDLE;
+    checkResult(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
+    return {device, pool};
+}
+
 void recordCommands(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record) {
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .pNext = nullptr,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command buffers and their way to the queue.
+// Command buffers, the queries that they write, and their way to the queue.
 #pragma once
 
 #include "shared/vulkan/owned.h"
@@ -12,6 +12,11 @@ namespace diptych {
 OwnedCommandPool makeCommandPool(VkDevice device, std::uint32_t family);
 VkCommandBuffer allocateCommands(VkDevice device, VkCommandPool pool);  // dies with its pool
 OwnedFence makeFence(VkDevice device);                                  // unsignaled
+
+// `statistics`: of pipeline statistics, VkQueryPipelineStatisticFlagBits. Its queries must be reset before
+// they are used.
+OwnedQueryPool makeQueryPool(VkDevice device, VkQueryType type, std::uint32_t count,
+                             VkQueryPipelineStatisticFlags statistics = 0);
 
 // Between begin and end, to be submitted once.
 void recordCommands(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/draw_division.h"
 
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/commands.h"
 
 namespace diptych {
 
@@ -12,15 +12,7 @@ constexpr std::uint32_t stampCount = 256;
 DrawDivision::DrawDivision(VkDevice device, std::uint32_t triangles)
     : triangles_(triangles), used_(stampCount) {
     if (triangles == 0) return;
-    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                     .pNext = nullptr,
-                                     .flags = 0,
-                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                     .queryCount = stampCount,
-                                     .pipelineStatistics = 0};
-    VkQueryPool pool = VK_NULL_HANDLE;
-    checkResult(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
-    pool_ = {device, pool};
+    pool_ = makeQueryPool(device, VK_QUERY_TYPE_TIMESTAMP, stampCount);
 }
 
 void DrawDivision::begin(VkCommandBuffer commands) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What passes do, by pipeline statistics (Vulkan 1.3, 18.3) and by what they declare.
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/commands.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pass_resource.h"
 
@@ -20,19 +21,6 @@ constexpr VkQueryPipelineStatisticFlags drawStatistics =
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
 constexpr std::size_t statistics = 3;
-
-OwnedQueryPool makeQuery(VkDevice device, VkQueryType type) {
-    const VkQueryPoolCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .queryType = type,
-        .queryCount = 1,
-        .pipelineStatistics = type == VK_QUERY_TYPE_PIPELINE_STATISTICS ? drawStatistics : 0};
-    VkQueryPool pool = VK_NULL_HANDLE;
-    checkResult(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
-    return {device, pool};
-}
 
 template <std::size_t N>
 std::array<std::uint64_t, N> resultsOf(VkDevice device, VkQueryPool pool) {
@@ -90,8 +78,9 @@ std::vector<PassCounts> PassList::count(std::size_t first, std::size_t last) {
                         "counting needs; choose another by --device",
                         device_.info().name));
     prepare(first, last);
-    const OwnedQueryPool stages = makeQuery(device_.handle(), VK_QUERY_TYPE_PIPELINE_STATISTICS),
-                         samples = makeQuery(device_.handle(), VK_QUERY_TYPE_OCCLUSION);
+    const OwnedQueryPool stages = makeQueryPool(device_.handle(), VK_QUERY_TYPE_PIPELINE_STATISTICS, 1,
+                                                drawStatistics),
+                         samples = makeQueryPool(device_.handle(), VK_QUERY_TYPE_OCCLUSION, 1);
     std::vector<PassCounts> all;
     for (const Span& span : spans(first, last)) {
         PassCounts& counts = all.emplace_back(PassCounts{.name = passes_[span.first]->name_});

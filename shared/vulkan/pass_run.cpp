@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Running a pass list: barriers, draws in bands, submits, times.
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/commands.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pass_resource.h"
 
@@ -29,18 +30,6 @@ VulkanBarrier scopesOf(VkStructureType type, const Barrier& barrier) {
 
 double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-OwnedQueryPool makeTimestamps(VkDevice device, std::uint32_t count) {
-    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                     .pNext = nullptr,
-                                     .flags = 0,
-                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                     .queryCount = count,
-                                     .pipelineStatistics = 0};
-    VkQueryPool pool = VK_NULL_HANDLE;
-    checkResult(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
-    return {device, pool};
 }
 
 }  // namespace
@@ -238,7 +227,7 @@ void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms)
     OwnedQueryPool pool;
     const bool stamped = device_.profile().time_stamps;
     const auto most = static_cast<std::uint32_t>(pieces.size() + 1);
-    if (stamped) pool = makeTimestamps(device_.handle(), most);
+    if (stamped) pool = makeQueryPool(device_.handle(), VK_QUERY_TYPE_TIMESTAMP, most);
     const auto stamp = [&](VkCommandBuffer commands, std::uint32_t query) {
         if (stamped) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
     };

@@ -90,20 +90,29 @@ const char* const lookAtMany = R"(
   const told = { ms: performance.getEntriesByType('navigation')[0].domComplete, lines: lines.length };
   told.loaded = $$('img').filter(image => image.complete && image.naturalWidth).length;
   told.images = $$('img').length;
-  const set = (by, value) => { const s = $(`.index select[data-by="${by}"]`); s.value = value; s.dispatchEvent(new Event('change')); };
+  const set = (by, value) => {
+    const s = $(`.index select[data-by="${by}"]`);
+    s.value = value;
+    s.dispatchEvent(new Event('change'));
+  };
   set('verdict', 'fail'); told.failing = visible().length;
   set('camera', '1'); told.ofCamera = visible().length;
   set('camera', 'default view'); told.ofOther = visible().length; set('camera', '');
   set('channel', 'lit'); told.litFails = visible().length;
   set('channel', 'roughness'); told.roughnessFails = visible().length;
-  set('figure', 'mean'); told.head = [...$$('.index th')].map(h => h.textContent).find(t => t.includes('mean'));
+  set('figure', 'mean');
+  told.head = [...$$('.index th')].map(h => h.textContent).find(t => t.includes('mean'));
   const head = [...$$('.index th')].find(h => h.textContent.includes('mean'));
   head.click(); told.first = $$('.index tbody tr')[0].cells[1].textContent;
   head.click(); set('verdict', ''); set('channel', '');
   const filter = $('.index [type=search]');
-  filter.value = '1997.glb'; filter.dispatchEvent(new Event('input', { bubbles: true })); told.found = visible().length;
-  location.hash = '#s1000'; told.arrived = await until(() => $('#s1000')) && $('#s1000 h2').textContent;
-  location.hash = '#c1001-lit'; told.card = await until(() => $('#c1001-lit')) && $('#c1001-lit').closest('section').id;
+  filter.value = '1997.glb';
+  filter.dispatchEvent(new Event('input', { bubbles: true }));
+  told.found = visible().length;
+  location.hash = '#s1000';
+  told.arrived = await until(() => $('#s1000')) && $('#s1000 h2').textContent;
+  location.hash = '#c1001-lit';
+  told.card = await until(() => $('#c1001-lit')) && $('#c1001-lit').closest('section').id;
   await wait(300); told.address = location.search;
   tell(told);)";
 
