@@ -108,9 +108,7 @@ private:
         constants.draw = static_cast<gpu::uint>(workload_.tilesAcross());
         constants.material = static_cast<gpu::uint>(workload_.list_capacity / 4);
         constants.light_end = static_cast<gpu::uint>(length_ / 4);
-        vkCmdPushConstants(commands, layouts_.pipeline,
-                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
-                           &constants);
+        vkCmdPushConstants(commands, layouts_.pipeline, drawStages, 0, sizeof constants, &constants);
         vkCmdDraw(commands, 3, 1, 0, 0);
     }
 
