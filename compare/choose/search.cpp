@@ -23,6 +23,10 @@ constexpr double together = 0.8;
 // By so much, in logarithms, the error of several changes is taken to differ from the sum of what each does,
 // until so many were seen.
 constexpr double spreadAtFirst = 0.4, seenAtFirst = 4;
+// By so much, in logarithms, an estimated error is taken to differ from the judged one, until so many of both
+// are known. One camera's of the gallery's two: 0.22 over what forward+ changes, 0.10 over what deferred
+// does.
+constexpr double estimateAtFirst = 0.2, estimatesAtFirst = 4;
 // A change is worth combining if it takes off so much of the time, in logarithms.
 constexpr double worthTime = -0.02;
 // What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
@@ -35,12 +39,32 @@ constexpr std::size_t changesAtOnce = 3;
 // A time this near to its budget, in standard deviations, is timed again, up to so many frames.
 constexpr double doubtful = 1;
 constexpr std::size_t mostAgain = 8;
+// Where nothing fits, so many are judged to find the nearest.
+constexpr std::size_t mostForNearest = 8;
 
 // Of two frames of the same passes: what disturbs a frame only lengthens it.
 std::vector<PassTime> least(std::vector<PassTime> a, const std::vector<PassTime>& b) {
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i].ms = std::min(a[i].ms, b[i].ms);
     return a;
 }
+
+// How far values are from what they were taken for, in logarithms: a deviation that is assumed and counts as
+// much as some values do, and those that were seen.
+class LearnedSpread {
+public:
+    LearnedSpread(double deviation, double counts)
+        : squares_(deviation * deviation * counts), seen_(counts) {}
+    void add(double value, double taken_for) {
+        if (!(taken_for > 0)) return;
+        const double off = std::log(std::max(value, 1e-12) / taken_for);
+        squares_ += off * off;
+        ++seen_;
+    }
+    double deviation() const { return std::sqrt(squares_ / seen_); }
+
+private:
+    double squares_, seen_;
+};
 
 class Search {
 public:
@@ -52,10 +76,12 @@ public:
     Choice run() {
         measureEffects();
         if (options_.combine) addCombinations();
-        if (budget_.isForSpeed())
-            findFastest();
-        else
+        if (!budget_.isForSpeed()) {
             findMostAccurate();
+        } else {
+            findFastest();
+            while (fitting().empty() && judgeNearest()) findFastest();
+        }
         for (std::size_t i = 0; i < all_.size(); ++i) {
             all_[i].predicted = model_.predict(i);
             all_[i].passes = model_.passesOf(i);
@@ -85,18 +111,46 @@ private:
         const bool fits = !(budget_.error && !(candidate.judged->error <= *budget_.error)) &&
                           !(budget_.bytes && candidate.judged->bytes > *budget_.bytes);
         candidate.fate = fits ? Fate::fits : Fate::misses;
-        if (const auto& changes = model_.changesOf(i); changes.size() <= 1) {
-            const Path path = candidate.settings.path;
-            if (changes.empty())
-                first_errors_[path] = candidate.judged->error;
-            else
-                errors_[changes.front()] = candidate.judged->error;
-        } else if (const std::optional<double> sum = sumOfErrors(i); sum && *sum > 0) {
-            const double off = std::log(std::max(candidate.judged->error, 1e-12) / *sum);
-            off_squared_ += off * off;
-            ++off_seen_;
+        const double error = candidate.judged->error;
+        const Path path = candidate.settings.path;
+        const std::vector<Change>& changes = model_.changesOf(i);
+        if (changes.empty()) {
+            first_errors_[path] = error;
+        } else if (changes.size() == 1) {
+            if (candidate.estimated) estimate_off_.add(error, scaled(path, *candidate.estimated));
+            errors_[changes.front()] = error;
+            estimated_.erase(changes.front());
+        } else if (const std::optional<double> sum = sumOfErrors(i)) {
+            sum_off_.add(error, *sum);
         }
         return *candidate.judged;
+    }
+
+    // What an estimate of the path's would be in all, if it grew as that of the first candidate does.
+    double scaled(Path path, double estimate) const {
+        const auto first = first_estimates_.find(path);
+        return first == first_estimates_.end() || !(first->second > 0)
+                   ? estimate
+                   : estimate * first_errors_.at(path) / first->second;
+    }
+    // The error of a candidate with one change at most, about, where that takes less than judging it.
+    void estimate(std::size_t i) {
+        Candidate& candidate = all_[i];
+        const std::vector<Change>& changes = model_.changesOf(i);
+        if (candidate.judged && !changes.empty()) return;
+        if (changes.size() <= 1) candidate.estimated = lab_.estimate(candidate.settings);
+        if (!candidate.estimated) {
+            judge(i);
+            return;
+        }
+        ++found_.estimated;
+        const Path path = candidate.settings.path;
+        if (changes.empty()) {
+            first_estimates_[path] = *candidate.estimated;
+            return;
+        }
+        errors_[changes.front()] = scaled(path, *candidate.estimated);
+        estimated_.insert(changes.front());
     }
 
     // Times each twice, in an order and back.
@@ -144,9 +198,7 @@ private:
     // The least that this sum leaves open, by how far off it was for others.
     double leastOfSum(std::size_t i) const {
         if (model_.changesOf(i).size() < 2) return 0;
-        const double spread = std::sqrt((spreadAtFirst * spreadAtFirst * seenAtFirst + off_squared_) /
-                                        (seenAtFirst + static_cast<double>(off_seen_)));
-        return sumOfErrors(i).value_or(0) * std::exp(-benefit * spread);
+        return sumOfErrors(i).value_or(0) * std::exp(-benefit * sum_off_.deviation());
     }
     // The least and the likely error of a candidate by those of its single changes.
     struct ErrorGuess {
@@ -163,7 +215,13 @@ private:
             down += std::min(error->second - first->second, 0.0);
             sum += error->second - first->second;
         }
-        return {std::max(together * std::max(most + down, 0.0), leastOfSum(i)), std::max(sum, 0.0)};
+        return {std::max(leftOpen(i) * std::max(most + down, 0.0), leastOfSum(i)), std::max(sum, 0.0)};
+    }
+    // By which the largest error of a candidate's changes may be too large for it.
+    double leftOpen(std::size_t i) const {
+        const bool is_estimated = std::ranges::any_of(
+            model_.changesOf(i), [&](const Change& change) { return estimated_.count(change) > 0; });
+        return is_estimated ? std::min(together, std::exp(-benefit * estimate_off_.deviation())) : together;
     }
     bool isSpoilt(std::size_t i) const { return budget_.error && guess(i).least > *budget_.error; }
 
@@ -195,12 +253,13 @@ private:
             const bool is_first_fit = all_[firsts_.at(all_[i].settings.path)].isFit();
             const bool is_for_time = budget_.isForSpeed() && is_first_fit;
             if (is_first_fit && (isSpoilt(i) || (is_for_time && slower(i) > hopeless))) continue;
-            if (!is_for_time) judge(i);
-            if (all_[i].judged && isSpoilt(i)) continue;
+            if (!is_for_time) estimate(i);
+            const bool has_error = all_[i].judged || all_[i].estimated;
+            if (has_error && isSpoilt(i)) continue;
             const bool is_known = std::ranges::all_of(
                 model_.changesOf(i), [&](const Change& change) { return model_.knows(change, knownEffect); });
             if (!is_known) profile(i, 1);
-            if (is_for_time && slower(i) < worthJudging) judge(i);
+            if (is_for_time && slower(i) < worthJudging) estimate(i);
         }
     }
 
@@ -217,6 +276,7 @@ private:
             say(0, "effects");
             firsts_[all_[i].settings.path] = i;
             judge(i);
+            estimate(i);
             profile(i, 3);
         }
         time(firsts);
@@ -454,6 +514,24 @@ private:
     double missBy(const Candidate& candidate) const {
         return missOf(*candidate.judged, candidate.ms(), budget_);
     }
+    // Where nothing fits: judges what was estimated alone and may come nearer than all that was judged.
+    // Returns whether any of it fits, as an estimate may be farther off than it was taken to be.
+    bool judgeNearest() {
+        for (std::size_t more = 0; more < mostForNearest; ++more) {
+            double nearest = infinity;
+            std::size_t next = none;
+            for (std::size_t i = 0; i < all_.size(); ++i) {
+                if (all_[i].judged) nearest = std::min(nearest, all_[i].judged->error);
+                if (!all_[i].judged && all_[i].estimated &&
+                    (next == none || guess(i).likely < guess(next).likely))
+                    next = i;
+            }
+            if (next == none || guess(next).likely >= nearest) return false;
+            judge(next);
+            if (all_[next].isFit()) return true;
+        }
+        return false;
+    }
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
             if (all_[i].judged && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
@@ -470,8 +548,9 @@ private:
     std::map<Path, std::size_t> firsts_;
     std::map<Path, double> first_errors_;
     std::map<Change, double> errors_;
-    double off_squared_ = 0;  // of the logarithms by which sums of errors were off
-    std::size_t off_seen_ = 0;
+    std::map<Path, double> first_estimates_;
+    std::set<Change> estimated_;  // of errors_
+    LearnedSpread sum_off_{spreadAtFirst, seenAtFirst}, estimate_off_{estimateAtFirst, estimatesAtFirst};
     std::vector<double> repeats_;
     Choice found_;
 };

@@ -41,11 +41,15 @@ public:
     Lab& operator=(const Lab&) = delete;
     virtual ~Lab() = default;
     virtual Judged judge(const Settings& settings) = 0;
+    // An error that repeats as exactly and takes less to find, as that of one camera of several: how it
+    // differs from candidate to candidate tells how that of judge() does, about. Nothing where nothing takes
+    // less.
+    virtual std::optional<double> estimate(const Settings&) { return {}; }
     // Draws `frames` in an order, one frame for each of its entries: their times, ms.
     virtual std::vector<double> time(std::span<const Settings> frames,
                                      std::span<const std::size_t> order) = 0;
     // The passes of some frames of one candidate, each pass by itself, ms: for effects, so that one camera
-    // may stand for all.
+    // may stand for all. The first may be the first of all, which may take longer.
     virtual std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) = 0;
 };
 
@@ -75,6 +79,7 @@ struct Candidate {
     Settings settings;
     Fate fate = Fate::unseen;
     std::optional<Judged> judged{};
+    std::optional<double> estimated{};  // Lab::estimate()
     std::size_t timings = 0;
     Prediction predicted{};              // by all that was timed
     std::vector<PassTime> passes{};      // likewise
@@ -96,7 +101,7 @@ struct Choice {
     bool sure = false;                     // the chosen one is faster than every other contender
     // Where nothing fits: what comes nearest.
     std::optional<std::size_t> nearest;
-    std::size_t judged = 0, timings = 0;
+    std::size_t judged = 0, estimated = 0, timings = 0;
     double ms = 0;  // of the chosen, or of the nearest
 };
 

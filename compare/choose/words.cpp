@@ -126,6 +126,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"ms", candidate.ms()},
               {"frames_timed", candidate.timings}};
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
+    json["estimated_error"] = candidate.estimated ? Json(*candidate.estimated) : Json();
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
     if (candidate.standing)
         json["race"] = {{"ratio", candidate.standing->ratio},
@@ -150,9 +151,9 @@ std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
 const char* fateInWords(Fate fate) {
     switch (fate) {
         case Fate::unseen:
-            return "not drawn, no better by the model";
+            return "not judged, no better by the model";
         case Fate::spoilt:
-            return "not drawn, a change of it exceeds the error";
+            return "not judged, a change of it exceeds the error";
         case Fate::misses:
             return "over the error or the memory";
         case Fate::too_slow:
@@ -220,9 +221,10 @@ std::string inWords(const ChoiceReport& report) {
     if (report.deciders)
         for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
     text += fmt::format(
-        "  {} candidates: {}\n  {} pictures judged, {} frames timed, {} effects known before, {:.1f} s\n",
-        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings, report.known_effects,
-        report.seconds);
+        "  {} candidates: {}\n  {} pictures judged{}, {} frames timed, {} effects known before, {:.1f} s\n",
+        choice.candidates.size(), fatesInWords(choice), choice.judged,
+        choice.estimated > 0 ? fmt::format(" and {} from one camera", choice.estimated) : "", choice.timings,
+        report.known_effects, report.seconds);
     for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
     if (choice.chosen) text += report.commands[*choice.chosen] + "\n";
     return text;
@@ -259,6 +261,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
+    json["estimated"] = choice.estimated;
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
     json["notes"] = report.notes;

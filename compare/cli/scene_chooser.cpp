@@ -154,7 +154,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     const tradeoff::ReferenceFrames& references =
         references_
             .insert_or_assign(where, tradeoff::drawReferenceFrames(held.renderer, truth, cameras,
-                                                                   pictureChoice(options_), drawing))
+                                                                   pictureChoice(options_), drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
     tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
@@ -252,8 +252,8 @@ UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const C
                                       const std::string& camera) {
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = {};
-    const tradeoff::ReferenceFrames references =
-        tradeoff::drawReferenceFrames(held.renderer, truth, {camera}, pictureChoice(options_), drawing);
+    const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
+        held.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
     SceneLab lab(held.renderer, references, figure_, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = lab.judge(chosen.settings).error;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/scene_lab.h"
 
-#include "shared/contract/debug_mode.h"
+#include "compare/reference/key.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,6 @@
 namespace diptych::cli {
 
 namespace {
-
-constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit);
 
 // The Settings from each camera of the reference frames.
 std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::ReferenceFrames& references) {
@@ -24,23 +22,42 @@ std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::R
 
 }  // namespace
 
+bool SceneLab::isOfReferenceSize(const Settings& settings) const {
+    return settings.size == references_.frames.front().settings.size;
+}
+
+const tradeoff::FrameErrors& SceneLab::errorsOf(std::size_t camera, const Image& lit) {
+    reference::Key key;
+    key.addAll(lit.data);
+    const auto [known, is_new] = judged_.try_emplace({camera, key.value()});
+    if (is_new) known->second = references_.errors[camera]->forFigure(figure_, lit);
+    return known->second;
+}
+
 choose::Judged SceneLab::judge(const Settings& settings) {
     // A picture of another size is enlarged by what its pixels show, which takes a capture.
-    if (settings.size != references_.frames.front().settings.size) return judgeCaptured(settings);
+    if (!isOfReferenceSize(settings)) return judgeCaptured(settings);
     tradeoff::ErrorsOfCameras errors;
     choose::Judged judged;
     const std::vector<Settings> seen = fromEachCamera(settings, references_);
     prepare(seen);
     for (std::size_t camera = 0; camera < cameras(); ++camera) {
         PreparedFrames& frames = drawn(seen[camera]);
-        Frame frame;
-        frame.channels[LIT] = frames.lit(0);
-        errors.add(tradeoff::errorsOf(references_.frames[camera], frame));
+        errors.add(errorsOf(camera, frames.lit(0)));
         const FrameBytes& bytes = frames.described(0).bytes;
         judged.bytes = std::max(judged.bytes, bytes.images + bytes.buffers);
     }
     judged.error = errors.errors().at(figure_);
     return judged;
+}
+
+std::optional<double> SceneLab::estimate(const Settings& settings) {
+    if (cameras() == 1 || !isOfReferenceSize(settings)) return {};
+    const Settings seen = fromEachCamera(settings, references_).front();
+    prepare(std::span(&seen, 1));
+    tradeoff::ErrorsOfCameras errors;
+    errors.add(errorsOf(0, drawn(seen).lit(0)));
+    return errors.errors().at(figure_);
 }
 
 choose::Judged SceneLab::judgeCaptured(const Settings& settings) {
@@ -52,16 +69,37 @@ choose::Judged SceneLab::judgeCaptured(const Settings& settings) {
 }
 
 void SceneLab::prepare(std::span<const Settings> seen) {
+    const auto isThere = [&](const Settings& settings) {
+        return std::ranges::find(drawn_, settings, &Drawn::settings) != drawn_.end();
+    };
+    if (std::ranges::all_of(seen, isThere)) return;
     std::erase_if(drawn_, [&](const Drawn& each) { return std::ranges::count(seen, each.settings) == 0; });
     for (const Settings& settings : seen) {
-        if (std::ranges::find(drawn_, settings, &Drawn::settings) != drawn_.end()) continue;
-        drawn_.push_back({settings, renderer_.prepare(std::span(&settings, 1))});
-        drawn_.back().frames.draw(0);
+        if (isThere(settings)) continue;
+        const std::size_t pipelines = renderer_.pipelines();
+        drawn_.push_back({settings, renderer_.prepare(std::span(&settings, 1)), false});
+        drawn_.back().made_pipelines = renderer_.pipelines() > pipelines;
     }
 }
 
+SceneLab::Drawn& SceneLab::prepared(const Settings& seen) {
+    return *std::ranges::find(drawn_, seen, &Drawn::settings);
+}
+
 PreparedFrames& SceneLab::drawn(const Settings& seen) {
-    return std::ranges::find(drawn_, seen, &Drawn::settings)->frames;
+    Drawn& each = prepared(seen);
+    if (!each.is_drawn) each.frames.draw(0);
+    each.is_drawn = true;
+    return each.frames;
+}
+
+// A driver may compile a pipeline when it is first drawn with, and a clipmap's pages are drawn in the first
+// frame and kept for the others; else the first frame is like any other.
+SceneLab::Drawn& SceneLab::readyForTimes(const Settings& seen) {
+    Drawn& each = prepared(seen);
+    if (each.made_pipelines || seen.shadows == Shadows::clipmap) drawn(seen);
+    each.is_drawn = true;
+    return each;
 }
 
 std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {
@@ -69,7 +107,8 @@ std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<c
     for (const Settings& settings : frames)
         for (Settings& each : fromEachCamera(settings, references_)) seen.push_back(std::move(each));
     prepare(seen);
-    drawn(seen.front()).warmUp(std::array{std::size_t{0}});
+    for (const Settings& each : seen) readyForTimes(each);
+    prepared(seen.front()).frames.warmUp(std::array{std::size_t{0}});
     std::vector<double> times;
     for (const std::size_t i : order) {
         double ms = 0;
@@ -83,7 +122,7 @@ std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<c
 std::vector<std::vector<PassTime>> SceneLab::profile(const Settings& settings, int frames) {
     const Settings seen = fromEachCamera(settings, references_).front();
     prepare(std::span(&seen, 1));
-    PreparedFrames& of = drawn(seen);
+    PreparedFrames& of = readyForTimes(seen).frames;
     of.warmUp(std::array{std::size_t{0}});
     std::vector<std::vector<PassTime>> times;
     for (int i = 0; i < frames; ++i) times.push_back(of.profile(0));

@@ -7,8 +7,12 @@
 #include "compare/tradeoff/measure.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <list>
+#include <map>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace diptych::cli {
@@ -23,6 +27,8 @@ public:
         : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
 
     choose::Judged judge(const Settings& settings) override;
+    // The first camera's error, of several.
+    std::optional<double> estimate(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the frames that it keeps: each has images of its own.
     void release() { drawn_.clear(); }
@@ -30,22 +36,30 @@ public:
 
 private:
     std::size_t cameras() const { return references_.frames.size(); }
+    bool isOfReferenceSize(const Settings& settings) const;
     choose::Judged judgeCaptured(const Settings& settings);
-    // Frames of Settings with their cameras, drawn once; those that are there already are taken, so that what
-    // was judged is timed without being made anew, and all others are dropped.
-    void prepare(std::span<const Settings> seen);
-    PreparedFrames& drawn(const Settings& seen);  // that were prepared
+    // Of a picture from one of the cameras; what was judged before is known by its pixels.
+    const tradeoff::FrameErrors& errorsOf(std::size_t camera, const Image& lit);
 
     struct Drawn {
         Settings settings;
         PreparedFrames frames;
+        bool made_pipelines, is_drawn = false;
     };
+    // Makes frames of Settings with their cameras; those that are there already are taken, so that what was
+    // judged is timed without being made anew; where any has to be made, all others are dropped.
+    void prepare(std::span<const Settings> seen);
+    Drawn& prepared(const Settings& seen);
+    PreparedFrames& drawn(const Settings& seen);  // that were prepared, drawn once at least
+    Drawn& readyForTimes(
+        const Settings& seen);  // that were prepared, and whose next frame is like all others
 
     Renderer& renderer_;
     const tradeoff::ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
     std::list<Drawn> drawn_;
+    std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;  // by camera and picture
 };
 
 }  // namespace diptych::cli

@@ -88,16 +88,18 @@ FlipPair inspect(const Image& reference, const Image& test, float least, float m
     return pair;
 }
 
+// Of the errors that count; the others become notMeasured.
+std::vector<float> counted(const FlipPair& pair, std::span<const std::uint8_t> covered, const Image& error) {
+    std::vector<float> errors(error.data.begin(), error.data.end());
+    if (covered.empty() && pair.holes.empty()) return errors;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
+            errors[i] = notMeasured;
+    return errors;
+}
+
 void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResult& result) {
-    std::vector<float> counted;
-    std::span<const float> errors = result.error.data;
-    if (!covered.empty() || !pair.holes.empty()) {
-        counted.assign(result.error.data.begin(), result.error.data.end());
-        for (std::size_t i = 0; i < counted.size(); ++i)
-            if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
-                counted[i] = notMeasured;
-        errors = counted;
-    }
+    const std::vector<float> errors = counted(pair, covered, result.error);
     const metrics::Order order(errors);
     result.pixels = order.size();
     result.mean = order.mean();
@@ -171,18 +173,64 @@ FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions&
 
 HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options) {
     checkPair(reference, test, options);
-    HdrFlipResult result;
-    chooseExposures(reference, options, result);
-    const FlipPair pair = inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
+    return HdrFlipAgainst(reference, options, 0)(test);
+}
+
+struct HdrFlipAgainst::State {
+    State(const Image& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
+        checkPair(r, r, o);
+        chooseExposures(r, o, begun);
+        const double step =
+            begun.exposures > 1 ? (begun.stop_exposure - begun.start_exposure) / (begun.exposures - 1) : 0;
+        for (int i = 0; i < begun.exposures; ++i)
+            looks.push_back({static_cast<float>(std::exp2(begun.start_exposure + i * step)), o.tone_mapper});
+        if (most_bytes == 0) return;
+        FlipResult found;
+        const FlipPair itself = inspectLinear(r, found);
+        kept.emplace(r, itself.holes, filters, looks, most_bytes);
+    }
+
+    FlipPair inspectLinear(const Image& test, FlipResult& result) const {
+        return inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
+    }
+    // The errors alone; returns what they are of.
+    FlipPair compare(const Image& test, HdrFlipResult& result) const {
+        checkPair(reference, test, options);
+        result = begun;
+        FlipPair pair = inspectLinear(test, result);
+        // What is kept was made without the reference's own holes; a test may have more.
+        const auto holes =
+            pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
+        flipErrorMap(pair, filters, looks, result.error, &result.exposure_map,
+                     kept && holes == result.nonfinite_reference ? &*kept : nullptr);
+        return pair;
+    }
+
+    const Image& reference;
+    const HdrFlipOptions options;
+    const FlipFilters filters{options.pixels_per_degree};
+    HdrFlipResult begun;  // its exposures
     std::vector<FlipLook> looks;
-    const double step =
-        result.exposures > 1 ? (result.stop_exposure - result.start_exposure) / (result.exposures - 1) : 0;
-    for (int i = 0; i < result.exposures; ++i)
-        looks.push_back(
-            {static_cast<float>(std::exp2(result.start_exposure + i * step)), options.tone_mapper});
-    flipErrorMap(pair, FlipFilters(options.pixels_per_degree), looks, result.error, &result.exposure_map);
-    pool(pair, options.covered, result);
+    std::optional<FilteredReference> kept;
+};
+
+HdrFlipAgainst::HdrFlipAgainst(const Image& reference, const HdrFlipOptions& options, std::size_t most_bytes)
+    : state_(std::make_unique<const State>(reference, options, most_bytes)) {}
+HdrFlipAgainst::~HdrFlipAgainst() = default;
+
+HdrFlipResult HdrFlipAgainst::operator()(const Image& test) const {
+    HdrFlipResult result;
+    const FlipPair pair = state_->compare(test, result);
+    pool(pair, state_->options.covered, result);
     return result;
+}
+
+HdrFlipAgainst::Mean HdrFlipAgainst::mean(const Image& test) const {
+    HdrFlipResult result;
+    const FlipPair pair = state_->compare(test, result);
+    const std::vector<float> errors = counted(pair, state_->options.covered, result.error);
+    const metrics::Order order(errors);
+    return {order.mean(), order.size()};
 }
 
 }  // namespace diptych

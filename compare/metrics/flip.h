@@ -8,7 +8,9 @@
 #include "compare/metrics/flip_rows.h"
 #include "shared/image/image.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -62,6 +64,29 @@ struct HdrFlipResult : FlipResult {
 FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options = {});
 // Of linear radiance: the largest error over the exposures, evenly spaced.
 HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options = {});
+
+// hdrFlip() of any number of tests against one reference under one set of options, bit for bit: what is of
+// the reference alone is filtered once, which is nearly half of the work.
+class HdrFlipAgainst {
+public:
+    // The reference and what `options` covers must outlive it. Keeps 20 bytes a pixel and exposure, as far as
+    // `most_bytes` reach; what is not kept is made for each test. Throws as hdrFlip() does.
+    HdrFlipAgainst(const Image& reference, const HdrFlipOptions& options,
+                   std::size_t most_bytes = std::size_t{256} << 20);
+    ~HdrFlipAgainst();
+
+    HdrFlipResult operator()(const Image& test) const;
+    // Its mean and pixels alone.
+    struct Mean {
+        double mean = 0;
+        std::uint64_t pixels = 0;
+    };
+    Mean mean(const Image& test) const;
+
+private:
+    struct State;
+    std::unique_ptr<const State> state_;
+};
 
 // The exposures between which a reference's parts are neither too dark nor too bright: they map the largest
 // and the median luminance of the finite pixels to 0.85 (2021 paper, section 3). The median of the positive

@@ -130,19 +130,18 @@ inline float colorError(float distance, float largest) {
     return unit(d < knee ? low : high);
 }
 
-// |length(ax, ay) - length(bx, by)|
-inline float lengthsApart(float ax, float ay, float bx, float by) {
-    return apart(magnitude(ax, ay), magnitude(bx, by));
+// Rows ax, ay to their lengths, in ax.
+DIPTYCH_WIDE_LANES void lengthsInPlace(float* __restrict ax, const float* __restrict ay, int n) {
+    for (int i = 0; i < n; ++i) ax[i] = magnitude(ax[i], ay[i]);
 }
 
-// Of rows that hold lightness and chroma where they held y, cx and cz.
-DIPTYCH_WIDE_LANES void errorsOfLab(float* __restrict out, const FilteredRow r, const FilteredRow t, int n,
-                                    float largest) {
+DIPTYCH_WIDE_LANES void errorsOfComparable(float* __restrict out, const ComparableRow r,
+                                           const ComparableRow t, int n, float largest) {
     static_assert(qf == 0.5f, "the power is a square root");
     for (int i = 0; i < n; ++i) {
-        const float distance = hyab({r.y[i], r.cx[i], r.cz[i]}, {t.y[i], t.cx[i], t.cz[i]});
-        const float edge = lengthsApart(r.edge_x[i], r.edge_y[i], t.edge_x[i], t.edge_y[i]);
-        const float point = lengthsApart(r.point_x[i], r.point_y[i], t.point_x[i], t.point_y[i]);
+        const float distance = hyab({r.lightness[i], r.a[i], r.b[i]}, {t.lightness[i], t.a[i], t.b[i]});
+        const float edge = apart(r.edge[i], t.edge[i]);
+        const float point = apart(r.point[i], t.point[i]);
         const float feature = std::sqrt((edge < point ? point : edge) * 0.707106781f);
         out[i] = unit(fast::pow(colorError(distance, largest), 1 - unit(feature)));
     }
@@ -220,10 +219,15 @@ void opponentsFromLinear(const OpponentRow& out, const float* rgb, int n, float 
         opponentsOnCurve(out, rgb, n, scale, toneCurve(mapper));
 }
 
-void flipErrors(float* out, const FilteredRow& reference, const FilteredRow& test, int n) {
-    labInPlace(reference.y, reference.cx, reference.cz, n);
-    labInPlace(test.y, test.cx, test.cz, n);
-    errorsOfLab(out, reference, test, n, largestColorDistance());
+ComparableRow comparableRow(const FilteredRow& row, int n) {
+    labInPlace(row.y, row.cx, row.cz, n);
+    lengthsInPlace(row.edge_x, row.edge_y, n);
+    lengthsInPlace(row.point_x, row.point_y, n);
+    return {row.y, row.cx, row.cz, row.edge_x, row.point_x};
+}
+
+void flipErrors(float* out, const ComparableRow& reference, const ComparableRow& test, int n) {
+    errorsOfComparable(out, reference, test, n, largestColorDistance());
 }
 
 }  // namespace diptych

@@ -37,8 +37,14 @@ double whereCurveReaches(ToneMapper mapper, double value);
 void opponentsFromSrgb(const OpponentRow& out, const float* rgb, int n);
 void opponentsFromLinear(const OpponentRow& out, const float* rgb, int n, float scale, ToneMapper mapper);
 
-// FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same.
-// Overwrites the rows' colours.
-void flipErrors(float* out, const FilteredRow& reference, const FilteredRow& test, int n);
+// What of a filtered row is compared: lightness, two chromas, and the lengths of the detectors' responses.
+struct ComparableRow {
+    const float *lightness, *a, *b, *edge, *point;
+};
+// Of n filtered pixels, made in the memory of their row.
+ComparableRow comparableRow(const FilteredRow& row, int n);
+
+// FLIP's error of n pixels, in [0, 1]; exactly 0 where they are the same.
+void flipErrors(float* out, const ComparableRow& reference, const ComparableRow& test, int n);
 
 }  // namespace diptych

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <functional>
 
 namespace diptych {
 namespace {
@@ -18,6 +19,8 @@ using metrics::size;
 
 // Wide and high enough that the border, 10 pixels for a usual viewer, costs little; rows that fit in a cache.
 constexpr int tileWidth = 256, tileHeight = 128;
+
+constexpr std::size_t planes = 5;  // of a ComparableRow
 
 struct Tile {
     int x0, y0, x1, y1;
@@ -64,17 +67,20 @@ public:
 
     // Whether both pictures are equal wherever a filter of the tile's pixels reads; then every error is 0.
     bool isSame(const Tile& tile) const;
-    // Calls use(y, errors) with the tile's rows from the top; tile.width() errors each.
+    // Calls use(y, errors) with the tile's rows from the top; tile.width() errors each. `referenceRow`: gives
+    // the comparable row y of the reference, or is empty, and it is made here.
+    using ReferenceRow = std::function<ComparableRow(int y)>;
     template <class Use>
-    void errors(const Tile& tile, const FlipLook* look, const Use& use) {
-        tile_ = tile;
-        holes_ = hasHoles();
-        for (int y = tile.y0 - radius_; y < tile.y1 + radius_; ++y) {
-            enter(y, look);
-            if (y - radius_ < tile.y0) continue;
-            makeErrors(y - radius_);
-            use(y - radius_, second_.data());
-        }
+    void errors(const Tile& tile, const FlipLook* look, const ReferenceRow& referenceRow, const Use& use) {
+        scan(tile, look, referenceRow ? test : reference, test, [&](int y) {
+            makeErrors(y, referenceRow);
+            use(y, second_.data());
+        });
+    }
+    // Calls use(y, row) with the comparable rows of the reference.
+    template <class Use>
+    void referenceRows(const Tile& tile, const FlipLook& look, const Use& use) {
+        scan(tile, &look, reference, reference, [&](int y) { use(y, comparable(reference, y)); });
     }
 
 private:
@@ -84,7 +90,21 @@ private:
         std::vector<float> ring;      // kept_ rows x 3 planes
         std::vector<float> filtered;  // 7 rows
     };
-    enum { reference, test, weight };
+    enum Which { reference, test, weight };
+
+    // Lets the rows of pictures first to last enter and calls use(y) where all is there for a tile's row.
+    template <class Use>
+    void scan(const Tile& tile, const FlipLook* look, Which first, Which last, const Use& use) {
+        tile_ = tile;
+        holes_ = hasHoles();
+        for (int y = tile.y0 - radius_; y < tile.y1 + radius_; ++y) {
+            for (int which = first; which <= last; ++which) enter(static_cast<Which>(which), y, look);
+            if (holes_) enterWeights(y);
+            if (y - radius_ < tile.y0) continue;
+            if (holes_) filter(pictures_[weight], y - radius_);
+            use(y - radius_);
+        }
+    }
 
     int paddedWidth() const { return tile_.width() + 2 * radius_; }
     float* row(Picture& picture, int y, int plane) const {
@@ -98,7 +118,7 @@ private:
     }
 
     bool hasHoles() const;
-    void enter(int y, const FlipLook* look);
+    void enter(Which which, int y, const FlipLook* look);
     void gather(const Image& image, int y);
     void enterWeights(int y);
 
@@ -110,7 +130,8 @@ private:
     void along(Convolve convolve, const HalfKernel& kernel, float* out);
 
     void filter(Picture& picture, int y);
-    void makeErrors(int y);
+    ComparableRow comparable(Which which, int y);
+    void makeErrors(int y, const ReferenceRow& referenceRow);
     void withoutHoles(const FilteredRow& row, const FilteredRow& weights) const;
 
     const FlipPair& pair_;
@@ -174,16 +195,13 @@ void TileRows::enterWeights(int y) {
     }
 }
 
-void TileRows::enter(int y, const FlipLook* look) {
-    for (const auto& [image, which] : {std::pair{pair_.reference, reference}, {pair_.test, test}}) {
-        gather(*image, y);
-        const OpponentRow out = opponents(pictures_[which], y);
-        if (look)
-            opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
-        else
-            opponentsFromSrgb(out, rgb_.data(), paddedWidth());
-    }
-    if (holes_) enterWeights(y);
+void TileRows::enter(Which which, int y, const FlipLook* look) {
+    gather(which == reference ? *pair_.reference : *pair_.test, y);
+    const OpponentRow out = opponents(pictures_[which], y);
+    if (look)
+        opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
+    else
+        opponentsFromSrgb(out, rgb_.data(), paddedWidth());
 }
 
 void TileRows::down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane) {
@@ -237,16 +255,16 @@ void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) 
     }
 }
 
-void TileRows::makeErrors(int y) {
-    filter(pictures_[reference], y);
-    filter(pictures_[test], y);
-    const FilteredRow r = filtered(pictures_[reference]), t = filtered(pictures_[test]);
-    if (holes_) {
-        filter(pictures_[weight], y);
-        withoutHoles(r, filtered(pictures_[weight]));
-        withoutHoles(t, filtered(pictures_[weight]));
-    }
-    flipErrors(second_.data(), r, t, tile_.width());
+ComparableRow TileRows::comparable(Which which, int y) {
+    filter(pictures_[which], y);
+    const FilteredRow row = filtered(pictures_[which]);
+    if (holes_) withoutHoles(row, filtered(pictures_[weight]));
+    return comparableRow(row, tile_.width());
+}
+
+void TileRows::makeErrors(int y, const ReferenceRow& referenceRow) {
+    const ComparableRow r = referenceRow ? referenceRow(y) : comparable(reference, y);
+    flipErrors(second_.data(), r, comparable(test, y), tile_.width());
     if (!holes_) return;
     const Hole* holes = pair_.holes.data() + size(y) * size(pair_.reference->width) + tile_.x0;
     for (int i = 0; i < tile_.width(); ++i)
@@ -262,28 +280,61 @@ void keepLargest(const float* next, float number, float* most, float* which, int
 }
 
 void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& looks, Image& errors,
-                Image* which) {
+                Image* which, const FilteredReference* kept) {
     if (rows.isSame(tile)) return;
     if (looks.empty())
-        rows.errors(tile, nullptr,
+        rows.errors(tile, nullptr, {},
                     [&](int y, const float* row) { std::copy_n(row, tile.width(), &errors.at(tile.x0, y)); });
-    for (std::size_t i = 0; i < looks.size(); ++i)
-        rows.errors(tile, &looks[i], [&](int y, const float* row) {
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        TileRows::ReferenceRow reference;
+        if (kept && kept->keeps(i)) reference = [&, i](int y) { return kept->row(i, tile.x0, y); };
+        rows.errors(tile, &looks[i], reference, [&](int y, const float* row) {
             keepLargest(row, static_cast<float>(i), &errors.at(tile.x0, y), &which->at(tile.x0, y),
                         tile.width());
         });
+    }
 }
 
 }  // namespace
 
+FilteredReference::FilteredReference(const Image& reference, const std::vector<Hole>& holes,
+                                     const FlipFilters& filters, const std::vector<FlipLook>& looks,
+                                     std::size_t most_bytes)
+    : width_(size(reference.width)), height_(size(reference.height)) {
+    const std::size_t floats = planes * reference.pixels();
+    looks_.resize(std::min(looks.size(), most_bytes / (floats * sizeof(float))));
+    for (auto& look : looks_) look.resize(floats);
+    const FlipPair pair{&reference, nullptr, holes};
+    const std::vector<Tile> tiles = tilesOf(reference);
+    tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
+    tbb::parallel_for(std::size_t{0}, looks_.size() * tiles.size(), [&](std::size_t i) {
+        const Tile& tile = tiles[i % tiles.size()];
+        const std::size_t look = i / tiles.size();
+        rows.local().referenceRows(tile, looks[look], [&](int y, const ComparableRow& row) {
+            const float* from[planes] = {row.lightness, row.a, row.b, row.edge, row.point};
+            for (std::size_t plane = 0; plane < planes; ++plane)
+                std::copy_n(from[plane], tile.width(), looks_[look].data() + at(plane, tile.x0, y));
+        });
+    });
+}
+
+std::size_t FilteredReference::at(std::size_t plane, int x, int y) const {
+    return (plane * height_ + size(y)) * width_ + size(x);
+}
+
+ComparableRow FilteredReference::row(std::size_t look, int x, int y) const {
+    const float* of = looks_[look].data();
+    return {of + at(0, x, y), of + at(1, x, y), of + at(2, x, y), of + at(3, x, y), of + at(4, x, y)};
+}
+
 void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                  Image& errors, Image* which) {
+                  Image& errors, Image* which, const FilteredReference* kept) {
     errors = Image(pair.reference->width, pair.reference->height, 1);
     if (which) *which = errors;
     const std::vector<Tile> tiles = tilesOf(errors);
     tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
     tbb::parallel_for(std::size_t{0}, tiles.size(),
-                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, which); });
+                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, which, kept); });
 }
 
 }  // namespace diptych

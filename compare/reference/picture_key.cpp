@@ -85,7 +85,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 12;
+    constexpr int version = 13;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -95,7 +95,7 @@ std::uint64_t keyOf(const Request& request) {
     key.add(view.camera.world_from_camera);
     key.add(glm::dvec4(view.camera.yfov, view.camera.ymag, view.camera.near, view.camera.far));
     key.add(glm::ivec4(view.camera.orthographic, request.shadowed_environment, request.environment_costs,
-                       request.surroundings | 2 * request.blended));
+                       request.surroundings | 2 * request.blended | 4 * request.shadow_edges));
     key.addAll(request.casters);
     for (const Light& l : request.lights) {
         key.add(glm::vec4(l.color, l.intensity));

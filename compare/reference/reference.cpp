@@ -324,6 +324,12 @@ private:
         if (all > 0) pixel.local_visibility = seen / all;
     }
 
+    void takeShadows(Pixel& pixel, const Surface& s, const Foot& foot, std::uint64_t seed) const {
+        if (!request_.shadow_edges) return;
+        takeShadow(pixel, s, foot, seed);
+        takeLocalShadows(pixel, s, foot);
+    }
+
     // What the camera sees of a background, behind all haze.
     glm::dvec3 background(const PixelRay& ray) const {
         const glm::dvec3 d = glm::normalize(ray.direction);
@@ -406,8 +412,7 @@ private:
         pixel.sun_visibility = pixel.local_visibility = 1;
         if (request_.shadows() || request_.surroundings) {
             visible = visibilityFrom(foot);
-            takeShadow(pixel, s, foot, seed);
-            takeLocalShadows(pixel, s, foot);
+            takeShadows(pixel, s, foot, seed);
         }
         pixel.shading = lighting_(s, visible, seed);
         pixel.lit = pixel.shading.all() + s.emission;
@@ -422,8 +427,7 @@ private:
         const auto [s, foot, depth] = standingAt(hit, ray);
         pixel.depth = depth;
         pixel.shading = lighting_(s, visibilityFrom(foot), seed);
-        takeShadow(pixel, s, foot, seed);
-        takeLocalShadows(pixel, s, foot);
+        takeShadows(pixel, s, foot, seed);
         pixel.lit = pixel.shading.all() + s.emission;
         takeHaze(pixel, s);
         pixel.surface = s;
@@ -542,6 +546,11 @@ std::array<Image*, 6> besides(Picture& picture) {
             &picture.surroundings, &picture.blended,           &picture.unblended};
 }
 
+bool isOfShadows(int mode) {
+    return mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
+           mode == static_cast<int>(gpu::DEBUG_local_visibility);
+}
+
 class Drawing {
 public:
     explicit Drawing(const Request& request)
@@ -550,6 +559,7 @@ public:
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
             if (!isMadeByReference(mode)) continue;
+            if (!request.shadow_edges && isOfShadows(mode.number)) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.number);
             Image& image = picture_.channels[mode.number];
             if (copied) {
@@ -563,8 +573,9 @@ public:
         picture_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
         const auto cast = [&](const auto& which) {
-            return std::ranges::any_of(request.casters,
-                                       [&](std::size_t i) { return which(request.lights[i]); });
+            return request.shadow_edges && std::ranges::any_of(request.casters, [&](std::size_t i) {
+                       return which(request.lights[i]);
+                   });
         };
         if (cast([](const Light& light) { return light.kind == LightKind::directional; }))
             picture_.shadow_edge = Image(request.view.width, request.view.height, 3);

@@ -45,6 +45,9 @@ struct Request {
     // Whether the picture tells what approximations of the environment cost, and what geometry hides of it
     // and of ambient light.
     bool environment_costs = false, surroundings = false;
+    // Whether it tells what is seen of suns, points and spots and how far the edges of their shadows are,
+    // most of whose rays light needs none of; else it has neither channel, nor edges.
+    bool shadow_edges = true;
     const Environment* environment() const {
         return residual ? residual : scene.environment ? &*scene.environment : nullptr;
     }

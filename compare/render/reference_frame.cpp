@@ -138,6 +138,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     reference::Request request = requestOf(scene, view, settings, surfaces);
     request.environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0;
     request.surroundings = options.environment_errors && isLitFromEverywhere(scene, settings);
+    request.shadow_edges = options.shadow_edges;
     request.keep = options.keep;
     request.program = commitName();
     request.progress = [&](double fraction) { options.progress.at(fraction, step); };

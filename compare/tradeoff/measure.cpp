@@ -5,7 +5,6 @@
 #include "compare/render/left_out.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/upsample.h"
-#include "compare/verdict/measurement.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 
@@ -75,9 +74,10 @@ void warn(TradeoffRow& row, const Frame& frame) {
 
 ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
                                     const std::vector<std::string>& cameras, const PictureChoice& choice,
-                                    const RenderOptions& options) {
-    RenderOptions drawing = drawingOptions(options, given.shadows != Shadows::off);
+                                    const RenderOptions& options, bool shadows) {
+    RenderOptions drawing = drawingOptions(options, shadows && given.shadows != Shadows::off);
     drawing.runs = 0;
+    drawing.shadow_edges = shadows;
     ReferenceFrames references;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
@@ -85,6 +85,7 @@ ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
         Settings settings = referenceSettings(given);
         settings.camera = cameras[i];
         references.frames.push_back(renderer.draw(settings, drawing));
+        references.errors.push_back(std::make_shared<ErrorsAgainst>(references.frames.back()));
     }
     const Frame& first = references.frames.front();
     references.exposure = exposureFor(choice, &first.channels.at(LIT), coverage(first, first));
@@ -102,21 +103,59 @@ RelativeErrors relativeErrors(std::vector<double> errors) {
     return {knownOrInfinite(std::sqrt(squares / count)), knownOrInfinite(*nth)};
 }
 
-FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
-    const Image &reference = referenceFrame.channels.at(LIT), &test = frame.channels.at(LIT);
-    const Coverage covered = coverage(referenceFrame, referenceFrame);  // the same pixels for every row
-    const DebugMode& mode = debugMode(LIT);
+namespace {
+
+HdrFlipOptions flipOver(const Coverage& coverage) {
+    HdrFlipOptions options;
+    options.covered = coverage.covered;
+    return options;
+}
+
+}  // namespace
+
+ErrorsAgainst::ErrorsAgainst(const Frame& reference)
+    : coverage_(coverage(reference, reference)),  // the same pixels for every row
+      reference_(reference.channels.at(LIT)),
+      covered_(covered(reference_)),
+      relative_(debugMode(LIT).metric, debugMode(LIT).kind, reference_, coverage_),
+      flip_(covered_, flipOver(coverage_)) {}
+
+Image ErrorsAgainst::covered(const Image& lit) const {
+    Image image = lit;
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+        if (!coverage_.covered[i])
+            std::fill_n(image.pixel(i), image.components, std::numeric_limits<float>::quiet_NaN());
+    return image;
+}
+
+std::vector<double> ErrorsAgainst::pixelsOf(const Image& lit) const {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < reference_.pixels(); ++i)
+        if (coverage_.covered[i]) errors.push_back(relative_(lit.pixel(i), reference_.pixel(i)));
+    return errors;
+}
+
+FrameErrors ErrorsAgainst::operator()(const Image& lit) const {
     FrameErrors result;
-    const PixelError error(mode.metric, mode.kind, reference, covered);
-    for (std::size_t i = 0; i < reference.pixels(); ++i)
-        if (covered.covered[i]) result.pixels.push_back(error(test.pixel(i), reference.pixel(i)));
-    const Measurement measurement({mode.metric, mode.kind, false, &reference, &test, &covered});
-    const HdrFlipResult& flip = *measurement.flip();
-    result.flip = flip.error;
+    result.pixels = pixelsOf(lit);
+    HdrFlipResult flip = flip_(covered(lit));
+    result.flip = std::move(flip.error);
     result.flip_pixels = flip.pixels;
     result.flip_sum = flip.mean * static_cast<double>(flip.pixels);
     const RelativeErrors relative = relativeErrors(result.pixels);
     result.errors = {knownOrInfinite(flip.mean), relative.rmse, relative.p99};
+    return result;
+}
+
+FrameErrors ErrorsAgainst::forFigure(std::size_t figure, const Image& lit) const {
+    FrameErrors result;
+    if (errorFigures.at(figure).name != errorFigures.front().name) {
+        result.pixels = pixelsOf(lit);
+        return result;
+    }
+    const HdrFlipAgainst::Mean flip = flip_.mean(covered(lit));
+    result.flip_pixels = flip.pixels;
+    result.flip_sum = flip.mean * static_cast<double>(flip.pixels);
     return result;
 }
 
@@ -158,7 +197,7 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const ReferenceFrames& refere
         Frame& frame = frames.at(i);
         showOurBackground(frame, references.frames[i]);
         row.drawing_ms += frame.made_in_ms;
-        const FrameErrors errors = errorsOf(references.frames[i], frame);
+        const FrameErrors errors = (*references.errors[i])(frame.channels.at(LIT));
         CameraRow camera{cameraTitle(frame),
                          {{frame.made_in_ms, frame.made_in_ms, frame.made_in_ms, 1}},
                          {},
@@ -209,7 +248,7 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
             row.warnings.push_back(cameraTitle(frame) +
                                    ": pixels differ from --msaa-edges exact where as much is shaded");
         frame = upsampled(std::move(frame), reference.settings.size);
-        const FrameErrors errors = errorsOf(reference, frame);
+        const FrameErrors errors = (*references.errors[i])(frame.channels.at(LIT));
         camera.errors = errors.errors;
         camera.pixels = errors.pixels.size();
         row.cameras.push_back(std::move(camera));

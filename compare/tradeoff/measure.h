@@ -2,32 +2,18 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
+#include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
 #include "shared/scene/requirements.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace diptych::tradeoff {
-
-// The reference frames with which all rows of a sweep are compared.
-struct ReferenceFrames {
-    std::vector<Frame> frames;  // one per camera
-    Exposure exposure;          // of every picture
-};
-
-ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
-                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
-                                    const RenderOptions& options);
-
-// RMSE and 99th percentile (nearest rank) of the pixels' relative errors.
-struct RelativeErrors {
-    double rmse = 0, p99 = 0;
-};
-RelativeErrors relativeErrors(std::vector<double> errors);
 
 // Errors of a Frame that is as large as its reference; `pixels` gets each covered pixel's relative error.
 struct FrameErrors {
@@ -37,7 +23,47 @@ struct FrameErrors {
     double flip_sum = 0;
     std::uint64_t flip_pixels = 0;
 };
-FrameErrors errorsOf(const Frame& reference, const Frame& frame);
+
+// Errors of lit from one camera against its reference's. What is of the reference alone is made once.
+class ErrorsAgainst {
+public:
+    explicit ErrorsAgainst(const Frame& reference);
+    ErrorsAgainst(const ErrorsAgainst&) = delete;
+    ErrorsAgainst& operator=(const ErrorsAgainst&) = delete;
+
+    FrameErrors operator()(const Image& lit) const;
+    // What one of errorFigures needs of several cameras' errors: either flip_sum and flip_pixels or `pixels`.
+    FrameErrors forFigure(std::size_t figure, const Image& lit) const;
+
+private:
+    std::vector<double> pixelsOf(const Image& lit) const;
+    // Without what is not covered, which FLIP's filters would read beside what is.
+    Image covered(const Image& lit) const;
+
+    const Coverage coverage_;
+    const Image reference_;  // of every pixel
+    const Image covered_;
+    const PixelError relative_;
+    const HdrFlipAgainst flip_;
+};
+
+// The reference frames with which all rows of a sweep are compared.
+struct ReferenceFrames {
+    std::vector<Frame> frames;                                 // one per camera
+    std::vector<std::shared_ptr<const ErrorsAgainst>> errors;  // of each
+    Exposure exposure;                                         // of every picture
+};
+
+// `shadows`: what shadows are judged by is drawn, too, where they cast.
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const RenderOptions& options, bool shadows = true);
+
+// RMSE and 99th percentile (nearest rank) of the pixels' relative errors.
+struct RelativeErrors {
+    double rmse = 0, p99 = 0;
+};
+RelativeErrors relativeErrors(std::vector<double> errors);
 
 // Adds what the reference frames say and what of the scene's light the rows' paths leave out, which is part
 // of their errors; a line that is among `notes` is not said again.

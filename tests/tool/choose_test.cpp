@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <string>
 
 namespace diptych {
 
@@ -73,6 +74,39 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
         if (!candidate["error"].is_null()) {
             EXPECT_LE(error, 1.01 * candidate["error"].get<double>());
         }
+}
+
+// From several cameras single changes are judged in one of them first; what is said of a candidate is of all,
+// as a sweep finds it.
+TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
+    const Folder folder;
+    const std::string of =
+        "builtin:gallery --size 64x36 --json --grid "
+        "'{\"settings\":{\"path\":[\"deferred\",\"forward_plus\"],\"gbuffer\":[\"compact\",\"full\"],"
+        "\"lit_format\":[\"fp32\",\"fp16\"],\"light_kernel\":[\"scatter\",\"gather\"]}}' ";
+    const Ran chosen = runTool(folder, "choose " + of + "--max-error 1");
+    ASSERT_EQ(chosen.code, 0) << chosen.err;
+    const Ran swept = runTool(folder, "tradeoff " + of + "--camera 0 --camera 1 --runs 1");
+    ASSERT_EQ(swept.code, 0) << swept.err;
+    const auto wordsOf = [](Json settings) {
+        settings.erase("camera");
+        return settings.dump();
+    };
+    std::map<std::string, double> errors;
+    const Json sweep = Json::parse(swept.out);
+    for (const Json& row : sweep["rows"])
+        errors[wordsOf(row["settings"])] = row["errors"]["flip"].get<double>();
+    const Json choice = Json::parse(chosen.out);
+    EXPECT_GT(choice["estimated"].get<int>(), 0);
+    std::size_t compared = 0;
+    for (const Json& candidate : choice["candidates"]) {
+        const auto row = errors.find(wordsOf(candidate["settings"]));
+        ASSERT_NE(row, errors.end()) << candidate["words"];
+        if (candidate["error"].is_null()) continue;
+        EXPECT_EQ(candidate["error"].get<double>(), row->second) << candidate["words"];
+        ++compared;
+    }
+    EXPECT_GE(compared, 4u);
 }
 
 // Of a folder and a built-in scene: each one's own, and one that is within the error in both.

@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace diptych::choose {
 
@@ -156,6 +160,18 @@ TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
     sweepAll({.deviation = 0.10, .drift = 0.20});
 }
 
+// Errors are estimated from one of two cameras, which shows more of them or less and is off by what the
+// gallery's are; and the first frames of some take longer (there 2 of 58 by more than a quarter, where no
+// pipeline was made for them).
+TEST(ChooseReplay, FindsItByEstimatesAndFirstFrames) {
+    sweepAll({.deviation = 0.05,
+              .drift = 0.05,
+              .slow_firsts = 2 / 58.0,
+              .slower_first = 0.4,
+              .estimate = 0.22,
+              .camera = 1.8});
+}
+
 // A frame of 100 ms, of which each change takes off a tenth; errors are 0.
 class CheaperByEachChange final : public Lab {
 public:
@@ -211,6 +227,81 @@ TEST(ChooseSearch, CombinesUpToThreeChangesOfItsPathsFirstCandidate) {
     EXPECT_EQ(made, 45u + 120u);
     ASSERT_TRUE(choice.chosen);
     EXPECT_NEAR(choice.ms, 72.9, 1e-9);
+}
+
+// Errors of several cameras; the one that is looked at first shows a third of each, and of one change
+// nothing.
+class OneCameraOfSeveral final : public Lab {
+public:
+    std::map<std::string, std::pair<double, double>> changes;  // by shadow-size: all cameras' error, time, ms
+    std::string hidden, shown = "2048";                        // one whose estimate is that of another
+    std::size_t judged = 0, estimated = 0;
+
+    Judged judge(const Settings& settings) override {
+        ++judged;
+        return {changes.at(settings.valueOf("shadow-size")).first, 0};
+    }
+    std::optional<double> estimate(const Settings& settings) override {
+        ++estimated;
+        const std::string size = settings.valueOf("shadow-size");
+        return changes.at(size == hidden ? shown : size).first / 3;
+    }
+    std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
+        std::vector<double> times;
+        for (const std::size_t i : order)
+            times.push_back(changes.at(frames[i].valueOf("shadow-size")).second);
+        return times;
+    }
+    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
+        return std::vector<std::vector<PassTime>>(
+            static_cast<std::size_t>(frames),
+            {{"shade", changes.at(settings.valueOf("shadow-size")).second}});
+    }
+};
+
+TEST(ChooseSearch, WhatIsChosenWasJudgedInAllCamerasWhateverOneShowed) {
+    OneCameraOfSeveral lab;
+    lab.changes = {{"2048", {0.01, 100}}, {"1024", {0.015, 80}}, {"512", {0.05, 60}}, {"256", {0.09, 50}}};
+    lab.hidden = "512";
+    const Settings first;
+    std::vector<Settings> candidates;
+    for (const char* size : {"2048", "1024", "512", "256"}) {
+        candidates.push_back(first);
+        candidates.back().set("shadow-size", size);
+    }
+    SearchOptions options;
+    options.budget.error = 0.02;
+    const Calibration calibration;
+    CostModel model(calibration);
+    const Choice choice = search(candidates, lab, model, options);
+    ASSERT_TRUE(choice.chosen);
+    EXPECT_EQ(choice.candidates[*choice.chosen].settings.shadow_size, 1024);
+    EXPECT_EQ(choice.candidates[2].fate, Fate::misses) << "judged, as one camera shows nothing";
+    EXPECT_EQ(choice.candidates[3].fate, Fate::spoilt) << "not judged, as that camera shows enough";
+    EXPECT_EQ(choice.judged, 3u);
+    EXPECT_EQ(choice.estimated, lab.estimated);
+
+    // Where nothing fits, what one camera shows to be the nearest is judged.
+    options.budget.error = 0.001;
+    lab.changes["1024"].first = 0.005;
+    CostModel fresh(calibration);
+    const Choice none = search(candidates, lab, fresh, options);
+    EXPECT_FALSE(none.chosen);
+    ASSERT_TRUE(none.nearest);
+    EXPECT_EQ(none.candidates[*none.nearest].settings.shadow_size, 1024);
+
+    // And it is chosen where it fits after all: one camera shows more of it than all do.
+    lab.changes["1024"].first = 0.009;
+    lab.changes["2048"].first = 0.03;
+    lab.changes["512"].first = 0.04;
+    lab.changes["256"].first = 0.02;
+    lab.hidden = "1024";
+    lab.shown = "256";
+    options.budget.error = 0.01;
+    CostModel last(calibration);
+    const Choice after_all = search(candidates, lab, last, options);
+    ASSERT_TRUE(after_all.chosen);
+    EXPECT_EQ(after_all.candidates[*after_all.chosen].settings.shadow_size, 1024);
 }
 
 }  // namespace

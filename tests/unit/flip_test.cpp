@@ -296,5 +296,35 @@ TEST(FlipPowers, AreWithinTheirStatedErrors) {
     EXPECT_EQ(fast::pow(1, 0.3f), 1);
 }
 
+// With what is of the reference kept, of all its exposures, of some and of none; with holes of the reference
+// alone and of a test, too.
+TEST(Flip, AgainstOneReferenceIsTheSameBitForBit) {
+    constexpr int width = 300, height = 140;
+    for (const bool holed : {false, true}) {
+        Image reference = noise(width, height, 1, 0, 4);
+        if (holed) set(reference, 40, 30, nan);
+        std::vector<std::uint8_t> covered(reference.pixels(), 1);
+        covered[70] = 0;
+        HdrFlipOptions options;
+        options.exposures = 3;
+        options.covered = covered;
+        for (const std::size_t looks : {0u, 2u, 3u}) {
+            const HdrFlipAgainst against(reference, options, looks * 20 * reference.pixels());
+            for (int more = 0; more < 3; ++more) {
+                Image test = noise(width, height, 2, 0, 4);
+                if (holed) set(test, 40, 30, nan);
+                if (more > 0) set(test, 42, 31, nan);
+                if (more > 1) test = reference;
+                const HdrFlipResult expected = hdrFlip(reference, test, options), result = against(test);
+                EXPECT_EQ(result.error.data, expected.error.data) << looks << " " << holed << " " << more;
+                EXPECT_EQ(result.exposure_map.data, expected.exposure_map.data);
+                EXPECT_EQ(result.weighted_median, expected.weighted_median);
+                EXPECT_EQ(against.mean(test).mean, expected.mean);
+                EXPECT_EQ(against.mean(test).pixels, expected.pixels);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace diptych

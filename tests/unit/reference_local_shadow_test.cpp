@@ -8,7 +8,7 @@ namespace {
 
 // A floor at z = 0 under two lights 2 m above the origin and 2 m to its left, and a screen 1 m above the
 // floor, over x > 0, whose edge throws the first one's shadow from x = 0 on. The picture's one pixel is at x.
-Picture seenAt(double x, std::vector<std::size_t> casters) {
+Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
     Scene scene = floorScene();
     add(scene, quad({0, -4, 1}, {4, 0, 0}, {0, 8, 0}));
     scene.lights = {lightOf(LightKind::point, {0, 0, 2}), lightOf(LightKind::spot, {-2, 0, 2}, {1, 0, -1}),
@@ -20,6 +20,7 @@ Picture seenAt(double x, std::vector<std::size_t> casters) {
                  .view = view,
                  .lights = pose.lights,
                  .casters = std::move(casters),
+                 .shadow_edges = edges,
                  .mode = ReferenceMode::scene,
                  .keep = {},
                  .progress = {}});
@@ -58,6 +59,19 @@ TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
         EXPECT_TRUE(picture.shadow_edge.empty()) << "no sun casts";
     }
     EXPECT_TRUE(seenAt(0.2, {}).local_shadow_edge.empty());
+}
+
+// Light is the same where neither edges nor what is seen are asked for, and the picture has neither.
+TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
+    for (const double x : {-0.2, 0.2}) {
+        const Picture with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
+        EXPECT_EQ(without.channels.at(gpu::DEBUG_lit).data, with.channels.at(gpu::DEBUG_lit).data);
+        EXPECT_TRUE(without.local_shadow_edge.empty());
+        for (const int mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility}) {
+            EXPECT_EQ(with.channels.count(mode), 1u);
+            EXPECT_EQ(without.channels.count(mode), 0u);
+        }
+    }
 }
 
 }  // namespace

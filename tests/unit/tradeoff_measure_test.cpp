@@ -17,6 +17,10 @@ using namespace tradeoff;
 
 namespace {
 
+FrameErrors errorsBetween(const Frame& reference, const Frame& frame) {
+    return ErrorsAgainst(reference)(frame.channels.at(litMode));
+}
+
 // lit is grey, of these values; a negative one is background.
 Frame frameOf(int width, int height, const std::vector<float>& values) {
     Frame frame;
@@ -85,7 +89,7 @@ TEST(TradeoffErrors, AreThoseOfTheReport) {
     a.channels[litMode] = reference;
     b.channels[litMode] = test;
     for (std::size_t i = 0; i < 300; ++i) a.channels[idMode].data[i] = b.channels[idMode].data[i] = -1;
-    const FrameErrors errors = errorsOf(a, b);
+    const FrameErrors errors = errorsBetween(a, b);
     const ChannelStats stats =
         channelStats(Metric::relative, ChannelKind::color, reference, test, coverage(a, b));
     EXPECT_EQ(errors.pixels.size(), 900u);
@@ -93,24 +97,32 @@ TEST(TradeoffErrors, AreThoseOfTheReport) {
     EXPECT_DOUBLE_EQ(errors.errors[2], stats.p99);
     EXPECT_GT(errors.errors[0], 0.1);
     EXPECT_LT(errors.errors[0], 1);
-    const FrameErrors none = errorsOf(a, a);
+    // What one figure takes of it is the same.
+    const ErrorsAgainst against(a);
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+        ErrorsOfCameras all, one;
+        all.add(errors);
+        one.add(against.forFigure(figure, test));
+        EXPECT_EQ(one.errors()[figure], all.errors()[figure]) << errorFigures[figure].name;
+    }
+    const FrameErrors none = errorsBetween(a, a);
     EXPECT_EQ(none.errors, (Errors{0, 0, 0}));
 }
 
 TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
     const Frame reference = frameOf(2, 1, {1, -1}), more = frameOf(2, 1, {1, 5}),
                 less = frameOf(2, 1, {-1, -1});
-    EXPECT_EQ(errorsOf(reference, more).errors[1], 0)
+    EXPECT_EQ(errorsBetween(reference, more).errors[1], 0)
         << "beyond the reference's silhouette nothing is counted";
-    EXPECT_EQ(errorsOf(reference, more).pixels.size(), 1u);
-    EXPECT_EQ(errorsOf(reference, less).errors[1], 1) << "a surface that is missing is all wrong";
+    EXPECT_EQ(errorsBetween(reference, more).pixels.size(), 1u);
+    EXPECT_EQ(errorsBetween(reference, less).errors[1], 1) << "a surface that is missing is all wrong";
 }
 
 TEST(TradeoffErrors, ANanIsInfinite) {
     const Frame reference = frameOf(2, 1, {1, 1});
     Frame broken = reference;
     broken.channels[litMode].data[0] = nan;
-    const FrameErrors errors = errorsOf(reference, broken);
+    const FrameErrors errors = errorsBetween(reference, broken);
     EXPECT_TRUE(std::isinf(errors.errors[1]));
     EXPECT_GT(errors.errors[0], 0);
 }
