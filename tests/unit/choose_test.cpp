@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -39,20 +40,30 @@ struct Outcome {
 
 constexpr double near = 1.05, frames_of_each = 6;
 
-Outcome chosenFrom(const RecordedSweep& sweep, Budget budget, const ReplayNoise& noise, std::uint64_t seed) {
+// As the command line has it: what it says comes first, then what has few other values.
+std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
+    Settings given;
+    given.size = {320, 180};
+    std::vector<std::pair<std::ptrdiff_t, Settings>> candidates;
+    for (const RecordedRow& row : sweep.rows)
+        candidates.emplace_back(std::ranges::count_if(settingFields(),
+                                                      [&](const Field& field) {
+                                                          return field.option != "path" &&
+                                                                 row.settings.valueOf(field.option) !=
+                                                                     given.valueOf(field.option);
+                                                      }),
+                                row.settings);
+    std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.first; });
+    std::vector<Settings> sorted;
+    for (auto& [others, settings] : candidates) sorted.push_back(std::move(settings));
+    return sorted;
+}
+
+Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
+                   const ReplayNoise& noise, std::uint64_t seed) {
     RecordedLab lab(sweep, noise, seed);
     const Calibration calibration;
     CostModel model(calibration);
-    std::vector<Settings> candidates;
-    for (const RecordedRow& row : sweep.rows) candidates.push_back(row.settings);
-    // As the command line has it: what it says comes first.
-    Settings given;
-    given.size = {320, 180};
-    std::ranges::stable_sort(candidates, {}, [&](const Settings& row) {
-        return std::ranges::count_if(settingFields(), [&](const Field& field) {
-            return field.option != "path" && row.valueOf(field.option) != given.valueOf(field.option);
-        });
-    });
     SearchOptions options;
     options.budget = budget;
     options.seed = seed;
@@ -113,6 +124,8 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
 }
 
 void sweepAll(const ReplayNoise& noise) {
+    const char* const wished = std::getenv("DIPTYCH_REPLAY_SEEDS");
+    const std::uint64_t seeds = wished != nullptr ? std::stoull(wished) : 3;
     std::size_t cases = 0, right = 0;
     double most = 0, sum = 0, all_judged = 0;
     fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
@@ -121,9 +134,10 @@ void sweepAll(const ReplayNoise& noise) {
         std::size_t tried = 0, good = 0;
         double worst = 1, share = 0;
         std::size_t judged = 0;
+        const std::vector<Settings> candidates = candidatesOf(sweep);
         for (const Budget& budget : budgetsFor(sweep))
-            for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-                const Outcome outcome = chosenFrom(sweep, budget, noise, seed);
+            for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+                const Outcome outcome = chosenFrom(sweep, candidates, budget, noise, seed);
                 ++tried;
                 good += outcome.right;
                 worst = std::max(worst, outcome.off);
