@@ -85,7 +85,7 @@ CellRange cellsOf(double low, double high) {
 
 ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
                            std::span<const SeenBox> seen, const CascadeRequest& request, bool compares)
-    : deepest_(std::size_t{cells} * cells, unbounded) {
+    : size_(request.size), deepest_(std::size_t{cells} * cells, unbounded) {
     // The first cascade serves whatever is nearer too, as the shaders have it.
     const bool first = &area == &cascades.areas.front();
     const DepthRange depths{first ? 0 : area.begin * (1 - rounding), area.end * (1 + rounding)};
@@ -133,6 +133,26 @@ bool ReceiverMask::reachedBy(const ClipBox& caster) const {
         for (int column = columns.begin; column < columns.end; ++column)
             if (deepest(column, row) <= caster.max.z) return true;
     return false;
+}
+
+ReceiverMask::Texels ReceiverMask::read() const {
+    CellRange columns{cells, 0}, rows{cells, 0};
+    for (int row = 0; row < cells; ++row)
+        for (int column = 0; column < cells; ++column) {
+            if (deepest(column, row) == unbounded) continue;
+            columns = {std::min(columns.begin, column), std::max(columns.end, column + 1)};
+            rows = {std::min(rows.begin, row), std::max(rows.end, row + 1)};
+        }
+    if (rows.begin >= rows.end) return {};
+    const double texels = size_ / cells, around = margin_ / 2 * size_;
+    const auto first = [&](int cell) {
+        return static_cast<int>(std::max(std::floor(cell * texels - around), 0.0));
+    };
+    const auto end = [&](int cell) {
+        return static_cast<int>(std::min(std::ceil(cell * texels + around), size_));
+    };
+    return {first(columns.begin), first(rows.begin), end(columns.end) - first(columns.begin),
+            end(rows.end) - first(rows.begin)};
 }
 
 }  // namespace diptych

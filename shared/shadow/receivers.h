@@ -26,12 +26,20 @@ public:
     // `caster`: in the clip space of the cascade.
     bool reachedBy(const ClipBox& caster) const;
 
+    // The part of the map that may be read, texels from the upper left: receivers with what a filter reads
+    // around them. None where nothing that is seen lies in the cascade.
+    struct Texels {
+        int x = 0, y = 0, width = 0, height = 0;
+    };
+    Texels read() const;
+
     // Of a side.
     static constexpr int cells = 128;
     // Of the cell's receivers, the least depth; infinity where there is none. Tests look at it.
     double deepest(int x, int y) const { return deepest_[static_cast<std::size_t>(y * cells + x)]; }
 
 private:
+    double size_;        // of the map's side, texels
     double margin_ = 0;  // clip space: what is read around a receiver
     std::vector<double> deepest_;
 };

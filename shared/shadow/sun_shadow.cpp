@@ -119,6 +119,11 @@ std::vector<ShadowReach> reachOf(const Cascades& cascades, const std::function<d
     return reach;
 }
 
+VkRect2D rectangleOf(const ReceiverMask::Texels& texels) {
+    return {{texels.x, texels.y},
+            {static_cast<std::uint32_t>(texels.width), static_cast<std::uint32_t>(texels.height)}};
+}
+
 }  // namespace
 
 SunShadow::SunShadow(Device& device, DescriptorSets& frame, const Settings& settings)
@@ -184,6 +189,7 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
     const bool compares = !hasMoments(settings_.shadows);
     std::vector<SeenBox> seen;
     if (!all && !cascades.areas.empty()) seen = seenBoxes(pose, inputs.geometry, view);
+    const auto side = static_cast<std::uint32_t>(request_.size);
     for (const CascadeArea& area : cascades.areas) {
         const ReceiverMask mask(cascades, area, view, seen, request_, compares);
         Map map{makeCasterList(pose, inputs.geometry, inputs.materials,
@@ -191,7 +197,8 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
                                 .eye = view.eye(),
                                 .matters = [&](const ClipBox& box) { return mask.reachedBy(box); },
                                 .all = all}),
-                {}};
+                {},
+                all ? VkRect2D{{}, {side, side}} : rectangleOf(mask.read())};
         map.draws = makeBuffer<gpu::Draw>(inputs.device, uploader, "casters", map.casters.draws,
                                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
         maps_.push_back(std::move(map));
@@ -295,7 +302,12 @@ void SunShadow::addPasses(PassList& passes, const FrameInputs& inputs) {
     for (std::uint32_t layer = 0; layer < maps_.size(); ++layer)
         inputs.posing.read(passes, passes.draw("shadow maps"))
             .depth(image_, Load::clear, {.layer = layer})
-            .record(recordCasters(inputs, maps_[layer].casters, maps_[layer].draws.handle()));
+            .record([read = maps_[layer].read,
+                     draw = recordCasters(inputs, maps_[layer].casters, maps_[layer].draws.handle())](
+                        VkCommandBuffer commands) {
+                vkCmdSetScissor(commands, 0, 1, &read);
+                draw(commands);
+            });
     if (moments_)
         image_ = moment_maps_->addPasses(passes, inputs.pipelines, image_, side,
                                          static_cast<std::uint32_t>(maps_.size()), *moments_);

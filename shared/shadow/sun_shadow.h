@@ -73,6 +73,7 @@ private:
     struct Map {
         DrawList casters;
         GpuBuffer draws;
+        VkRect2D read;  // what shading may read of it: nothing else is drawn
     };
     void setLight(Device& device, Uploader& uploader, const std::vector<glm::vec4>& texels);
     void addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,

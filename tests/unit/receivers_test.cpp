@@ -133,5 +133,44 @@ TEST(ReceiverMask, IsNoLargerThanTheView) {
     }
 }
 
+// The texels that a filter reads around any place of a cascade's part of the view, when everything is seen or
+// that place alone, lie in the part of the map that is drawn; of one place that is no wider than the filter
+// and the cells that it meets.
+TEST(ReceiverMask, ReadsNothingBesideWhatIsDrawn) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> part(-1, 1);
+    const Case test;
+    const double size = test.request.size;
+    for (const CascadeArea& area : test.cascades.areas) {
+        const ReceiverMask::Texels all = test.mask(area, everything).read();
+        EXPECT_GT(all.width * all.height, size * size / 20) << area.begin;
+        EXPECT_LT(all.width * all.height, size * size * 0.9) << area.begin;
+        for (int i = 0; i < 400; ++i) {
+            const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
+            const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
+            const double share = i % 3 == 0 ? 1 : std::abs(part(random));
+            const glm::dvec3 seen = test.at(x, y, area.begin + (area.end - area.begin) * share);
+            const glm::dvec2 texel = (glm::dvec2(test.clip(area, seen)) + 1.0) / 2.0 * size;
+            const ReceiverMask::Texels one = test.mask(area, {{seen, {}}}).read();
+            const double widest = 2 * marginOf(test.request) + 2 * size / ReceiverMask::cells + 4;
+            EXPECT_LE(one.width, widest) << area.begin << " " << i;
+            EXPECT_LE(one.height, widest) << area.begin << " " << i;
+            for (const double turn : {0.0, 0.7, 1.6, 2.3, 3.2, 3.9, 4.7, 5.5}) {
+                const double beside = 2 + 2 * std::sqrt(2.0) + 0.5;  // as above
+                const glm::dvec2 read = texel + beside * glm::dvec2(std::cos(turn), std::sin(turn));
+                const auto column = static_cast<int>(std::floor(read.x)),
+                           row = static_cast<int>(std::floor(read.y));
+                if (column < 0 || row < 0 || column >= size || row >= size) continue;
+                for (const ReceiverMask::Texels& drawn : {all, one})
+                    EXPECT_TRUE(column >= drawn.x && column < drawn.x + drawn.width && row >= drawn.y &&
+                                row < drawn.y + drawn.height)
+                        << area.begin << " " << i << " " << turn;
+            }
+        }
+        const ReceiverMask::Texels none = test.mask(area, {}).read();
+        EXPECT_EQ(none.width * none.height, 0);
+    }
+}
+
 }  // namespace
 }  // namespace diptych
