@@ -3,6 +3,8 @@
 
 #include "shared/scene/lights/rig.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -62,24 +64,30 @@ Cell cellAt(int x, int y, int size, int cells, int rows, bool bricks) {
     return {shifted / width, row, std::min({dx, width - 1 - dx, dy, height - 1 - dy})};
 }
 
+std::size_t texelsOf(int size) {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+}
+
+// `texel` of every place, in any order: cores share the rows.
 template <class Texel>
 HeightField heights(int size, Texel&& texel) {
-    HeightField field{size, {}};
-    field.height.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) field.height.push_back(texel(x, y));
+    HeightField field{size, std::vector<int>(texelsOf(size))};
+    tbb::parallel_for(0, size, [&](int y) {
+        int* next = field.height.data() + static_cast<std::size_t>(size) * static_cast<std::size_t>(y);
+        for (int x = 0; x < size; ++x) *next++ = texel(x, y);
+    });
     return field;
 }
 
 template <class Texel>
 TextureImage image(const std::string& name, int size, Texel&& texel) {
     TextureImage made{name, size, size, {}};
-    made.rgba.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4);
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const Rgba8 value = texel(x, y);
-            made.rgba.insert(made.rgba.end(), value.begin(), value.end());
-        }
+    made.rgba.resize(texelsOf(size) * 4);
+    tbb::parallel_for(0, size, [&](int y) {
+        std::uint8_t* next =
+            made.rgba.data() + static_cast<std::size_t>(4 * size) * static_cast<std::size_t>(y);
+        for (int x = 0; x < size; ++x) next = std::ranges::copy(texel(x, y), next).out;
+    });
     return made;
 }
 
