@@ -4,8 +4,10 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/material.h"
+#include "shared/draw/culling.h"
 #include "shared/draw/pipeline_keys.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -106,7 +108,8 @@ public:
           inputs_(inputs),
           source_(source),
           pipelines_(pipelines),
-          constants_of_(constantsOf) {}
+          constants_of_(constantsOf),
+          indirect_draws_(inputs.device.indirectDraws()) {}
 
     // What draw() draws until the next one.
     void take(std::size_t i) {
@@ -124,7 +127,8 @@ public:
             posed_ = posed;
         }
         if (item.chosen != chosen_) {
-            inputs_.geometry.bindIndices(commands_, item.chosen ? inputs_.chosen_indices : VK_NULL_HANDLE);
+            inputs_.geometry.bindIndices(commands_,
+                                         item.chosen ? inputs_.culling->indices() : VK_NULL_HANDLE);
             chosen_ = item.chosen;
         }
         const VkCullModeFlags culled = culledOf(source_, item);
@@ -147,12 +151,27 @@ public:
         inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
     }
 
+    // The indirect draws of the item taken, one for each of its runs.
+    void drawIndirect(VkBuffer draws) const {
+        constexpr std::uint32_t stride = sizeof(VkDrawIndexedIndirectCommand);
+        for (std::uint32_t first = 0, count = 0; first < last_->runs; first += count) {
+            count = std::min(indirect_draws_, last_->runs - first);
+            vkCmdDrawIndexedIndirect(commands_, draws, VkDeviceSize{last_->first_run + first} * stride, count,
+                                     stride);
+        }
+        std::uint64_t triangles = 0;
+        for (const IndexRun& run : source_.runs.subspan(last_->first_run, last_->runs))
+            triangles += run.count / 3;
+        inputs_.device.drawDivision().drawn(commands_, triangles);
+    }
+
 private:
     VkCommandBuffer commands_;
     const FrameInputs& inputs_;
     const DrawSource& source_;
     const std::vector<VkPipeline>& pipelines_;
     const ConstantsOf& constants_of_;
+    std::uint32_t indirect_draws_;  // of one command
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
     gpu::DrawConstants constants_{};
@@ -201,8 +220,16 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
+    const VkBuffer indirect =
+        inputs.culling != nullptr ? inputs.culling->indirectDraws() : VkBuffer{VK_NULL_HANDLE};
     std::uint32_t instances = 1;
     for (std::size_t i = 0; i < pipelines.size(); i += instances) {
+        if (source.items[i].chosen && indirect != VK_NULL_HANDLE) {
+            recorder.take(i);
+            recorder.drawIndirect(indirect);
+            instances = 1;
+            continue;
+        }
         instances = instancesFrom(i, source, pipelines, constantsOf);
         const ItemRuns runs(source, i);
         bool taken = false;
