@@ -20,8 +20,9 @@ struct CulledPicture {
 // w - z. Both terms of each may be off.
 vec3 slackOf(CulledItem item) { return item.error.xyz + vec3(item.error.w); }
 
-// Whether a box of object space is wholly beyond a side of the view. The sum that is largest in the box is
-// off by less than item.error allows, which counts two products of sums of four terms.
+// Whether a box of object space is wholly beyond a side of the view: whether the largest sum of its points
+// is. item.error holds for products of two shaders; here it is one shader's and this sum's, which round no
+// more often together.
 bool isBeyondView(CulledItem item, vec3 low, vec3 high) {
     mat4 rows = transpose(item.clip_from_object);
     vec3 slack = slackOf(item), middle = 0.5 * (low + high), reach = 0.5 * (high - low);

@@ -66,7 +66,7 @@ struct CullingConstants {
     uvec2 chosen;     // uint[]: the indices of what may show
     uvec2 draws;      // IndirectDraw[]
     uint part_count;
-    uint samples;     // of a pixel: 1, 2, 4 or 8
+    uint samples;     // of a pixel: 1, 4 or 8
     vec2 half_size;   // of the picture, pixels
     float place_off;  // pixels: how far two devices' places of one corner lie apart, clip space aside
     float snap;       // pixels: how far a rasteriser moves a corner, at most

@@ -80,9 +80,9 @@ void ComputeCulling::read(PassList& passes, Pass& pass) const {
         .uses(passes.buffer("indirect draws", draws_), access::indirectRead);
 }
 
-void ComputeCulling::runOnce() const {
+void ComputeCulling::runOnce(const char* name) const {
     PassList once(device_, 1, 1);
-    addPass(once, "clusters");
+    addPass(once, name);
     once.run();
     device_.submit([&](VkCommandBuffer commands) {
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,

@@ -33,7 +33,7 @@ public:
     void addPass(PassList& passes, const char* name) const;
     void read(PassList& passes, Pass& pass) const;
     // Runs it, and waits: for what is drawn before a frame.
-    void runOnce() const;
+    void runOnce(const char* name) const;
 
     VkBuffer indices() const { return indices_.handle(); }
     VkBuffer draws() const { return draws_.handle(); }

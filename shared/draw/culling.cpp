@@ -113,7 +113,7 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
                                            static_cast<std::uint32_t>(order_.size()), place,
                                            static_cast<std::uint32_t>(parts_.size())});
     run();
-    compute_->runOnce();
+    compute_->runOnce(name);
     // A view's choice is always the same: whoever asks how much is drawn finds it.
     const std::vector<gpu::IndirectDraw> chosen = compute_->readDraws();
     for (const gpu::CulledPart& part : culled_parts_)

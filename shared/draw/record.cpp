@@ -151,21 +151,36 @@ public:
         inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
     }
 
-    // The indirect draws of the item taken, one for each of its runs.
-    void drawIndirect(VkBuffer draws) const {
+    // How many items from number i on, the item taken, draw with its state.
+    std::size_t sameFrom(std::size_t i) const {
+        std::size_t end = i + 1;
+        while (end < pipelines_.size() && drawsAs(i, end)) ++end;
+        return end - i;
+    }
+    // The indirect draws of so many items from the one taken on, one for each of their runs.
+    void drawIndirect(VkBuffer draws, std::size_t items) const {
         constexpr std::uint32_t stride = sizeof(VkDrawIndexedIndirectCommand);
-        for (std::uint32_t first = 0, count = 0; first < last_->runs; first += count) {
-            count = std::min(indirect_draws_, last_->runs - first);
-            vkCmdDrawIndexedIndirect(commands_, draws, VkDeviceSize{last_->first_run + first} * stride, count,
-                                     stride);
+        const DrawItem& last = source_.items[taken_ + items - 1];
+        const std::uint32_t end = last.first_run + last.runs;
+        for (std::uint32_t first = last_->first_run, count = 0; first < end; first += count) {
+            count = std::min(indirect_draws_, end - first);
+            vkCmdDrawIndexedIndirect(commands_, draws, VkDeviceSize{first} * stride, count, stride);
         }
         std::uint64_t triangles = 0;
-        for (const IndexRun& run : source_.runs.subspan(last_->first_run, last_->runs))
+        for (const IndexRun& run : source_.runs.subspan(last_->first_run, end - last_->first_run))
             triangles += run.count / 3;
         inputs_.device.drawDivision().drawn(commands_, triangles);
     }
 
 private:
+    bool drawsAs(std::size_t i, std::size_t next) const {
+        const DrawItem &item = source_.items[i], &other = source_.items[next];
+        return other.chosen &&
+               other.first_run == source_.items[next - 1].first_run + source_.items[next - 1].runs &&
+               pipelines_[next] == pipelines_[i] && other.range.material == item.range.material &&
+               other.mirrored == item.mirrored && culledOf(source_, other) == culledOf(source_, item) &&
+               areSame(constants_of_(other), constants_);
+    }
     VkCommandBuffer commands_;
     const FrameInputs& inputs_;
     const DrawSource& source_;
@@ -226,8 +241,9 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
     for (std::size_t i = 0; i < pipelines.size(); i += instances) {
         if (source.items[i].chosen && indirect != VK_NULL_HANDLE) {
             recorder.take(i);
-            recorder.drawIndirect(indirect);
-            instances = 1;
+            const std::size_t same = recorder.sameFrom(i);
+            recorder.drawIndirect(indirect, same);
+            instances = static_cast<std::uint32_t>(same);
             continue;
         }
         instances = instancesFrom(i, source, pipelines, constantsOf);

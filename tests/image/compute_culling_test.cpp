@@ -123,10 +123,13 @@ DrawnCounts countsOn(Device& on, const std::shared_ptr<PipelineSet>& set, const 
     return drawnCounts(view.draws, shared.geometry, view.culling);
 }
 
-// The kernel looks at each triangle that is in view in part, of which the host keeps whole clusters; the
-// host's planes are sharper.
+// The kernel looks at each triangle, where the host keeps clusters whole that reach beyond the view, and at
+// samples also where a pixel has several: it leaves out no less.
 TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
-    for (const std::string name : {"builtin:spheres", "builtin:gallery", "builtin:mirrored"})
+    std::vector<std::string> names{"builtin:spheres", "builtin:gallery", "builtin:mirrored"};
+    if (std::filesystem::exists(assets() / "sponza/Sponza.gltf"))
+        names.push_back((assets() / "sponza/Sponza.gltf").string());
+    for (const std::string& name : names)
         for (const int samples : {1, 4}) {
             const Scene scene = loadScene(name);
             Settings settings = chosenSettings(Path::deferred, {1280, 720});
@@ -137,10 +140,11 @@ TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
             const std::string found =
                 fmt::format("{} {}: host {}, kernel {} of {}; vertices {} and {}", name, samples, host.drawn,
                             kernel.drawn, host.in_view, host.vertices, kernel.vertices);
-            RecordProperty(fmt::format("{}_{}", testName(name.substr(8)), samples), found);
+            RecordProperty(
+                fmt::format("{}_{}", testName(std::filesystem::path(name).stem().string()), samples), found);
             EXPECT_EQ(kernel.in_view, host.in_view) << found;
             EXPECT_LE(kernel.drawn, host.drawn) << found;
-            EXPECT_GT(2 * kernel.drawn, host.drawn) << found;
+            EXPECT_GT(4 * kernel.drawn, 3 * host.drawn) << found;
         }
 }
 
