@@ -4,6 +4,7 @@
 // with --cull off in culling_test.cpp, and a GPU's choices with the device's own in gpu_choices_test.cpp.
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/image/computing_device.h"
 #include "tests/image/placed_balls.h"
 
 #include <fmt/format.h>
@@ -15,16 +16,6 @@
 
 namespace diptych::tests {
 namespace {
-
-Device& byCompute() {
-    static Device theDevice{{.choice = "", .validate = true, .choices = ProfileChoices::culling_by_compute}};
-    return theDevice;
-}
-
-std::shared_ptr<PipelineSet> computePipelines() {
-    static const std::shared_ptr<PipelineSet> set = makePipelineSet(byCompute());
-    return set;
-}
 
 Settings chosenSettings(Path path, Size size = {160, 90}) {
     Settings settings = smallPicture(GBufferEncoding::full);
