@@ -2,6 +2,7 @@
 // Triangles that may show, chosen by a kernel into indirect draws (DeviceProfile::culls_by_compute): pictures
 // have the bits of --cull off, and about as much is left out as by the host. What the host draws is compared
 // with --cull off in culling_test.cpp, and a GPU's choices with the device's own in gpu_choices_test.cpp.
+#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/computing_device.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles that --cull leaves out change no bit of a picture, and a device is spared them.
+#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/placed_balls.h"
