@@ -84,7 +84,10 @@ inline View viewOf(const SampleGrid& grid, const glm::dvec3& eye, const glm::dve
 // of exact areas and the rule of upper left edges.
 class Rasteriser {
 public:
-    Rasteriser(const SampleGrid& grid, bool truncates) : grid_(grid), truncates_(truncates) {}
+    // `truncates`: moves corners down, not to the nearest place of the grid. `reversed`: adds up the products
+    // of a row the other way round, as another device may.
+    Rasteriser(const SampleGrid& grid, bool truncates, bool reversed = false)
+        : grid_(grid), truncates_(truncates), reversed_(reversed) {}
 
     // Whether the triangle covers a sample of the picture and shows its front, or either side. Corners have a
     // w above 0.
@@ -92,7 +95,7 @@ public:
                bool either) const {
         std::array<glm::i64vec2, 3> at;
         for (std::size_t i = 0; i < 3; ++i) {
-            const glm::vec4 clip = clipFromObject * glm::vec4(corners[i], 1.0f);
+            const glm::vec4 clip = product(clipFromObject, corners[i]);
             if (!(clip.w > 0)) return false;
             at[i] = {snapped((clip.x / clip.w + 1) * 0.5f * static_cast<float>(grid_.width)),
                      snapped((clip.y / clip.w + 1) * 0.5f * static_cast<float>(grid_.height))};
@@ -127,6 +130,10 @@ public:
     }
 
 private:
+    glm::vec4 product(const glm::mat4& m, const glm::vec3& p) const {
+        return reversed_ ? ((m[3] + m[2] * p.z) + m[1] * p.y) + m[0] * p.x
+                         : ((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3];
+    }
     static constexpr std::int64_t step = 4096;  // of a pixel; a grid of 16 bits holds 1/256 and 1/16
     std::int64_t snapped(float x) const {
         const double steps = double{x} / grid_.snap;
@@ -140,7 +147,7 @@ private:
         return {(place & 15u) * step / 16, (place >> 4) * step / 16};
     }
     SampleGrid grid_;
-    bool truncates_;
+    bool truncates_, reversed_;
 };
 
 }  // namespace diptych::tests

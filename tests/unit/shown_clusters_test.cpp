@@ -53,11 +53,12 @@ Counts expectNothingShownIsLeftOut(const TriangleMesh& mesh, const SampleGrid& g
         for (std::size_t i = 0; i < of.size() / 3; ++i) {
             std::array<glm::vec3, 3> corners;
             for (std::size_t c = 0; c < 3; ++c) corners[c] = mesh.positions[of[3 * i + c]];
-            const bool isKept = (set >> i & 1u) != 0,
-                       shows =
-                           Rasteriser(grid, false)
-                               .shows(glm::mat4(clipFromObject), corners, mirrored, !culls) ||
-                           Rasteriser(grid, true).shows(glm::mat4(clipFromObject), corners, mirrored, !culls);
+            const bool isKept = (set >> i & 1u) != 0;
+            bool shows = false;
+            for (const bool truncates : {false, true})
+                for (const bool reversed : {false, true})
+                    shows = shows || Rasteriser(grid, truncates, reversed)
+                                         .shows(glm::mat4(clipFromObject), corners, mirrored, !culls);
             counts.triangles += 1;
             counts.kept += isKept;
             counts.shown += shows;
