@@ -77,7 +77,7 @@ FrameImages forLighting(const FrameImages& frame) {
 
 // Draws the scene into the depth and the attachments. `captured`: with what only channels need.
 void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
-    Pass& pass = inputs.posing.read(passes, passes.draw("G-buffer")).depth(images.depth, Load::clear);
+    Pass& pass = readGeometry(passes, passes.draw("G-buffer"), inputs).depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
         if (image.valid()) pass.color(image, Load::clear);
     pass.record(
@@ -95,7 +95,7 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
 
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
-    inputs.posing.addPasses(passes, inputs.pipelines);
+    addGeometryPasses(passes, inputs);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = sceneDepth(passes, inputs);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {

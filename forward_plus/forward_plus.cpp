@@ -36,7 +36,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
     batch.read(pass);
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
-    inputs.posing.read(passes, pass);
+    readGeometry(passes, pass, inputs);
     pass.takes(shadingMs(passes, inputs, batch));
     pass.record(recordDraws(
         inputs,
@@ -52,11 +52,11 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
 
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
-    inputs.posing.addPasses(passes, inputs.pipelines);
+    addGeometryPasses(passes, inputs);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = sceneDepth(passes, inputs);
     if (inputs.prepass)
-        inputs.posing.read(passes, passes.draw("depth pre-pass"))
+        readGeometry(passes, passes.draw("depth pre-pass"), inputs)
             .depth(images.depth, Load::clear)
             .record(recordDraws(inputs, depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);

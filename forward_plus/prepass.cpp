@@ -72,7 +72,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     const Queries queries(inputs.device);
     const ImageRef depth = sceneDepth(passes, inputs);
     const auto draws = recordDraws(inputs, depthKey);
-    inputs.posing.read(passes, passes.draw("count fragments"))
+    readGeometry(passes, passes.draw("count fragments"), inputs)
         .depth(depth, Load::clear)
         .record([&](VkCommandBuffer commands) {
             queries.begin(commands, 0);

@@ -59,8 +59,12 @@ std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
     PreparedFrame& frame = *state_->frames.at(i);
     PassList& passes = frame.passes;
     std::vector<PassTime> times;
-    if (frame.view.culling.any()) times.push_back({"clusters", frame.view.culling.run()});
-    for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
+    if (frame.view.culling.any()) times.push_back({Culling::name, frame.view.culling.run()});
+    for (const PassMs& pass : passes.profile(0, passes.size()))
+        if (!times.empty() && times.back().name == pass.name)
+            times.back().ms += pass.ms;  // both host and device choose
+        else
+            times.push_back({pass.name, pass.ms});
     return times;
 }
 

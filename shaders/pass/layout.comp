@@ -5,6 +5,7 @@
 // Never run. Every struct of the contract is in a buffer of its own, so that the compiled SPIR-V holds the
 // offsets that the build proves equal to those in C++.
 #include "shaders/lib/contract.glsl"
+#include "shared/contract/culling.h"
 
 layout(set = 3, binding = 0, scalar) buffer ViewArray { View view_array[]; };
 layout(set = 3, binding = 1, scalar) buffer DrawArray { Draw draw_array[]; };
@@ -28,9 +29,21 @@ layout(set = 3, binding = 20, scalar) buffer ObjectLightArray { ObjectLight obje
 layout(set = 3, binding = 21, scalar) buffer ObjectIrradianceArray {
     ObjectIrradiance object_irradiance_array[];
 };
+layout(set = 3, binding = 23, scalar) buffer CulledClusterArray { CulledCluster culled_cluster_array[]; };
+layout(set = 3, binding = 24, scalar) buffer CulledItemArray { CulledItem culled_item_array[]; };
+layout(set = 3, binding = 25, scalar) buffer CulledPartArray { CulledPart culled_part_array[]; };
+layout(set = 3, binding = 26, scalar) buffer IndirectDrawArray { IndirectDraw indirect_draw_array[]; };
+layout(set = 3, binding = 27, scalar) buffer CullingConstantsArray {
+    CullingConstants culling_constants_array[];
+};
 layout(set = 3, binding = 22, scalar) buffer ObjectLightsArray { ObjectLights object_lights_array[]; };
 
 void main() {
+    culled_cluster_array[0] = culled_cluster_array[1];
+    culled_item_array[0] = culled_item_array[1];
+    culled_part_array[0] = culled_part_array[1];
+    indirect_draw_array[0] = indirect_draw_array[1];
+    culling_constants_array[0] = culling_constants_array[1];
     object_light_array[0] = object_light_array[1];
     object_irradiance_array[0] = object_irradiance_array[1];
     object_lights_array[0] = object_lights_array[1];

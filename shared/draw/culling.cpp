@@ -26,6 +26,14 @@ SampleGrid gridOf(const Device& device, const View& view, int samples) {
             std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
+gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const ShownClusters& shown,
+                           bool oneSided) {
+    // Of two shaders, and rounded up.
+    const glm::dvec4 error = shown.error() * (2 * (1 + 1e-3));
+    return {draw.clip_from_object, glm::vec4(error), static_cast<gpu::uint>(item.range.vertex_offset),
+            item.draw, (oneSided ? 0 : gpu::CULLED_BOTH_SIDES) | (item.mirrored ? gpu::CULLED_MIRRORED : 0)};
+}
+
 // How many items from number i on may be drawn as instances of one mesh, which has one cluster: a draw saves
 // more than the triangles of a cluster that face away.
 std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
@@ -39,9 +47,10 @@ std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
 
 }  // namespace
 
-Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, const View& view, int samples,
-                 bool on, DrawList& draws)
+Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, const Geometry& geometry,
+                 const Pose& pose, const View& view, int samples, bool on, DrawList& draws)
     : geometry_(geometry), draws_(draws), on_(on) {
+    const bool computes = on && device.profile().culls_by_compute;
     const SampleGrid grid = gridOf(device, view, samples);
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t place = 0;
@@ -77,6 +86,12 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
             parts_.push_back({static_cast<std::uint32_t>(items_.size()), made.first + first,
                               std::min(partClusters, range.cluster_count - first)});
         order_.resize(order_.size() + range.cluster_count);
+        if (computes && !whole) {
+            const auto culled = static_cast<gpu::uint>(culled_items_.size());
+            culled_items_.push_back(culledItem(item, draws_.draws[item.draw], made.shown, oneSided));
+            for (std::uint32_t p = made.first_part; p < made.first_part + made.parts; ++p)
+                culled_parts_.push_back({culled, parts_[p].first, parts_[p].clusters, 0, p});
+        }
         if (!whole) place += range.index_count;
         item.chosen = !whole;
         item.first_run = made.first_part;
@@ -86,9 +101,23 @@ Culling::Culling(Device& device, const Geometry& geometry, const Pose& pose, con
     }
     if (!any()) return;
     draws_.runs.resize(parts_.size());
-    indices_ = GpuBuffer(device, "chosen indices", std::uint64_t{std::max(place, 1u)} * sizeof(std::uint32_t),
-                         VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
+    if (culled_parts_.empty()) {
+        indices_ =
+            GpuBuffer(device, "chosen indices", std::uint64_t{std::max(place, 1u)} * sizeof(std::uint32_t),
+                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
+        run();
+        return;
+    }
+    compute_.emplace(device, pipelines, layouts.culling, geometry, grid, culled_items_,
+                     ComputeCulling::Sizes{static_cast<std::uint32_t>(culled_parts_.size()),
+                                           static_cast<std::uint32_t>(order_.size()), place,
+                                           static_cast<std::uint32_t>(parts_.size())});
     run();
+    compute_->runOnce(name);
+    // A view's choice is always the same: whoever asks how much is drawn finds it.
+    const std::vector<gpu::IndirectDraw> chosen = compute_->readDraws();
+    for (const gpu::CulledPart& part : culled_parts_)
+        draws_.runs[part.command] = {chosen[part.command].first_index, chosen[part.command].index_count};
 }
 
 // From near to far by the middles of the clusters' boxes, so that what is hidden fails its depth test before
@@ -159,14 +188,36 @@ double Culling::run() {
     const auto start = std::chrono::steady_clock::now();
     auto* const indices = static_cast<std::uint32_t*>(indices_.mapped());
     tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { order(items_[i]); });
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { choose(i, indices); });
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
+        if (!compute_ || items_[parts_[i].item].whole) choose(i, indices);
+    });
+    if (compute_) {
+        for (gpu::CulledPart& part : culled_parts_) part.place = parts_[part.command].place;
+        std::ranges::copy(culled_parts_, compute_->parts().begin());
+        std::ranges::copy(order_, compute_->order().begin());
+    }
     if (on_)
         tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t i) { fillGaps(instances_[i]); });
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+void Culling::addPasses(PassList& passes) const {
+    if (compute_) compute_->addPass(passes, name);
+}
+
+void Culling::read(PassList& passes, Pass& pass) const {
+    if (compute_) compute_->read(passes, pass);
+}
+
+std::vector<std::uint32_t> Culling::chosenIndices() const {
+    if (compute_) return compute_->readIndices();
+    const auto* const first = static_cast<const std::uint32_t*>(indices_.mapped());
+    return {first, first + indices_.size() / sizeof(std::uint32_t)};
+}
+
 DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling) {
     DrawnCounts counts;
+    const std::vector<std::uint32_t> chosen = culling.chosenIndices();
     std::vector<std::uint32_t> used;
     const DrawItem* last = nullptr;
     for (const DrawItem& item : draws.items) {
@@ -186,7 +237,7 @@ DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const C
         used.clear();
         if (item.chosen)
             for (const IndexRun& run : runs) {
-                const std::span<const std::uint32_t> of = culling.chosen(run);
+                const auto of = std::span(chosen).subspan(run.first, run.count);
                 used.insert(used.end(), of.begin(), of.end());
             }
         else

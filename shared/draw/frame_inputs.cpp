@@ -4,6 +4,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/material.h"
 #include "shared/contract/multiscatter.h"
+#include "shared/draw/culling.h"
 
 #include <bit>
 
@@ -39,6 +40,16 @@ void addSpecularAa(Variant& variant, const Settings& settings) {
 }
 
 }  // namespace
+
+void addGeometryPasses(PassList& passes, const FrameInputs& inputs) {
+    if (inputs.culling != nullptr) inputs.culling->addPasses(passes);
+    inputs.posing.addPasses(passes, inputs.pipelines);
+}
+
+Pass& readGeometry(PassList& passes, Pass& pass, const FrameInputs& inputs) {
+    if (inputs.culling != nullptr) inputs.culling->read(passes, pass);
+    return inputs.posing.read(passes, pass);
+}
 
 bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings) {
     const bool split = lights.environment && settings.ibl == Ibl::split;

@@ -14,6 +14,7 @@
 
 namespace diptych {
 
+class Culling;
 // Of rooms above this one, handed on to the paths.
 class ShadowMaps;
 class FragmentLists;
@@ -30,7 +31,7 @@ struct FrameInputs {
     const GpuLights& lights;
     VkBuffer draw_buffer;                      // Draw[draws.draws]
     VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; none where those are empty
-    VkBuffer chosen_indices = VK_NULL_HANDLE;  // of DrawItem::chosen
+    const Culling* culling = nullptr;          // of DrawItem::chosen; none where no draw is
     VkDescriptorSet frame_set;                 // SET_FRAME
     const Placeholders& placeholders;
     LightLists& lists;
@@ -50,6 +51,12 @@ struct FrameInputs {
     bool alpha_to_coverage = false;  // alpha masks choose samples
     bool prepass = true;             // forward+ draws depth first; prepareForwardPlus() decides
 };
+
+// What is made before anything is drawn: which triangles may show, and posed vertices. First among a path's
+// passes.
+void addGeometryPasses(PassList& passes, const FrameInputs& inputs);
+// Declares that the pass draws the view's items, and returns it.
+Pass& readGeometry(PassList& passes, Pass& pass, const FrameInputs& inputs);
 
 struct FrameImages {
     ImageRef lit;          // linear scene-referred radiance, of FrameInputs::lit_format

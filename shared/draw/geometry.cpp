@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/geometry.h"
 
+#include "shared/contract/culling.h"
 #include "shared/contract/geometry.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/bounds.h"
@@ -114,6 +115,13 @@ std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin) {
     return cuts;
 }
 
+std::vector<gpu::CulledCluster> culledClusters(std::span<const Cluster> clusters) {
+    std::vector<gpu::CulledCluster> culled;
+    culled.reserve(clusters.size());
+    for (const Cluster& c : clusters) culled.push_back({c.min, c.first_index, c.max, c.index_count / 3});
+    return culled;
+}
+
 }  // namespace
 
 Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : scene_(scene) {
@@ -175,6 +183,10 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
                                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | posed);
     indices_ = makeBuffer<std::uint32_t>(device, uploader, "indices", indices,
                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | posed);
+    if (device.profile().culls_by_compute)
+        cluster_buffer_ =
+            makeBuffer<gpu::CulledCluster>(device, uploader, "clusters", culledClusters(clusters_),
+                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
 }
 
 PlacedPrimitive Geometry::placed(const Pose& pose, const Instance& instance) const {

@@ -85,7 +85,11 @@ public:
     const GpuBuffer& positions() const { return positions_; }
     const GpuBuffer& attributes() const { return attributes_; }
     const GpuBuffer& indices() const { return indices_; }
-    std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
+    // CulledCluster[], by their numbers; none where the host chooses (DeviceProfile::culls_by_compute).
+    const GpuBuffer& clusterBuffer() const { return cluster_buffer_; }
+    std::uint64_t bytes() const {
+        return positions_.size() + attributes_.size() + indices_.size() + cluster_buffer_.size();
+    }
     // On the host: of what blends, and of clusters.
     std::uint64_t hostBytes() const {
         return kept_positions_.size() * sizeof(glm::vec3) + kept_indices_.size() * sizeof(std::uint32_t);
@@ -104,7 +108,7 @@ private:
     std::uint32_t first_clustered_ = 0;      // where those begin there
     std::vector<glm::vec3> kept_positions_;  // of what blends
     std::vector<std::uint32_t> kept_indices_;
-    GpuBuffer positions_, attributes_, indices_;
+    GpuBuffer positions_, attributes_, indices_, cluster_buffer_;
 };
 
 }  // namespace diptych

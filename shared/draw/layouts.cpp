@@ -2,6 +2,7 @@
 #include "shared/draw/layouts.h"
 
 #include "shared/contract/bindings.h"
+#include "shared/contract/culling.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/samples.h"
@@ -40,6 +41,8 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
     const std::array<VkDescriptorSetLayout, 4> sets{frame, material, gbuffer, partial_sums};
     pipeline =
         makePipelineLayout(device, sets, VkPushConstantRange{drawStages, 0, sizeof(gpu::DrawConstants)});
+    culling = makePipelineLayout(
+        device, {}, VkPushConstantRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::CullingConstants)});
     nearest = makeNearestSampler(device);
     lists = ListLayouts(device, frame);
 }

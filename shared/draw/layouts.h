@@ -17,6 +17,7 @@ struct Layouts {
     Layouts(Device& device, VkDescriptorSetLayout material);
     OwnedDescriptorSetLayout frame, gbuffer, partial_sums;
     OwnedPipelineLayout pipeline;
+    OwnedPipelineLayout culling;  // of the kernel that chooses triangles: struct CullingConstants
     OwnedSampler nearest;
     ListLayouts lists;
 };

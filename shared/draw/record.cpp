@@ -4,8 +4,10 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/material.h"
+#include "shared/draw/culling.h"
 #include "shared/draw/pipeline_keys.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -106,7 +108,8 @@ public:
           inputs_(inputs),
           source_(source),
           pipelines_(pipelines),
-          constants_of_(constantsOf) {}
+          constants_of_(constantsOf),
+          indirect_draws_(inputs.device.indirectDraws()) {}
 
     // What draw() draws until the next one.
     void take(std::size_t i) {
@@ -124,7 +127,8 @@ public:
             posed_ = posed;
         }
         if (item.chosen != chosen_) {
-            inputs_.geometry.bindIndices(commands_, item.chosen ? inputs_.chosen_indices : VK_NULL_HANDLE);
+            inputs_.geometry.bindIndices(commands_,
+                                         item.chosen ? inputs_.culling->indices() : VK_NULL_HANDLE);
             chosen_ = item.chosen;
         }
         const VkCullModeFlags culled = culledOf(source_, item);
@@ -147,12 +151,42 @@ public:
         inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
     }
 
+    // How many items from number i on, the item taken, draw with its state.
+    std::size_t sameFrom(std::size_t i) const {
+        std::size_t end = i + 1;
+        while (end < pipelines_.size() && drawsAs(i, end)) ++end;
+        return end - i;
+    }
+    // The indirect draws of so many items from the one taken on, one for each of their runs.
+    void drawIndirect(VkBuffer draws, std::size_t items) const {
+        constexpr std::uint32_t stride = sizeof(VkDrawIndexedIndirectCommand);
+        const DrawItem& last = source_.items[taken_ + items - 1];
+        const std::uint32_t end = last.first_run + last.runs;
+        for (std::uint32_t first = last_->first_run, count = 0; first < end; first += count) {
+            count = std::min(indirect_draws_, end - first);
+            vkCmdDrawIndexedIndirect(commands_, draws, VkDeviceSize{first} * stride, count, stride);
+        }
+        std::uint64_t triangles = 0;
+        for (const IndexRun& run : source_.runs.subspan(last_->first_run, end - last_->first_run))
+            triangles += run.count / 3;
+        inputs_.device.drawDivision().drawn(commands_, triangles);
+    }
+
 private:
+    bool drawsAs(std::size_t i, std::size_t next) const {
+        const DrawItem &item = source_.items[i], &other = source_.items[next];
+        return other.chosen &&
+               other.first_run == source_.items[next - 1].first_run + source_.items[next - 1].runs &&
+               pipelines_[next] == pipelines_[i] && other.range.material == item.range.material &&
+               other.mirrored == item.mirrored && culledOf(source_, other) == culledOf(source_, item) &&
+               areSame(constants_of_(other), constants_);
+    }
     VkCommandBuffer commands_;
     const FrameInputs& inputs_;
     const DrawSource& source_;
     const std::vector<VkPipeline>& pipelines_;
     const ConstantsOf& constants_of_;
+    std::uint32_t indirect_draws_;  // of one command
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
     gpu::DrawConstants constants_{};
@@ -201,8 +235,17 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
+    const VkBuffer indirect =
+        inputs.culling != nullptr ? inputs.culling->indirectDraws() : VkBuffer{VK_NULL_HANDLE};
     std::uint32_t instances = 1;
     for (std::size_t i = 0; i < pipelines.size(); i += instances) {
+        if (source.items[i].chosen && indirect != VK_NULL_HANDLE) {
+            recorder.take(i);
+            const std::size_t same = recorder.sameFrom(i);
+            recorder.drawIndirect(indirect, same);
+            instances = static_cast<std::uint32_t>(same);
+            continue;
+        }
         instances = instancesFrom(i, source, pipelines, constantsOf);
         const ItemRuns runs(source, i);
         bool taken = false;

@@ -20,7 +20,7 @@ namespace {
 // matrix is rounded once, and so are three products and three sums, 2^-24 each. Twice that.
 constexpr double productError = 14.0 / (1 << 24);
 // The same of a place in pixels, of the picture's size: a division, a product and a sum.
-constexpr double placeError = 8.0 / (1 << 24);
+constexpr double placeRounding = 8.0 / (1 << 24);
 // Of ClusterTriangles::facing(): four products of rounded factors and three sums.
 constexpr double facingError = 16.0 / (1 << 24);
 
@@ -45,6 +45,10 @@ bool holdsSample(double low, double high, int samples, int shift) {
 }
 
 }  // namespace
+
+double placeError(const SampleGrid& grid) {
+    return placeRounding * std::max(grid.width, grid.height);
+}
 
 ShownClusters::ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object,
                              const glm::dvec3& min, const glm::dvec3& max, bool culls_backs, bool mirrored)
@@ -117,7 +121,7 @@ bool ShownClusters::isBetweenSamples(const Cluster& cluster, double nearest, dou
 }
 
 double ShownClusters::placeOff(double nearest) const {
-    return placeError * std::max(grid_.width, grid_.height) +
+    return placeError(grid_) +
            0.5 * std::max(grid_.width * (error_.x + error_.w), grid_.height * (error_.y + error_.w)) /
                nearest;
 }

@@ -19,6 +19,9 @@ struct SampleGrid {
     double snap = 1.0 / 16;     // pixels: how far a rasteriser moves a corner, at most
 };
 
+// What a device's place of a corner may be off by where its clip space is exact, pixels.
+double placeError(const SampleGrid& grid);
+
 // Of one instance.
 class ShownClusters {
 public:
@@ -31,6 +34,8 @@ public:
     // Those of the cluster that may show.
     TriangleSet of(const Cluster& cluster, const ClusterTriangles& triangles,
                    const ClusterTriangles::Entry& entry) const;
+    // What a shader's product of the matrix and a position may be off by, by component of clip space.
+    const glm::dvec4& error() const { return error_; }
 
 private:
     struct Side {

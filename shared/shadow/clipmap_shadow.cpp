@@ -87,7 +87,7 @@ std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) cons
 void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
     PassList passes(device_, extent_.width, extent_.height);
     const ImageRef depth = sceneDepth(passes, inputs);
-    inputs.posing.read(passes, passes.draw("depth of shadow pages"))
+    readGeometry(passes, passes.draw("depth of shadow pages"), inputs)
         .depth(depth, Load::clear)
         .record(recordDraws(inputs, depthKey));
     addMarkPasses(passes, inputs, depth, OF_PREPARING);

@@ -53,7 +53,7 @@ void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
     const ImageRef depth = sceneDepth(passes, inputs, "shown depth");
     const BufferRef bounds = passes.buffer("depth bounds", bounds_),
                     seen = passes.buffer("depth bounds, read back", seen_);
-    inputs.posing.read(passes, passes.draw(name))
+    readGeometry(passes, passes.draw(name), inputs)
         .depth(depth, Load::clear)
         .record(recordDraws(inputs, depthKey));
     passes.copy(name).uses(bounds, access::transferWrite).record([this](VkCommandBuffer commands) {

@@ -84,6 +84,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.family = family;
     s.timestamp_bits = queues.at(family).timestampValidBits;
     s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
+    if (!beginsAtAnyInstance(s.physical)) s.profile.culls_by_compute = false;
     s.device.reset(createDevice(s.physical, family));
     s.draw_division.emplace(s.device.get(), s.profile.bins_at_once);
     s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
@@ -138,6 +139,11 @@ bool Device::hasInt64() const {
 
 bool Device::sortsFragments() const {
     return diptych::sortsFragments(state_->physical);
+}
+std::uint32_t Device::indirectDraws() const {
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(state_->physical, &features);
+    return features.multiDrawIndirect == VK_TRUE ? state_->limits.maxDrawIndirectCount : 1;
 }
 const DeviceProfile& Device::profile() const {
     return state_->profile;

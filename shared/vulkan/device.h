@@ -64,6 +64,8 @@ public:
     bool hasInt64() const;
     // Whether shaders may compute with floats of 16 bits.
     bool hasFloat16() const;
+    // How many indirect draws one command may have: 1 where a device takes no more.
+    std::uint32_t indirectDraws() const;
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 

@@ -7,7 +7,7 @@ namespace diptych {
 
 DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, ProfileChoices choices) {
     const bool software = info.type == "cpu";
-    const bool asSoftware = software && choices == ProfileChoices::of_device;
+    const bool asSoftware = software && choices != ProfileChoices::gpu;
     // Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
     constexpr DeviceCosts lavapipe{.draw = 7'000,
                                    .triangle = 65,
@@ -37,6 +37,7 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             .fetches_depth = !asSoftware,
             .shades_failed_samples = asSoftware,
             .bins_at_once = asSoftware && timestampBits > 0 ? 15'000u : 0u,
+            .culls_by_compute = !asSoftware || choices == ProfileChoices::culling_by_compute,
             .warm_up_ms = asSoftware ? 0.0 : 300.0,
             .longest_submit_ms = asSoftware ? std::numeric_limits<double>::infinity() : 100,
             .costs = asSoftware ? lavapipe : gpu};

@@ -29,6 +29,8 @@ struct DeviceCosts {
 enum class ProfileChoices {
     of_device,
     gpu,  // a GPU's, on any device, so that tests may draw with them where there is none
+    // The device's own, but for DeviceProfile::culls_by_compute: so that it alone may be measured and tested.
+    culling_by_compute,
 };
 
 struct DeviceProfile {
@@ -62,6 +64,9 @@ struct DeviceProfile {
     // decides. Measured on lavapipe with two cores: of 85,000 triangles 10,000 to 20,000 save a tenth of a
     // frame; less than 5,000, and what is loaded and stored between costs as much.
     std::uint32_t bins_at_once = 0;
+    // What of a view may show is chosen by a kernel, into indirect draws; otherwise by the host. Measured on
+    // lavapipe, where the host is faster. Never where indirect draws cannot begin at any instance.
+    bool culls_by_compute = false;
     // How long a device must have worked before its clocks are up and times mean something.
     double warm_up_ms = 0;
     // A submit that takes longer may be taken for a hang. Infinite: there is no such limit.

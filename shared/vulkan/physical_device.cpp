@@ -148,6 +148,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     note("depth clamping", f.v10.features.depthClamp == VK_TRUE);
     note("blending by attachment", f.v10.features.independentBlend == VK_TRUE);
     note("indirect draws of later instances", f.v10.features.drawIndirectFirstInstance == VK_TRUE);
+    note("several indirect draws at once", f.v10.features.multiDrawIndirect == VK_TRUE);
     note("stores in fragment shaders", f.v10.features.fragmentStoresAndAtomics == VK_TRUE);
     note("stores to samples", f.v10.features.shaderStorageImageMultisample == VK_TRUE);
     note("64-bit atomics in fragment shaders",
@@ -285,6 +286,12 @@ bool hasFloat16(VkPhysicalDevice device) {
     return f.v12.shaderFloat16 == VK_TRUE;
 }
 
+bool beginsAtAnyInstance(VkPhysicalDevice device) {
+    VkPhysicalDeviceFeatures there{};
+    vkGetPhysicalDeviceFeatures(device, &there);
+    return there.drawIndirectFirstInstance == VK_TRUE;
+}
+
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
@@ -302,6 +309,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v10.features.depthClamp = there.depthClamp;
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
+    wanted.v10.features.multiDrawIndirect = there.multiDrawIndirect;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;
     wanted.v10.features.shaderStorageImageMultisample = there.shaderStorageImageMultisample;
     wanted.v10.features.shaderInt64 = there.shaderInt64;

@@ -33,6 +33,8 @@ bool storesSamples(VkPhysicalDevice device);
 bool hasInt64(VkPhysicalDevice device);
 // Whether shaders may compute with floats of 16 bits.
 bool hasFloat16(VkPhysicalDevice device);
+// Whether indirect draws may begin at any instance.
+bool beginsAtAnyInstance(VkPhysicalDevice device);
 
 // With exactly the features that we use, and what the device has of those that are of help.
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What --cull on saves:  bench_culling [-n RUNS] [-s WxH] [-m SAMPLES] SCENE...
-// Frames of both paths with and without it, in turn, by the clock and in CPU time of the process, which
-// other programs disturb less; and how long it takes to cut a scene's primitives into clusters.
+// Frames of both paths without it, with what the host chooses and with what a kernel chooses into indirect
+// draws, in turn, by the clock and in CPU time of the process, which other programs disturb less; and how
+// long it takes to cut a scene's primitives into clusters.
+#include "shared/draw/culling.h"
+#include "compare/render/prepared_frames.h"
 #include "compare/render/renderer.h"
-#include "shared/draw/cluster_triangles.h"
 #include "shared/scene/load.h"
 #include "shared/vulkan/device.h"
 
@@ -15,6 +17,8 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -62,43 +66,64 @@ double cutMs(const Scene& scene) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void measure(Device& device, const std::string& file, Settings settings, std::size_t runs) {
+struct Way {
+    const char* name;
+    Device& device;
+    bool cull;
+};
+
+struct Measured {
+    std::string name;
+    std::vector<double> wall, cpu, front;  // ms
+};
+
+// How many times as long as the first, medians of pairs.
+void printRatios(const Measured& first, const Measured& other) {
+    const auto medianOf = [](const std::vector<double>& a, const std::vector<double>& b) {
+        std::vector<double> ratios;
+        for (std::size_t run = 0; run < a.size(); ++run) ratios.push_back(b[run] / a[run]);
+        std::ranges::sort(ratios);
+        return ratios[ratios.size() / 2];
+    };
+    fmt::print("  {}: {:.3f} times as long as {}, {:.3f} times the CPU time, medians of pairs\n", other.name,
+               medianOf(first.wall, other.wall), first.name, medianOf(first.cpu, other.cpu));
+}
+
+void measure(const std::vector<Way>& ways, const std::string& file, Settings settings, std::size_t runs) {
     const Scene scene = loadScene(file);
-    Renderer renderer(device, scene);
-    std::vector<Settings> each;
+    struct Drawn {
+        Measured measured;
+        PreparedFrames frames;
+    };
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    std::vector<Drawn> drawn;
+    for (const Way& way : ways) renderers.push_back(std::make_unique<Renderer>(way.device, scene));
     for (const Path path : drawn_paths)
-        for (const bool cull : {false, true}) {
+        for (std::size_t i = 0; i < ways.size(); ++i) {
             settings.path = path;
-            settings.cull = cull;
-            each.push_back(settings);
+            settings.cull = ways[i].cull;
+            drawn.push_back({{fmt::format("{}, {}", nameOf(path), ways[i].name), {}, {}, {}},
+                             renderers[i]->prepare(std::span(&settings, 1))});
         }
-    PreparedFrames frames = renderer.prepare(each);
-    std::vector<std::vector<double>> wall(each.size()), cpu(each.size()), front(each.size());
     for (std::size_t run = 0; run <= runs; ++run)
-        for (std::size_t i = 0; i < each.size(); ++i) {
-            const double beside = cpuMsBeside("llvmpipe"), before = cpuMs(), ms = frames.draw(i),
+        for (auto& [measured, frames] : drawn) {
+            const double beside = cpuMsBeside("llvmpipe"), before = cpuMs(), ms = frames.draw(0),
                          used = cpuMs() - before, set = cpuMsBeside("llvmpipe") - beside;
             if (run == 0) continue;  // drivers compile
-            wall[i].push_back(ms);
-            cpu[i].push_back(used);
-            front[i].push_back(set);
+            measured.wall.push_back(ms);
+            measured.cpu.push_back(used);
+            measured.front.push_back(set);
         }
     fmt::print("{}: cut in {:.1f} ms\n", file, cutMs(scene));
-    for (std::size_t i = 0; i < each.size(); ++i)
-        fmt::print("  {:<12} --cull {:<3}  {}   CPU {}   of it vertices and set-up {}\n",
-                   nameOf(each[i].path), each[i].cull ? "on" : "off", spread(wall[i]), spread(cpu[i]),
-                   spread(front[i]));
-    for (std::size_t i = 0; i < each.size(); i += 2) {
-        std::vector<double> ratios, used;
-        for (std::size_t run = 0; run < runs; ++run) {
-            ratios.push_back(wall[i + 1][run] / wall[i][run]);
-            used.push_back(cpu[i + 1][run] / cpu[i][run]);
-        }
-        std::ranges::sort(ratios);
-        std::ranges::sort(used);
-        fmt::print("  {}: with it {:.3f} times as long, {:.3f} times the CPU time, medians of pairs\n",
-                   nameOf(each[i].path), ratios[runs / 2], used[runs / 2]);
+    for (auto& [measured, frames] : drawn) {
+        fmt::print("  {:<30}  {}   CPU {}   of it vertices and set-up {}; ", measured.name,
+                   spread(measured.wall), spread(measured.cpu), spread(measured.front));
+        for (const PassTime& pass : frames.profile(0))
+            if (pass.name == Culling::name) fmt::print("{} {:.1f}", pass.name, pass.ms);
+        fmt::print("\n");
     }
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (i % ways.size() > 0) printRatios(drawn[i - i % ways.size()].measured, drawn[i].measured);
 }
 
 }  // namespace
@@ -117,9 +142,12 @@ int main(int count, char** arguments) try {
     }
     if (files.empty())
         throw std::runtime_error("usage: bench_culling [-n RUNS] [-s WxH] [-m SAMPLES] SCENE...");
-    Device device(DeviceOptions{});
+    Device device(DeviceOptions{}),
+        computing({.choice = "", .validate = false, .choices = ProfileChoices::culling_by_compute});
     fmt::print("{}, {} runs, ms: median (smallest to largest)\n", device.info().name, runs);
-    for (const std::string& file : files) measure(device, file, settings, runs);
+    const std::vector<Way> ways{
+        {"all", device, false}, {"by the host", device, true}, {"by compute", computing, true}};
+    for (const std::string& file : files) measure(ways, file, settings, runs);
     return 0;
 } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_culling: %s\n", e.what());

@@ -3,7 +3,7 @@
 // does not see a source stage that is missing), and that no declaration is there in vain.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
-#include "tests/image/scenes.h"
+#include "tests/image/computing_device.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +26,8 @@ constexpr Bit stageNames[] = {{inVertex, "vertex"},
                               {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "early"},
                               {VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, "late"},
                               {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, "color"},
+                              {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, "indices"},
+                              {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, "draws"},
                               {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, "transfer"}};
 constexpr Bit accessNames[] = {{VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "read"},
                                {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, "write"},
@@ -34,6 +36,8 @@ constexpr Bit accessNames[] = {{VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "read"},
                                {VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, "write"},
                                {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, "test"},
                                {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, "write"},
+                               {VK_ACCESS_2_INDEX_READ_BIT, "read"},
+                               {VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, "read"},
                                {VK_ACCESS_2_TRANSFER_WRITE_BIT, "fill"},
                                {VK_ACCESS_2_TRANSFER_READ_BIT, "copy"}};
 
@@ -60,8 +64,9 @@ std::string textOf(const RecordedBarrier& barrier) {
 class Declared {
 public:
     Declared(Path path, Assignment assign, LightKernel kernel = LightKernel::scatter,
-             const char* lights = "point:40,spot:10", Lighting lighting = Lighting::fragment)
-        : scene_(loadScene("builtin:triangle")), shared_(device(), scene_, pipelines()) {
+             const char* lights = "point:40,spot:10", Lighting lighting = Lighting::fragment,
+             Device& on = device(), const std::shared_ptr<PipelineSet>& set = pipelines())
+        : scene_(loadScene("builtin:triangle")), shared_(on, scene_, set) {
         Settings settings = smallPicture(GBufferEncoding::standard);
         settings.path = path;
         settings.assign = assign;
@@ -70,7 +75,7 @@ public:
         settings.lighting = lighting;
         settings.prepass = Switch::on;
         seen_.emplace(makeSceneView(scene_, viewRequest(settings)));
-        frame_ = std::make_unique<PreparedFrame>(device(), shared_, *seen_, settings);
+        frame_ = std::make_unique<PreparedFrame>(on, shared_, *seen_, settings);
         frame_->passes.allocate();
     }
     PassList& passes() { return frame_->passes; }
@@ -143,6 +148,22 @@ TEST(Declarations, BarriersOfGather) {
     EXPECT_EQ(lines, other);
 }
 
+// A kernel that chooses waits for the draws of the frame before, and the first draw of a frame for it.
+TEST(Declarations, BarriersOfChosenTriangles) {
+    Declared declared(Path::forward_plus, Assignment::every, LightKernel::scatter, "point:40",
+                      Lighting::fragment, byCompute(), computePipelines());
+    std::vector<std::string> lines = secondRun(declared.passes());
+    std::erase_if(lines, [](const std::string& line) {
+        return line.find("chosen indices") == line.npos && line.find("indirect draws") == line.npos;
+    });
+    EXPECT_EQ(lines, (std::vector<std::string>{
+                         "clusters: chosen indices, compute+indices write -> compute write",
+                         "clusters: indirect draws, compute+draws write -> compute write",
+                         "depth pre-pass: chosen indices, compute write -> indices read",
+                         "depth pre-pass: indirect draws, compute write -> draws read",
+                     }));
+}
+
 // Clusters need no depth: nothing of them waits for the G-buffer. Tiles do.
 TEST(Declarations, OnlyTilesWaitForDepth) {
     for (const Assignment assign : {Assignment::clustered, Assignment::tiled}) {
@@ -183,6 +204,12 @@ TEST(Declarations, NoneIsInVain) {
             for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather})
                 EXPECT_EQ(inVain(Declared(path, assign, kernel).passes()), "")
                     << nameOf(path) << ", " << nameOf(assign) << ", " << nameOf(kernel);
+    for (const Path path : {Path::forward_plus, Path::deferred})
+        EXPECT_EQ(inVain(Declared(path, Assignment::every, LightKernel::scatter, "point:40",
+                                  Lighting::fragment, byCompute(), computePipelines())
+                             .passes()),
+                  "")
+            << nameOf(path) << ", triangles chosen by a kernel";
     for (const Lighting lighting : {Lighting::fragment, Lighting::compute})
         for (const char* lights : {"point:70000", "point:40,spot:10"})
             EXPECT_EQ(

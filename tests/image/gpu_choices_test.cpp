@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is chosen on a GPU (DeviceProfile), drawn on the device that there is: where the view is read, input
-// sets, the light kernel, stored depth, submits in bands. On a CPU device the pictures have the same bits; on
-// a GPU this draws what all other tests draw, and the depth of a fragment and the depth that is stored are
-// counted where they differ.
+// sets, the light kernel, stored depth, who chooses triangles, submits in bands. On a CPU device the pictures
+// have the same bits; on a GPU this draws what all other tests draw, and the depth of a fragment and the
+// depth that is stored are counted where they differ.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -136,12 +136,15 @@ TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
         });
     };
     EXPECT_TRUE(samplesDepth(frame.passes));
+    EXPECT_EQ(frame.passes.names().front(), Culling::name);
     settings.prepass = Switch::off;
     EXPECT_FALSE(samplesDepth(PreparedFrame(asGpu(), shared, view, settings).passes));
     if (device().profile().fetches_depth) return;
     settings.prepass = Switch::on;
     SharedResources usual(device(), scene, pipelines());
-    EXPECT_FALSE(samplesDepth(PreparedFrame(device(), usual, view, settings).passes));
+    const PreparedFrame own(device(), usual, view, settings);
+    EXPECT_FALSE(samplesDepth(own.passes));
+    EXPECT_NE(own.passes.names().front(), Culling::name) << "on a CPU device the host chooses faster";
 }
 
 // Forward+ without a pre-pass shades with gl_FragCoord.z, deferred with the depth that is stored.

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+// A workgroup writes the indices of what may show of a part, in the order that the part has, and the draw of
+// them. Clusters in view first, a thread each; then their triangles, a thread each, of several clusters at a
+// time: a bit for each that may show, and how many bits are before it is its place.
+#include "shaders/lib/culling.glsl"
+
+layout(local_size_x = CULLING_THREADS) in;
+layout(push_constant, scalar) uniform CullingBlock { CullingConstants constants; };
+
+#define ARRAY_AT(Name, type)                                                   \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
+        type at[];                                                             \
+    };
+ARRAY_AT(UintArray, uint)
+ARRAY_AT(Vec3Array, vec3)
+ARRAY_AT(ClusterArray, CulledCluster)
+ARRAY_AT(ItemArray, CulledItem)
+ARRAY_AT(PartArray, CulledPart)
+ARRAY_AT(IndirectArray, IndirectDraw)
+#undef ARRAY_AT
+
+const uint WORDS = CULLING_THREADS / 32u;
+const uint AT_A_TIME = CULLING_THREADS / CULLED_TRIANGLES;  // clusters
+
+shared uint in_view[CULLED_CLUSTERS / 32u];  // a bit a cluster of the part
+shared uint clusters[CULLED_CLUSTERS];       // those in view, in order
+shared uint shown[WORDS];                    // a bit a triangle
+
+uint bitsBefore(uint lane) { return (1u << (lane & 31u)) - 1u; }
+
+void main() {
+    uint number = gl_WorkGroupID.y * CULLING_GROUPS + gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
+    if (number >= constants.part_count) return;
+    CulledPart part = PartArray(constants.parts).at[number];
+    CulledItem item = ItemArray(constants.items).at[part.item];
+    CulledPicture picture = CulledPicture(constants.half_size, constants.samples, constants.place_off,
+                                          constants.snap);
+
+    if (lane < CULLED_CLUSTERS / 32u) in_view[lane] = 0u;
+    barrier();
+    uint cluster = 0u;
+    bool keeps = false;
+    if (lane < part.clusters) {
+        cluster = UintArray(constants.order).at[part.first + lane];
+        CulledCluster of = ClusterArray(constants.clusters).at[cluster];
+        keeps = !isBeyondView(item, of.min, of.max);
+        if (keeps) atomicOr(in_view[lane / 32u], 1u << (lane & 31u));
+    }
+    barrier();
+    uint cluster_count = 0u, cluster_place = 0u;
+    for (uint i = 0u; i < CULLED_CLUSTERS / 32u; ++i) {
+        cluster_place += i < lane / 32u ? uint(bitCount(in_view[i])) : 0u;
+        cluster_count += uint(bitCount(in_view[i]));
+    }
+    if (keeps) {
+        cluster_place += uint(bitCount(in_view[lane / 32u] & bitsBefore(lane)));
+        clusters[cluster_place] = cluster;
+    }
+    barrier();
+
+    uint written = 0u;  // triangles
+    for (uint first = 0u; first < cluster_count; first += AT_A_TIME) {
+        if (lane < WORDS) shown[lane] = 0u;
+        barrier();
+        uint k = first + lane / CULLED_TRIANGLES, triangle = lane % CULLED_TRIANGLES;
+        bool shows = false;
+        uvec3 corners = uvec3(0u);
+        if (k < cluster_count) {
+            CulledCluster of = ClusterArray(constants.clusters).at[clusters[k]];
+            if (triangle < of.triangles) {
+                UintArray indices = UintArray(constants.indices);
+                Vec3Array positions = Vec3Array(constants.positions);
+                uint at = of.first_index + 3u * triangle;
+                corners = uvec3(indices.at[at], indices.at[at + 1u], indices.at[at + 2u]);
+                shows = mayShow(item, picture, positions.at[item.first_vertex + corners.x],
+                                positions.at[item.first_vertex + corners.y],
+                                positions.at[item.first_vertex + corners.z]);
+            }
+        }
+        if (shows) atomicOr(shown[lane / 32u], 1u << (lane & 31u));
+        barrier();
+        uint before = written;
+        for (uint i = 0u; i < WORDS; ++i) {
+            before += i < lane / 32u ? uint(bitCount(shown[i])) : 0u;
+            written += uint(bitCount(shown[i]));
+        }
+        if (shows) {
+            before += uint(bitCount(shown[lane / 32u] & bitsBefore(lane)));
+            UintArray chosen = UintArray(constants.chosen);
+            uint at = part.place + 3u * before;
+            chosen.at[at] = corners.x;
+            chosen.at[at + 1u] = corners.y;
+            chosen.at[at + 2u] = corners.z;
+        }
+        barrier();
+    }
+    if (lane == 0u)
+        IndirectArray(constants.draws).at[part.command] =
+            IndirectDraw(3u * written, 1u, part.place, item.first_vertex, item.draw);
+}

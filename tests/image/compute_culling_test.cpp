@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// Triangles that may show, chosen by a kernel into indirect draws (DeviceProfile::culls_by_compute): pictures
+// have the bits of --cull off, and about as much is left out as by the host. What the host draws is compared
+// with --cull off in culling_test.cpp, and a GPU's choices with the device's own in gpu_choices_test.cpp.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/computing_device.h"
+#include "tests/image/placed_balls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+Settings chosenSettings(Path path, Size size = {160, 90}) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = path;
+    settings.size = size;
+    return settings;
+}
+
+// Tell surfaces apart, and what follows from their light.
+const std::vector<int> chosenChannels{lit, static_cast<int>(gpu::DEBUG_normals),
+                                      static_cast<int>(gpu::DEBUG_depth),
+                                      static_cast<int>(gpu::DEBUG_material_id)};
+
+void expectTheKernelChangesNoBit(Renderer& renderer, const std::string& name,
+                                 const std::function<void(Settings&)>& change = {}) {
+    RenderOptions options;
+    options.channels = chosenChannels;
+    options.runs = 0;
+    for (const Path path : drawn_paths) {
+        Settings settings = chosenSettings(path);
+        if (change) change(settings);
+        settings.cull = true;
+        const Frame culled = renderer.draw(settings, options);
+        settings.cull = false;
+        const Frame all = renderer.draw(settings, options);
+        ASSERT_EQ(culled.channels.size(), all.channels.size());
+        for (const auto& [mode, image] : culled.channels)
+            EXPECT_EQ(differingPixels(image, all.channels.at(mode)), 0u)
+                << name << " " << nameOf(path) << " " << debugMode(mode).name;
+    }
+    EXPECT_EQ(byCompute().validationMessages(), 0u) << byCompute().firstValidationMessage();
+}
+
+class ComputeCullingOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(ComputeCullingOf, ChangesNoBit) {
+    const Scene scene = loadScene(GetParam());
+    Renderer renderer(byCompute(), scene, computePipelines());
+    expectTheKernelChangesNoBit(renderer, "plain");
+    expectTheKernelChangesNoBit(renderer, "four samples", [](Settings& s) { s.msaa = 4; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ComputeCullingOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:coplanar",
+                                         "builtin:ortho", "builtin:cutout", "builtin:glass",
+                                         "builtin:mirrored", "builtin:stretched", "builtin:motion",
+                                         "builtin:far_away", "builtin:deep"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+TEST(ComputeCulling, ChangesNoBitOfAssets) {
+    std::size_t drawn = 0;
+    for (const char* const name :
+         {"sponza/Sponza.gltf", "flight_helmet/FlightHelmet.gltf", "features/alpha_mask/01_alpha_mask.gltf",
+          "features/single_vs_double_sided/01_single_vs_double_sided.gltf"}) {
+        if (!std::filesystem::exists(assets() / name)) continue;
+        const Scene scene = loadScene((assets() / name).string());
+        Renderer renderer(byCompute(), scene, computePipelines());
+        expectTheKernelChangesNoBit(renderer, name, [](Settings& settings) { settings.size = {320, 180}; });
+        ++drawn;
+    }
+    if (drawn == 0) GTEST_SKIP() << "none of them is in " << assets().string();
+}
+
+// What reads the choice before the frame, or once more after it.
+TEST(ComputeCulling, ChangesNoBitUnderAnySetting) {
+    const Scene scene = loadScene("builtin:gallery");
+    Renderer gallery(byCompute(), scene, computePipelines());
+    for (const Shadows shadows : {Shadows::pcf, Shadows::clipmap})
+        expectTheKernelChangesNoBit(gallery, fmt::format("shadows {}", nameOf(shadows)), [&](Settings& s) {
+            s.shadows = shadows;
+            s.shadow_size = 256;
+        });
+    expectTheKernelChangesNoBit(gallery, "fitted shadows",
+                                [](Settings& s) { s.shadow_fit = ShadowFit::depth; });
+    expectTheKernelChangesNoBit(gallery, "pre-pass", [](Settings& s) { s.prepass = Switch::on; });
+    expectTheKernelChangesNoBit(gallery, "tiled", [](Settings& s) { s.assign = Assignment::tiled; });
+    expectTheKernelChangesNoBit(gallery, "by object", [](Settings& s) { s.assign = Assignment::per_object; });
+}
+
+TEST(ComputeCulling, ChangesNoBitAmongPlacedBalls) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        const Scene scene = placedBalls(seed);
+        Renderer renderer(byCompute(), scene, computePipelines());
+        expectTheKernelChangesNoBit(renderer, fmt::format("seed {}", seed));
+        expectTheKernelChangesNoBit(renderer, fmt::format("seed {}, larger", seed), [](Settings& s) {
+            s.size = {400, 225};
+        });
+    }
+}
+
+DrawnCounts countsOn(Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene,
+                     const Settings& settings) {
+    SceneViews views(scene);
+    SharedResources shared(on, scene, set);
+    const PreparedView view(on, shared, views.at(viewRequest(settings)), settings);
+    return drawnCounts(view.draws, shared.geometry, view.culling);
+}
+
+// The kernel looks at each triangle, where the host keeps clusters whole that reach beyond the view, and at
+// samples also where a pixel has several: it leaves out no less.
+TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
+    std::vector<std::string> names{"builtin:spheres", "builtin:gallery", "builtin:mirrored"};
+    if (std::filesystem::exists(assets() / "sponza/Sponza.gltf"))
+        names.push_back((assets() / "sponza/Sponza.gltf").string());
+    for (const std::string& name : names)
+        for (const int samples : {1, 4}) {
+            const Scene scene = loadScene(name);
+            Settings settings = chosenSettings(Path::deferred, {1280, 720});
+            settings.shadows = Shadows::off;
+            settings.msaa = samples;
+            const DrawnCounts host = countsOn(device(), pipelines(), scene, settings),
+                              kernel = countsOn(byCompute(), computePipelines(), scene, settings);
+            const std::string found =
+                fmt::format("{} {}: host {}, kernel {} of {}; vertices {} and {}", name, samples, host.drawn,
+                            kernel.drawn, host.in_view, host.vertices, kernel.vertices);
+            RecordProperty(
+                fmt::format("{}_{}", testName(std::filesystem::path(name).stem().string()), samples), found);
+            EXPECT_EQ(kernel.in_view, host.in_view) << found;
+            EXPECT_LE(kernel.drawn, host.drawn) << found;
+            EXPECT_GT(4 * kernel.drawn, 3 * host.drawn) << found;
+        }
+}
+
+// More parts than a row of workgroups has.
+TEST(ComputeCulling, ChoosesOfManyMeshes) {
+    const Scene scene = loadScene("builtin:array?objects=34000&triangles=68000&meshes=34000");
+    Settings settings = chosenSettings(Path::deferred, {1280, 720});
+    settings.shadows = Shadows::off;
+    const DrawnCounts host = countsOn(device(), pipelines(), scene, settings),
+                      kernel = countsOn(byCompute(), computePipelines(), scene, settings);
+    EXPECT_GT(host.draws, gpu::CULLING_GROUPS);
+    EXPECT_EQ(kernel.draws, host.draws);
+    EXPECT_EQ(kernel.drawn, host.drawn);
+    EXPECT_EQ(kernel.vertices, host.vertices);
+}
+
+// A pass before all others, whose indices and draws what draws the scene reads.
+TEST(ComputeCulling, IsAPassOfTheFrame) {
+    const Scene scene = loadScene("builtin:spheres");
+    for (const Path path : drawn_paths) {
+        SharedResources shared(byCompute(), scene, computePipelines());
+        Settings settings = chosenSettings(path);
+        settings.prepass = Switch::on;
+        const SceneView view = makeSceneView(scene, viewRequest(settings));
+        const auto passesReading = [&](const PreparedFrame& frame, const std::string& resource) {
+            std::vector<std::string> names;
+            for (const DeclaredUse& use : frame.passes.declarations())
+                if (use.resource == resource && !writes(use.access)) names.push_back(use.pass);
+            return names;
+        };
+        const PreparedFrame frame(byCompute(), shared, view, settings);
+        EXPECT_EQ(frame.passes.names().front(), Culling::name);
+        const std::vector<std::string> drawing = path == Path::deferred
+                                                     ? std::vector<std::string>{"G-buffer"}
+                                                     : std::vector<std::string>{"depth pre-pass", "shade"};
+        EXPECT_EQ(passesReading(frame, "indirect draws"), drawing);
+        EXPECT_EQ(passesReading(frame, "chosen indices"), drawing);
+        settings.cull = false;
+        const PreparedFrame whole(byCompute(), shared, view, settings);
+        EXPECT_NE(whole.passes.names().front(), Culling::name);
+        EXPECT_TRUE(passesReading(whole, "indirect draws").empty());
+    }
+    // Both the host's part and the device's are its time, under one name.
+    Renderer renderer(byCompute(), scene, computePipelines());
+    const std::vector<Settings> each{chosenSettings(Path::deferred)};
+    PreparedFrames frames = renderer.prepare(each);
+    frames.draw(0);
+    const std::vector<PassTime> times = frames.profile(0);
+    EXPECT_EQ(std::ranges::count(times, std::string(Culling::name), &PassTime::name), 1);
+    EXPECT_EQ(times.front().name, Culling::name);
+}
+
+}  // namespace
+}  // namespace diptych::tests
