@@ -81,7 +81,7 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     return out + fmt::format("<td>{}</td></tr>\n", fate);
 }
 
-// What was drawn first, the fastest first; then what was not.
+// What was judged first, the fastest first; then what was not.
 std::string candidateTable(const ChoiceReport& report) {
     std::vector<std::size_t> order(report.choice.candidates.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -38,7 +38,7 @@ public:
                 if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
         out += names() + legend();
         return plotElement(plotWidth, plotHeight,
-                           fmt::format("{} over time of what was drawn, {}", report_.figure, report_.scene),
+                           fmt::format("{} over time of what was judged, {}", report_.figure, report_.scene),
                            place, out);
     }
 

@@ -30,7 +30,7 @@ constexpr double estimateAtFirst = 0.2, estimatesAtFirst = 4;
 // A change is worth combining if it takes off so much of the time, in logarithms.
 constexpr double worthTime = -0.02;
 // What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
-// what is slower by so much is not judged.
+// what is slower by so much is not looked at.
 constexpr double hopeless = 0.5, worthJudging = 0.1;
 // After so many that fit and were not faster by as much as matters, in logarithms, no more are drawn.
 constexpr double worthNoticing = 0.01;
@@ -55,7 +55,7 @@ public:
     LearnedSpread(double deviation, double counts)
         : squares_(deviation * deviation * counts), seen_(counts) {}
     void add(double value, double taken_for) {
-        if (!(taken_for > 0)) return;
+        if (!(taken_for > 0) || !std::isfinite(value) || !std::isfinite(taken_for)) return;
         const double off = std::log(std::max(value, 1e-12) / taken_for);
         squares_ += off * off;
         ++seen_;
@@ -80,7 +80,7 @@ public:
             findMostAccurate();
         } else {
             findFastest();
-            while (fitting().empty() && judgeNearest()) findFastest();
+            while (isNoneAccurate() && judgeNearest()) findFastest();
         }
         for (std::size_t i = 0; i < all_.size(); ++i) {
             all_[i].predicted = model_.predict(i);
@@ -129,9 +129,10 @@ private:
     // What an estimate of the path's would be in all, if it grew as that of the first candidate does.
     double scaled(Path path, double estimate) const {
         const auto first = first_estimates_.find(path);
-        return first == first_estimates_.end() || !(first->second > 0)
-                   ? estimate
-                   : estimate * first_errors_.at(path) / first->second;
+        if (first == first_estimates_.end()) return estimate;
+        const double factor = first_errors_.at(path) / first->second;
+        // Without one where the first candidate's pictures are right or hold no numbers.
+        return std::isfinite(factor) && factor > 0 ? estimate * factor : estimate;
     }
     // The error of a candidate with one change at most, about, where that takes less than judging it.
     void estimate(std::size_t i) {
@@ -243,7 +244,7 @@ private:
     // Draws candidates that have a new change each in a random order, so that a drift of the device is no
     // effect of a change; left out is what a known change rules out. Where the fastest is wanted and the
     // first candidate is within the error, passes are timed first, and what makes a frame slower is not
-    // judged; else what is not timed is what exceeds the error by itself.
+    // looked at; else what is not timed is what exceeds the error by itself.
     void measure(std::vector<std::size_t> which, double from, double to) {
         std::ranges::shuffle(which, random_);
         for (std::size_t k = 0; k < which.size(); ++k) {
@@ -338,7 +339,14 @@ private:
         }
     }
 
-    // The candidates that are drawn and fit, but for their time, the fastest by the model first.
+    // Whether no candidate that was judged is within the error and the memory, whatever time it takes.
+    bool isNoneAccurate() const {
+        return std::ranges::none_of(all_, [](const Candidate& candidate) {
+            return candidate.isFit() || candidate.fate == Fate::too_slow;
+        });
+    }
+
+    // The candidates that are judged and fit, but for their time, the fastest by the model first.
     std::vector<std::size_t> fitting() const {
         std::vector<std::size_t> fit;
         for (std::size_t i = 0; i < all_.size(); ++i)
@@ -358,7 +366,7 @@ private:
         return prediction.log_ms - benefit * prediction.deviation;
     }
 
-    // Of those that were not drawn and may fit, the one that may be the fastest, if that is faster than
+    // Of those that were not judged and may fit, the one that may be the fastest, if that is faster than
     // `best`, a logarithm; `none` where there is none.
     std::size_t mostPromising(double best) {
         std::size_t next = none;
@@ -377,7 +385,7 @@ private:
     }
 
     void findFastest() {
-        std::size_t in_vain = 0;  // drawn since the last one that was faster
+        std::size_t in_vain = 0;  // judged since the last one that was faster
         for (std::size_t seen = 0;; ++seen) {
             std::vector<std::size_t> fit = fitting();
             if (!fit.empty() && all_[fit.front()].timings == 0) {

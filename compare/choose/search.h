@@ -69,9 +69,9 @@ struct SearchOptions {
 enum class Fate {
     unseen,    // the model says that it is no better
     spoilt,    // one of its changes exceeds the error by itself
-    misses,    // drawn: exceeds the error or the memory
-    too_slow,  // drawn: exceeds the time, as timed or as the model says
-    fits,      // drawn, and not better by the model
+    misses,    // judged: exceeds the error or the memory
+    too_slow,  // judged: exceeds the time, as timed or as the model says
+    fits,      // judged, and not better by the model
     raced,
 };
 
@@ -79,7 +79,7 @@ struct Candidate {
     Settings settings;
     Fate fate = Fate::unseen;
     std::optional<Judged> judged{};
-    std::optional<double> estimated{};  // Lab::estimate()
+    std::optional<double> estimated{};  // by one camera, as Lab::estimate() says
     std::size_t timings = 0;
     Prediction predicted{};              // by all that was timed
     std::vector<PassTime> passes{};      // likewise

@@ -54,14 +54,14 @@ void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
                                     camera.holds ? "" : ", which is too much: give --camera for both"));
 }
 
-// How the chosen Settings compare with the best of the other path that were drawn and fit, pass by pass.
+// How the chosen Settings compare with the best of the other path that were judged and fit, pass by pass.
 std::string whyInWords(const ChoiceReport& report) {
     const Choice& choice = report.choice;
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
     const std::optional<std::size_t> best = bestOfOtherPath(report);
-    if (!best) return "of the other path nothing fits and was worth drawing";
+    if (!best) return "of the other path nothing that was judged fits";
     const Candidate& other = choice.candidates[*best];
     std::map<std::string, std::pair<double, double>> passes;  // chosen, other
     constexpr double noPass = 2e-3;  // of a frame: the model's time of a pass that there is not is not 0
@@ -126,7 +126,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"ms", candidate.ms()},
               {"frames_timed", candidate.timings}};
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
-    json["estimated_error"] = candidate.estimated ? Json(*candidate.estimated) : Json();
+    json["first_camera_error"] = candidate.estimated ? Json(*candidate.estimated) : Json();
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
     if (candidate.standing)
         json["race"] = {{"ratio", candidate.standing->ratio},

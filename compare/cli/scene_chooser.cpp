@@ -118,6 +118,9 @@ SceneChooser::~SceneChooser() = default;
 
 SceneChooser::Held& SceneChooser::hold(const std::string& scene, const Stage& progress) {
     if (held_ && held_->where == scene) return *held_;
+    if (held_)
+        if (const auto before = references_.find(held_->where); before != references_.end())
+            for (const auto& errors : before->second.errors) errors->release();
     held_.reset();
     held_ = std::make_unique<Held>(scene, loadShown(scene, options_.settings, progress), device_, pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())

@@ -26,12 +26,14 @@ bool SceneLab::isOfReferenceSize(const Settings& settings) const {
     return settings.size == references_.frames.front().settings.size;
 }
 
-const tradeoff::FrameErrors& SceneLab::errorsOf(std::size_t camera, const Image& lit) {
+tradeoff::FrameErrors SceneLab::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
-    const auto [known, is_new] = judged_.try_emplace({camera, key.value()});
-    if (is_new) known->second = references_.errors[camera]->forFigure(figure_, lit);
-    return known->second;
+    const std::pair picture(camera, key.value());
+    if (const auto known = judged_.find(picture); known != judged_.end()) return known->second;
+    tradeoff::FrameErrors errors = references_.errors[camera]->forFigure(figure_, lit);
+    if (errors.pixels.empty()) judged_.emplace(picture, errors);
+    return errors;
 }
 
 choose::Judged SceneLab::judge(const Settings& settings) {

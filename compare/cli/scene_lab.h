@@ -31,15 +31,18 @@ public:
     std::optional<double> estimate(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the frames that it keeps: each has images of its own.
-    void release() { drawn_.clear(); }
+    void release() {
+        drawn_.clear();
+        judged_.clear();
+    }
     std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override;
 
 private:
     std::size_t cameras() const { return references_.frames.size(); }
     bool isOfReferenceSize(const Settings& settings) const;
     choose::Judged judgeCaptured(const Settings& settings);
-    // Of a picture from one of the cameras; what was judged before is known by its pixels.
-    const tradeoff::FrameErrors& errorsOf(std::size_t camera, const Image& lit);
+    // Of a picture from one of the cameras; FLIP of what was judged before is known by its pixels.
+    tradeoff::FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
     struct Drawn {
         Settings settings;
@@ -51,15 +54,16 @@ private:
     void prepare(std::span<const Settings> seen);
     Drawn& prepared(const Settings& seen);
     PreparedFrames& drawn(const Settings& seen);  // that were prepared, drawn once at least
-    Drawn& readyForTimes(
-        const Settings& seen);  // that were prepared, and whose next frame is like all others
+    // That were prepared, and whose next frame, which the caller draws, is like all others.
+    Drawn& readyForTimes(const Settings& seen);
 
     Renderer& renderer_;
     const tradeoff::ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
     std::list<Drawn> drawn_;
-    std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;  // by camera and picture
+    // By camera and picture; only of FLIP, as other figures hold every pixel.
+    std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;
 };
 
 }  // namespace diptych::cli

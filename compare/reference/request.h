@@ -45,8 +45,8 @@ struct Request {
     // Whether the picture tells what approximations of the environment cost, and what geometry hides of it
     // and of ambient light.
     bool environment_costs = false, surroundings = false;
-    // Whether it tells what is seen of suns, points and spots and how far the edges of their shadows are,
-    // most of whose rays light needs none of; else it has neither channel, nor edges.
+    // Whether it tells how much of suns, points and spots is seen, and how far the edges of their shadows
+    // are. Most of the rays for that are not needed for light. Without it there are no such channels.
     bool shadow_edges = true;
     const Environment* environment() const {
         return residual ? residual : scene.environment ? &*scene.environment : nullptr;

@@ -30,7 +30,7 @@ struct RenderOptions {
     // light and of ambient light geometry hides (Frame::hidden_light).
     bool environment_errors = false;
     // reference: also what is seen of suns, points and spots, and Frame::shadow_edge and local_shadow_edge.
-    // About half of the rays of a picture with a sun.
+    // That takes about half of the rays of a picture with a sun.
     bool shadow_edges = true;
     bool twice = false;  // draw every channel twice, for Frame::noise
     // Whether what makes the other channels draws lit, too, and counts where it is not the timed frame's.

@@ -117,8 +117,12 @@ ErrorsAgainst::ErrorsAgainst(const Frame& reference)
     : coverage_(coverage(reference, reference)),  // the same pixels for every row
       reference_(reference.channels.at(LIT)),
       covered_(covered(reference_)),
-      relative_(debugMode(LIT).metric, debugMode(LIT).kind, reference_, coverage_),
-      flip_(covered_, flipOver(coverage_)) {}
+      relative_(debugMode(LIT).metric, debugMode(LIT).kind, reference_, coverage_) {}
+
+const HdrFlipAgainst& ErrorsAgainst::flip() const {
+    if (!flip_) flip_.emplace(covered_, flipOver(coverage_));
+    return *flip_;
+}
 
 Image ErrorsAgainst::covered(const Image& lit) const {
     Image image = lit;
@@ -138,24 +142,25 @@ std::vector<double> ErrorsAgainst::pixelsOf(const Image& lit) const {
 FrameErrors ErrorsAgainst::operator()(const Image& lit) const {
     FrameErrors result;
     result.pixels = pixelsOf(lit);
-    HdrFlipResult flip = flip_(covered(lit));
-    result.flip = std::move(flip.error);
-    result.flip_pixels = flip.pixels;
-    result.flip_sum = flip.mean * static_cast<double>(flip.pixels);
+    HdrFlipResult seen = flip()(covered(lit));
+    result.flip = std::move(seen.error);
+    result.flip_pixels = seen.pixels;
+    result.flip_sum = seen.mean * static_cast<double>(seen.pixels);
     const RelativeErrors relative = relativeErrors(result.pixels);
-    result.errors = {knownOrInfinite(flip.mean), relative.rmse, relative.p99};
+    result.errors = {knownOrInfinite(seen.mean), relative.rmse, relative.p99};
     return result;
 }
 
 FrameErrors ErrorsAgainst::forFigure(std::size_t figure, const Image& lit) const {
     FrameErrors result;
-    if (errorFigures.at(figure).name != errorFigures.front().name) {
+    constexpr std::size_t flipFigure = 0;  // the others are of the pixels' relative errors
+    if (figure != flipFigure) {
         result.pixels = pixelsOf(lit);
         return result;
     }
-    const HdrFlipAgainst::Mean flip = flip_.mean(covered(lit));
-    result.flip_pixels = flip.pixels;
-    result.flip_sum = flip.mean * static_cast<double>(flip.pixels);
+    const HdrFlipAgainst::Mean seen = flip().mean(covered(lit));
+    result.flip_pixels = seen.pixels;
+    result.flip_sum = seen.mean * static_cast<double>(seen.pixels);
     return result;
 }
 

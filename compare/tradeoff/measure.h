@@ -9,6 +9,7 @@
 #include "shared/scene/requirements.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ struct FrameErrors {
     std::uint64_t flip_pixels = 0;
 };
 
-// Errors of lit from one camera against its reference's. What is of the reference alone is made once.
+// Errors of lit from one camera against its reference's. What is of the reference alone is made once; not
+// for several threads at a time.
 class ErrorsAgainst {
 public:
     explicit ErrorsAgainst(const Frame& reference);
@@ -34,17 +36,20 @@ public:
     FrameErrors operator()(const Image& lit) const;
     // What one of errorFigures needs of several cameras' errors: either flip_sum and flip_pixels or `pixels`.
     FrameErrors forFigure(std::size_t figure, const Image& lit) const;
+    // Lets go of what FLIP keeps of the reference, some 256 MiB at most; it is made anew where it is needed.
+    void release() const { flip_.reset(); }
 
 private:
     std::vector<double> pixelsOf(const Image& lit) const;
     // Without what is not covered, which FLIP's filters would read beside what is.
     Image covered(const Image& lit) const;
+    const HdrFlipAgainst& flip() const;
 
     const Coverage coverage_;
     const Image reference_;  // of every pixel
     const Image covered_;
     const PixelError relative_;
-    const HdrFlipAgainst flip_;
+    mutable std::optional<HdrFlipAgainst> flip_;
 };
 
 // The reference frames with which all rows of a sweep are compared.

@@ -181,6 +181,7 @@ private:
                other.mirrored == item.mirrored && culledOf(source_, other) == culledOf(source_, item) &&
                areSame(constants_of_(other), constants_);
     }
+
     VkCommandBuffer commands_;
     const FrameInputs& inputs_;
     const DrawSource& source_;

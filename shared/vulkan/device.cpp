@@ -47,6 +47,7 @@ struct Device::State {
     DeviceInfo info;
     DeviceProfile profile;
     VkPhysicalDeviceLimits limits{};
+    std::uint32_t indirect_draws = 1;
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
@@ -85,6 +86,9 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.timestamp_bits = queues.at(family).timestampValidBits;
     s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
     if (!beginsAtAnyInstance(s.physical)) s.profile.culls_by_compute = false;
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(s.physical, &features);
+    if (features.multiDrawIndirect == VK_TRUE) s.indirect_draws = s.limits.maxDrawIndirectCount;
     s.device.reset(createDevice(s.physical, family));
     s.draw_division.emplace(s.device.get(), s.profile.bins_at_once);
     s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
@@ -141,9 +145,7 @@ bool Device::sortsFragments() const {
     return diptych::sortsFragments(state_->physical);
 }
 std::uint32_t Device::indirectDraws() const {
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(state_->physical, &features);
-    return features.multiDrawIndirect == VK_TRUE ? state_->limits.maxDrawIndirectCount : 1;
+    return state_->indirect_draws;
 }
 const DeviceProfile& Device::profile() const {
     return state_->profile;

@@ -81,6 +81,7 @@ TEST(ShadowCulling, ChangesNoBitAmongManyCasters) {
                                                     {Shadows::pcf, 128, 7},
                                                     {Shadows::pcss, 256, 3},
                                                     {Shadows::evsm, 256, 5},
+                                                    {Shadows::evsm4, 256, 7},
                                                     {Shadows::msm4, 256, 3},
                                                     {Shadows::clipmap, 512, 3}}) {
             Light sun = sunAt(degrees);
