@@ -32,7 +32,8 @@ constexpr double worthTime = -0.02;
 // What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
 // what is slower by so much is not looked at.
 constexpr double hopeless = 0.5, worthJudging = 0.1;
-// After so many that fit and were not faster by as much as matters, in logarithms, no more are drawn.
+// After so many that fit and were not faster by as much as matters, in logarithms, no more are
+// judged.
 constexpr double worthNoticing = 0.01;
 constexpr std::size_t mostInVain = 16;
 constexpr std::size_t changesAtOnce = 3;
