@@ -466,10 +466,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         return addOutput(app, options);
     }
 
-    app.add_option("scene", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
+    app.add_option("scenes", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
         ->type_name("SCENE...");
     if (command == "compare" || command == "tradeoff" || command == "choose")
-        app.get_option("scene")->description(
+        app.get_option("scenes")->description(
             "glTF files, builtin:NAME, folders, patterns as 'scenes/**/*.glb', lists as @scenes.txt "
             "(builtin:gallery)");
     addSettings(app, parsed, command == "bench" ? "assign" : "");
@@ -530,7 +530,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addRenderers(app, parsed, "another renderer, whose picture is the other one");
         app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")
             ->type_name("FILE");
-        app.get_option("scene")->description(
+        app.get_option("scenes")->description(
             "a glTF file or builtin:NAME (builtin:gallery); or two EXR files");
         app.add_option(
                "--test", parsed.test,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/geometry.h"
 
-#include <embree3/rtcore.h>
+#include "shared/scene/embree.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
@@ -30,7 +31,7 @@ namespace {
 // Data of one ray query, passed through Embree to the filter.
 struct RayQuery {
     // Must come first: Embree passes back a pointer to it, which is cast to RayQuery.
-    RTCIntersectContext context;
+    EmbreeContext context;
     const Geometry* geometry;
     const Ray* ray;
     const Geometry::Counts* counts;
@@ -84,7 +85,7 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device) check(nullptr, "device");
     embree_->scene = rtcNewScene(embree_->device);
-    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST | embree_filter_flag);
     rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
     tbb::parallel_for(std::size_t{0}, pose.instances.size(), [&](std::size_t i) {
         const TriangleId first{static_cast<std::uint32_t>(i), 0};
@@ -197,23 +198,17 @@ std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& ori
 
 std::optional<Hit> Geometry::nearest(const Ray& ray, const Counts& counts) const {
     RayQuery query{{}, this, &ray, &counts, {}};
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = filter;
     RTCRayHit request{};
     request.ray = single(ray);
     request.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_->scene, &query.context, &request);
+    embreeIntersect(embree_->scene, query.context, filter, request);
     if (request.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return query.hit;
 }
 
 bool Geometry::meets(const Ray& ray, const Counts& counts) const {
     RayQuery query{{}, this, &ray, &counts, {}};
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = filter;
-    RTCRay request = single(ray);
-    rtcOccluded1(embree_->scene, &query.context, &request);
-    return request.tfar < 0;
+    return embreeOccluded(embree_->scene, query.context, filter, single(ray));
 }
 
 }  // namespace diptych::reference

@@ -289,15 +289,17 @@ struct Presenter::State {
         makeFontTexture();
     }
 
-    template <class Record>
-    void submitNow(const Record& record) {
+    void makeFontTexture() {
+#if IMGUI_VERSION_NUM >= 19000
+        ImGui_ImplVulkan_CreateFontsTexture();  // submits and waits
+#else
         FrameInFlight& first = frames.front();
         check(vkDeviceWaitIdle(device.handle), "vkDeviceWaitIdle");
         check(vkResetCommandPool(device.handle, first.pool, 0), "vkResetCommandPool");
         const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                              VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
         check(vkBeginCommandBuffer(first.commands, &begin), "vkBeginCommandBuffer");
-        record(first.commands);
+        ImGui_ImplVulkan_CreateFontsTexture(first.commands);
         check(vkEndCommandBuffer(first.commands), "vkEndCommandBuffer");
         VkSubmitInfo submit{};
         submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
@@ -305,11 +307,8 @@ struct Presenter::State {
         submit.pCommandBuffers = &first.commands;
         check(vkQueueSubmit(queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
         check(vkDeviceWaitIdle(device.handle), "vkDeviceWaitIdle");
-    }
-
-    void makeFontTexture() {
-        submitNow([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
         ImGui_ImplVulkan_DestroyFontUploadObjects();
+#endif
     }
 
     // ---- as the window changes

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/visible_surface.h"
 
+#include "shared/scene/embree.h"
 #include "shared/scene/motion/posed.h"
 
-#include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -35,9 +35,9 @@ double uniformOf(std::uint64_t i) {
     return static_cast<double>((i ^ (i >> 31)) >> 11) * 0x1p-53;
 }
 
-// Of RTCIntersectContext, with whose triangles they are.
+// A query and the owners of its triangles.
 struct SeenContext {
-    RTCIntersectContext context;  // first: Embree gives back a pointer to it
+    EmbreeContext context;  // first: Embree gives back a pointer to it
     const std::vector<Owner>* owners;
 };
 
@@ -88,7 +88,7 @@ struct VisibleSurface::Traced {
         device = rtcNewDevice("threads=1");
         if (!device) throw std::runtime_error("Embree could not start");
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | embree_filter_flag);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         corners.emplace_back(0);  // Embree reads 16 bytes of the last one
@@ -159,8 +159,6 @@ std::optional<VisibleSurface::Seen> VisibleSurface::nearest(const glm::dvec3& or
     // Embree takes no ray from nowhere or from beyond its range.
     if (!(glm::dot(from, from) < 1e12) || !(glm::dot(direction, direction) > 0)) return std::nullopt;
     SeenContext query{{}, &traced_->owners};
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = passBackFaces;
     RTCRayHit request{};
     request.ray = {static_cast<float>(from.x),
                    static_cast<float>(from.y),
@@ -175,7 +173,7 @@ std::optional<VisibleSurface::Seen> VisibleSurface::nearest(const glm::dvec3& or
                    0,
                    0};
     request.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(traced_->scene, &query.context, &request);
+    embreeIntersect(traced_->scene, query.context, passBackFaces, request);
     if (request.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const glm::dvec3 normal =
         glm::normalize(glm::dvec3(request.hit.Ng_x, request.hit.Ng_y, request.hit.Ng_z));

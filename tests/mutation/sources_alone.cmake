@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Given to CMake as CMAKE_PROJECT_INCLUDE by mutate.py: the product's sources are compiled one by one, so that an edit
-# recompiles one of them; those of the tests, which no edit touches, stay together (DIPTYCH_UNITY). Warnings are none
-# that a test would notice: what an edit leaves unused is no error.
+# recompiles one of them; those of the tests, which no edit touches, stay together (DIPTYCH_UNITY).
 function(diptych_sources_alone folder)
   get_directory_property(targets DIRECTORY ${folder} BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
@@ -14,8 +13,4 @@ function(diptych_sources_alone folder)
     diptych_sources_alone(${subfolder})
   endforeach()
 endfunction()
-function(diptych_warnings_are_no_errors)
-  target_compile_options(diptych_options INTERFACE -Wno-error)  # behind -Werror
-endfunction()
-cmake_language(DEFER CALL diptych_warnings_are_no_errors)
 cmake_language(DEFER CALL diptych_sources_alone ${CMAKE_CURRENT_SOURCE_DIR})

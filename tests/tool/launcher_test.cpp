@@ -101,6 +101,22 @@ TEST_F(Launcher, InstallsWhatIsMissingAndSaysSo) {
     EXPECT_EQ(ran.out, "<devices>" + home_.path().string() + "\n");
 }
 
+TEST_F(Launcher, OfAlternativesTakesWhatTheSystemHas) {
+    home_.write("repository/packages.txt", "alpha\nbeta-dev|beta8-dev|beta9-dev\n");
+    home_.write("bin/apt-cache", "#!/bin/sh\n[ \"$2\" != beta-dev ]\n", true);
+    installed("alpha beta9-dev");
+    EXPECT_EQ(run("devices").code, 3);
+    EXPECT_FALSE(fs::exists(home_ / "apt.log")) << "any of them will do";
+    installed("alpha");
+    EXPECT_TRUE(run("--no-install devices").failedOver("beta-dev|beta8-dev|beta9-dev"));
+    EXPECT_EQ(run("devices").code, 3);
+    EXPECT_NE(contentsOf(home_ / "apt.log").find("install beta8-dev\n"), std::string::npos);
+    home_.write("bin/apt-cache", "#!/bin/sh\nexit 100\n", true);
+    run("devices");
+    EXPECT_NE(contentsOf(home_ / "apt.log").find("install beta-dev|beta8-dev|beta9-dev\n"), std::string::npos)
+        << "apt-get says what it does not know";
+}
+
 TEST_F(Launcher, OnlyTestInstallsWhatOnlyTestsNeed) {
     installed("alpha beta-dev");
     EXPECT_EQ(run("devices").code, 3);
@@ -228,9 +244,11 @@ TEST(Packages, AreNamedOnce) {
     for (std::string line; std::getline(lines, line);) {
         line = line.substr(0, line.find('#'));
         if (line.empty()) continue;
-        EXPECT_EQ(line.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789+-."), std::string::npos)
+        EXPECT_EQ(line.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789+-.|"), std::string::npos)
             << line;
-        EXPECT_TRUE(names.insert(line).second) << line;
+        std::istringstream alternatives(line);
+        for (std::string name; std::getline(alternatives, name, '|');)
+            EXPECT_TRUE(names.insert(name).second) << line;
     }
     EXPECT_TRUE(names.contains("g++") && names.contains("mesa-vulkan-drivers") && names.contains("clang"));
 }

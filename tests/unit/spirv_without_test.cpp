@@ -124,7 +124,7 @@ void compile(const fs::path& root, std::string_view name, const fs::path& out) {
                     root.string(), definitionsOf(name, source), (root / "shaders/pass" / source).string(),
                     out.string()));
     run(fmt::format("'{}' '{}'", DIPTYCH_EXACT_SPIRV, out.string()));
-    run(fmt::format("'{0}' -Os '{1}' -o '{1}'", DIPTYCH_SPIRV_OPT, out.string()));
+    run(fmt::format("'{0}' -Os --scalar-block-layout '{1}' -o '{1}'", DIPTYCH_SPIRV_OPT, out.string()));
 }
 
 // Freezes every specialization constant, at `values` or else 0, and removes what is dead. Returns what is
@@ -133,7 +133,7 @@ std::vector<std::string> specialised(const fs::path& module, const std::string& 
                                      std::map<std::string, std::size_t>& known) {
     const fs::path small = module.string() + ".small", text = module.string() + ".text";
     run(fmt::format(
-        "'{}' --strip-debug --set-spec-const-default-value '{}' --freeze-spec-const "
+        "'{}' --scalar-block-layout --strip-debug --set-spec-const-default-value '{}' --freeze-spec-const "
         "--fold-spec-const-op-composite --ccp --simplify-instructions "
         "--eliminate-dead-branches --merge-blocks --eliminate-dead-functions --vector-dce "
         "--eliminate-dead-code-aggressive --eliminate-dead-variables --remove-unused-interface-variables "

@@ -248,13 +248,22 @@ std::vector<Withheld> withholdIndices(Json& document) {
     return withheld;
 }
 
+// Callbacks that find no file. tinygltf 2.9 takes none of them unless all are there, and has one more.
+template <class Callbacks>
+Callbacks noFiles() {
+    Callbacks files{};
+    files.FileExists = [](const std::string&, void*) { return false; };
+    files.ExpandFilePath = [](const std::string& name, void*) { return name; };
+    files.ReadWholeFile = [](Bytes*, std::string*, const std::string&, void*) { return false; };
+    files.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) { return false; };
+    if constexpr (requires { files.GetFileSizeInBytes; })
+        files.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) { return false; };
+    return files;
+}
+
 tinygltf::Model parseModel(const std::string& text) {
     tinygltf::TinyGLTF parser;
-    // The document no longer names any file, so these are never called.
-    parser.SetFsCallbacks(
-        {[](const std::string&, void*) { return false; }, [](const std::string& name, void*) { return name; },
-         [](Bytes*, std::string*, const std::string&, void*) { return false; },
-         [](std::string*, const std::string&, const Bytes&, void*) { return false; }, nullptr});
+    parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());  // the document no longer names any file
     tinygltf::Model model;
     std::string error, warning;
     bool parsed = false;

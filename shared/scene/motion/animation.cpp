@@ -160,8 +160,8 @@ NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choic
             if (channel.part == AnimatedPart::rotation)
                 t.rotation = {values[3], values[0], values[1], values[2]};
             else
-                (channel.part == AnimatedPart::scale ? t.scale : t.translation) = {values[0], values[1],
-                                                                                   values[2]};
+                (channel.part == AnimatedPart::scale ? t.scale : t.translation) =
+                    glm::dvec3(values[0], values[1], values[2]);
         }
     }
     for (const auto& [node, t] : moved) {
