@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Embree 3 (Debian 12) or 4 (Debian 13, Ubuntu 24.04): one way to cast a ray whose candidates a filter judges.
+// Embree 3 (Debian 12) or 4 (Debian 13, Ubuntu 24.04): one way to cast a ray whose candidates a filter
+// judges.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)

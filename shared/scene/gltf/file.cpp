@@ -257,7 +257,9 @@ Callbacks noFiles() {
     files.ReadWholeFile = [](Bytes*, std::string*, const std::string&, void*) { return false; };
     files.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) { return false; };
     if constexpr (requires { files.GetFileSizeInBytes; })
-        files.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) { return false; };
+        files.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
+            return false;
+        };
     return files;
 }
 
