@@ -210,7 +210,9 @@ private:
 
     void locateSparse(const tinygltf::Model& model) {
         const auto& sparse = file_.sparse;
-        if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
+        // Unsigned since tinygltf 2.9, which then holds what no file of 2^63 bytes could.
+        const auto negative = [](auto value) { return static_cast<std::int64_t>(value) < 0; };
+        if (sparse.count < 0 || negative(sparse.indices.byteOffset) || negative(sparse.values.byteOffset))
             fail(who_, "its sparse count or an offset is negative");
         if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices are of no index type");
         const auto count = static_cast<std::size_t>(sparse.count);

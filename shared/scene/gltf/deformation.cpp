@@ -80,8 +80,8 @@ void readTargets(const AttributeReader& reader, std::size_t count, Primitive& pr
         for (const auto& [name, accessor] : reader.file.targets[t]) {
             if (name.starts_with('_')) continue;
             const std::string what = fmt::format("target {}: {}", t, name);
-            const auto take = [&, accessor = accessor](auto& deltas, const auto& read) {
-                deltas = read(reader.model, accessor, reader.who + ": " + what, reader.which);
+            const auto take = [&, from = accessor](auto& deltas, const auto& read) {
+                deltas = read(reader.model, from, reader.who + ": " + what, reader.which);
                 using Delta = typename std::remove_reference_t<decltype(deltas)>::value_type;
                 reader.repair(deltas, Delta(0), what, "0");
             };
