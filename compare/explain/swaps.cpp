@@ -72,7 +72,7 @@ std::string Swaps::shownBy(const DebugMode& mode) const {
 void Swaps::findChannels() {
     // Those that change no pixel: swapped alone, and when all others are.
     std::vector<std::size_t> inert = lighting_.differing();
-    for (const std::size_t side : {1u, 0u}) {
+    for (const std::size_t side : {1, 0}) {
         const Settings& settings = sides_.settings(side);
         const std::uint32_t all = allChannelsOf(side);
         const Image whole = lighting_.lit(settings, all);

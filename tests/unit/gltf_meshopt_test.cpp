@@ -185,12 +185,14 @@ TEST(GltfMeshopt, OctahedralNormalsOf8And16Bits) {
     }
 }
 
-// Positions that are small integers have few bits, which the exponential filter keeps exactly.
+// The exponential filter: a signed exponent in 8 bits above a signed mantissa in 24
+// (EXT_meshopt_compression).
 TEST(GltfMeshopt, ExponentialPositions) {
     GltfFile f = GltfFile::triangle();
     const std::vector<float> positions{0, 0, 0, 1.5f, 0, 0, 0, -1024, 0.25f};
-    std::vector<std::uint32_t> filtered(9);
-    meshopt_encodeFilterExp(filtered.data(), 3, 12, 24, positions.data());
+    std::vector<std::uint32_t> filtered;
+    for (const float p : positions)  // all are multiples of 2^-2
+        filtered.push_back(0xfeu << 24 | (static_cast<std::uint32_t>(static_cast<int>(p * 4)) & 0xffffffu));
     f.primitive()["attributes"]["POSITION"] =
         accessor(f, attributes(filtered, 12), 3, 12, "ATTRIBUTES", "EXPONENTIAL", FLOAT, "VEC3");
     const Scene scene = loadScene(written(f));

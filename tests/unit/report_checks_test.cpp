@@ -5,6 +5,7 @@
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

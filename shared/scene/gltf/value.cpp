@@ -50,8 +50,7 @@ std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, st
         throw std::runtime_error(
             fmt::format("{}: {} is not an array of {} numbers", who, key, fallback.size()));
     for (std::size_t i = 0; i < fallback.size(); ++i) {
-        // An int before tinygltf 2.9, a size_t since: these numbers are few.
-        const tinygltf::Value& value = array.Get(static_cast<std::uint16_t>(i));
+        const tinygltf::Value& value = array.Get(static_cast<int>(i));
         if (!value.IsNumber()) throw std::runtime_error(fmt::format("{}: {} is not numbers", who, key));
         fallback[i] = value.GetNumberAsDouble();
     }
