@@ -695,7 +695,8 @@ private:
 
     void makePresenter() {
         presenter_.reset();
-        presenter_.emplace(window_.handle(), options_.device.validate ? &log_ : nullptr);
+        presenter_ =
+            std::make_unique<Presenter>(window_.handle(), options_.device.validate ? &log_ : nullptr);
         composed_ = {};
         contents_.shown_by = presenter_->device();
     }
@@ -759,7 +760,7 @@ private:
     Window window_;
     ImGuiContextOf imgui_;
     ValidationLog log_;
-    std::optional<Presenter> presenter_;
+    std::unique_ptr<Presenter> presenter_;
     int presenters_ = 0;
     DrawingThread drawing_;
     Contents contents_;
