@@ -5,19 +5,30 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace diptych::bench {
 namespace {
 
-// NVIDIA Ampere GA102 and Ada AD102 white papers (2020, 2022), AMD RDNA 3 data sheet (2023), NVIDIA H100
-// white paper (2022). Of an H100 two of 66 texture processing clusters, four multiprocessors, run the shaders
-// of draws: its draws are a small GPU's, its memory and compute shaders a large one's.
+// NVIDIA Ampere GA102 and Ada AD102 white papers (2020, 2022), NVIDIA H100 white paper (2022), AMD's data
+// sheets (2017, 2020, 2022, 2023, 2025). Of an H100 two of 66 texture processing clusters, four
+// multiprocessors, run the shaders of draws: its draws are a small GPU's, its memory and compute shaders a
+// large one's.
 constexpr GpuFigures gpus[] = {
     {"NVIDIA GeForce RTX 3060", 360, 5.3, 85, 199, 12'740, 12'740},
     {"NVIDIA GeForce RTX 4090", 1008, 27.7, 443, 1290, 82'600, 82'600},
-    {"AMD Radeon RX 7600", 288, 5.3, 170, 340, 21'750, 21'750},
+    {"AMD Radeon RX 7600", 288, 5.3, 170, 340, 21'750, 21'750, "navi33", 64 * 2.655},
     {"NVIDIA H100 SXM", 3350, 1.8, 43, 32, 2'030, 66'900},
+    // Of AMD SIMD units times the boost clock.
+    {"AMD Radeon RX Vega 64", 484, 6.2, 99, 396, 12'660, 12'660, "vega10", 256 * 1.546},
+    {"AMD Radeon RX 6800 XT", 512, 9, 288, 648, 20'740, 20'740, "navi21", 144 * 2.25},
+    {"AMD Radeon RX 7900 XTX", 960, 15, 480, 960, 61'400, 61'400, "navi31", 192 * 2.5},
+    {"AMD Radeon RX 9070 XT", 640, 11.9, 380, 760, 48'700, 48'700, "gfx1201", 128 * 2.97},
 };
+
+// Threads of the wave that RADV's "Inverse Throughput" is about, whichever size waves have; and how many
+// turns of a loop of unknown length it counts (Mesa, src/amd/compiler/aco_statistics.cpp).
+constexpr double waveThreads = 64, loopWeight = 8;
 
 // Demands are in units, figures in 1e9 units a second.
 double msOf(double units, double giga, double reached) {
@@ -30,25 +41,67 @@ std::span<const GpuFigures> estimatedGpus() {
     return gpus;
 }
 
-std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu,
-                              const EstimateAssumptions& assumed) {
+bool isOfFamily(const GpuFigures& gpu, std::string_view device) {
+    std::string family(gpu.family);
+    for (char& c : family) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return !family.empty() && device.find(family) != std::string_view::npos;
+}
+
+std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu, const EstimateAssumptions& assumed,
+                              const PassCycles* cycles) {
     const PassCounts& n = work.counts;
     const auto real = [](std::uint64_t count) { return static_cast<double>(count); };
     const double operations = work.lights * assumed.light_flops + real(n.fragments) * assumed.fragment_flops +
                               real(n.vertices) * assumed.vertex_flops;
     const double r = assumed.reached;
+    const double arithmetic =
+        cycles != nullptr ? (real(n.vertices) * cycles->vertex + real(n.fragments) * cycles->fragment +
+                             real(n.compute) * cycles->compute + work.lights * cycles->light) /
+                                waveThreads / (gpu.simd_cycles * 1e6)
+                          : msOf(operations, gpu.draw_flops, r) +
+                                msOf(real(n.compute) * assumed.compute_flops, gpu.compute_flops, r);
     return {{"memory", msOf(real(n.read + n.written) + work.vertex_bytes, gpu.bytes, r)},
             {"triangles", msOf(real(n.triangles), gpu.triangles, r)},
             {"outputs", msOf(real(n.outputs), gpu.outputs, r)},
             {"texels", msOf(work.texels * assumed.bilinear_a_texel, gpu.texels, r)},
-            {"arithmetic", msOf(operations, gpu.draw_flops, r) +
-                               msOf(real(n.compute) * assumed.compute_flops, gpu.compute_flops, r)}};
+            {"arithmetic", arithmetic}};
 }
 
-FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed) {
+std::vector<PassCycles> passCycles(const CompiledPath& path) {
+    struct Sum {
+        PassCycles cycles;
+        int pipelines = 0;
+    };
+    std::vector<Sum> sums;
+    for (const PlannedPipeline& pipeline : path.pipelines) {
+        if (pipeline.captures || pipeline.cost() == nullptr || !pipeline.cost()->cycles) continue;
+        auto sum = std::ranges::find(sums, pipeline.pass, [](const Sum& s) { return s.cycles.pass; });
+        if (sum == sums.end()) sum = sums.insert(sum, {{.pass = pipeline.pass}, 0});
+        ++sum->pipelines;
+        const double all = *pipeline.cost()->cycles;
+        const double unlit = std::min(pipeline.unlit_cycles.value_or(all), all);
+        sum->cycles.light += (all - unlit) / loopWeight;
+        for (const CompiledShader& shader : pipeline.compiled.shaders) {
+            const double cycles =
+                &shader == &pipeline.compiled.shaders.back() ? unlit : shader.cost.cycles.value_or(0);
+            (shader.name.ends_with(".vert")   ? sum->cycles.vertex
+             : shader.name.ends_with(".frag") ? sum->cycles.fragment
+                                              : sum->cycles.compute) += cycles;
+        }
+    }
+    std::vector<PassCycles> means;
+    for (const auto& [sum, n] : sums)
+        means.push_back({sum.pass, sum.vertex / n, sum.fragment / n, sum.compute / n, sum.light / n});
+    return means;
+}
+
+FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed,
+                       std::span<const PassCycles> cycles) {
     FrameEstimate result{frame.path, &gpu, 0, {}};
     for (const PassWork& work : frame.passes) {
-        const std::vector<Demand> demands = demandsOf(work, gpu, assumed);
+        const auto known = std::ranges::find(cycles, work.counts.name, &PassCycles::pass);
+        const std::vector<Demand> demands =
+            demandsOf(work, gpu, assumed, known == cycles.end() ? nullptr : &*known);
         const Demand& longest = *std::ranges::max_element(demands, {}, &Demand::ms);
         const bool short_one = longest.ms < assumed.launch_ms;
         result.passes.push_back(

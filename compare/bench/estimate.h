@@ -4,6 +4,7 @@
 // of its demands that takes longest, and passes follow each other.
 #pragma once
 
+#include "compare/render/compiled_plan.h"
 #include "compare/render/frame_work.h"
 
 #include <span>
@@ -18,8 +19,12 @@ namespace diptych::bench {
 struct GpuFigures {
     std::string_view name;
     double bytes, triangles, outputs, texels, draw_flops, compute_flops;
+    std::string_view family = {};  // as RADV calls it: "navi31"
+    double simd_cycles = 0;        // of all SIMD units together
 };
 std::span<const GpuFigures> estimatedGpus();
+// Whether a device of this name, which says its family ("... (RADV NAVI31)"), is of the GPU's.
+bool isOfFamily(const GpuFigures& gpu, std::string_view device);
 
 // What a pass demands, and how long that takes by itself, ms.
 struct Demand {
@@ -32,6 +37,14 @@ struct PassEstimate {
     std::string_view
         bound;  // the demand that takes longest; "launch" where that is less than starting a pass
 };
+// What a compiler says of the pipelines of a pass, on average: cycles of a SIMD unit for a wave of 64
+// threads, without lights, and for a light at each of them.
+struct PassCycles {
+    std::string pass;
+    double vertex = 0, fragment = 0, compute = 0, light = 0;
+};
+std::vector<PassCycles> passCycles(const CompiledPath& path);
+
 struct FrameEstimate {
     Path path = Path::deferred;
     const GpuFigures* gpu = nullptr;
@@ -48,10 +61,12 @@ struct EstimateAssumptions {
     double launch_ms = 0.005;
 };
 
+// `cycles`: of the pass; nullptr: arithmetic is assumed.
 std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu,
-                              const EstimateAssumptions& assumed = {});
-FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu,
-                       const EstimateAssumptions& assumed = {});
+                              const EstimateAssumptions& assumed = {}, const PassCycles* cycles = nullptr);
+// `cycles`: of the passes that a compiler of the GPU's family has compiled; others are assumed.
+FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed = {},
+                       std::span<const PassCycles> cycles = {});
 
 // "deferred on NVIDIA GeForce RTX 3060: 0.42 ms; G-buffer 0.21 (memory), ..."
 std::string inWords(const FrameEstimate& estimate);

@@ -542,11 +542,19 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     } else {
         addFiles(app, options,
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
-        if (command == "plan")
+        if (command == "plan") {
             app.add_flag("--estimate", options.estimate,
                          "draw the frames, count what they ask of a device, and say what they should take on "
                          "some GPUs")
                 ->group("What is planned");
+            app.add_option(
+                   "--compile-on", options.compile_on,
+                   "what the compiler of this device says of each pipeline: index or part of a name; "
+                   "or a family of AMD GPUs (vega10, navi21, navi31, gfx1201, ...), which RADV of Mesa "
+                   "25 compiles for where there is none")
+                ->type_name("DEVICE")
+                ->group("What is planned");
+        }
     }
     if (command == "bench") addBench(app, parsed);
     addOutput(app, options);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/estimate.h"
 #include "compare/cli/commands.h"
+#include "compare/cli/compiled_words.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/path_plan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
 
 namespace diptych::cli {
 namespace {
@@ -19,16 +23,24 @@ struct ScenePlan {
     std::vector<Requirements::Line> lines;
     std::vector<std::string> notes;  // what was read otherwise than the file says
     std::vector<PathPlan> paths;
-    std::vector<FrameWork> work;  // of --estimate
+    std::vector<FrameWork> work;         // of --estimate
+    std::vector<CompiledPath> compiled;  // of --compile-on
+    const DeviceInfo* compiler = nullptr;
 };
 
-std::vector<bench::FrameEstimate> estimatesOf(const FrameWork& work) {
+// Of the GPUs of the compiler's family with what it says; without a compiler of all.
+std::vector<bench::FrameEstimate> estimatesOf(const ScenePlan& plan, const FrameWork& work) {
     std::vector<bench::FrameEstimate> all;
-    for (const bench::GpuFigures& gpu : bench::estimatedGpus()) all.push_back(bench::estimate(work, gpu));
+    std::vector<bench::PassCycles> cycles;
+    for (const CompiledPath& path : plan.compiled)
+        if (path.path == work.path) cycles = bench::passCycles(path);
+    for (const bench::GpuFigures& gpu : bench::estimatedGpus())
+        if (plan.compiler == nullptr || bench::isOfFamily(gpu, plan.compiler->name))
+            all.push_back(bench::estimate(work, gpu, {}, cycles));
     return all;
 }
 
-Json jsonOf(const FrameWork& work) {
+Json jsonOf(const ScenePlan& plan, const FrameWork& work) {
     Json passes = Json::array(), estimates = Json::array();
     for (const PassWork& pass : work.passes)
         passes.push_back({{"name", pass.counts.name},
@@ -43,7 +55,7 @@ Json jsonOf(const FrameWork& work) {
                           {"bytes_read", pass.counts.read},
                           {"bytes_written", pass.counts.written},
                           {"vertex_bytes", pass.vertex_bytes}});
-    for (const bench::FrameEstimate& estimate : estimatesOf(work)) {
+    for (const bench::FrameEstimate& estimate : estimatesOf(plan, work)) {
         Json each = Json::array();
         for (const bench::PassEstimate& pass : estimate.passes)
             each.push_back({{"name", pass.name}, {"ms", pass.ms}, {"bound", pass.bound}});
@@ -52,7 +64,7 @@ Json jsonOf(const FrameWork& work) {
     return {{"path", nameOf(work.path)}, {"passes", passes}, {"estimates", estimates}};
 }
 
-void print(const FrameWork& work) {
+void print(const ScenePlan& plan, const FrameWork& work) {
     fmt::print("  {} asks for\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n",
                nameOf(work.path), "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute",
                "MB");
@@ -61,7 +73,7 @@ void print(const FrameWork& work) {
                    pass.counts.vertices, pass.counts.triangles, pass.counts.fragments, pass.texels,
                    pass.lights, pass.counts.compute,
                    (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
-    for (const bench::FrameEstimate& estimate : estimatesOf(work))
+    for (const bench::FrameEstimate& estimate : estimatesOf(plan, work))
         fmt::print("    on paper, {}\n", bench::inWords(estimate));
 }
 
@@ -70,7 +82,7 @@ Json jsonOf(const ScenePlan& plan) {
     for (const auto& line : plan.lines)
         (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
     Json work = Json::array();
-    for (const FrameWork& frame : plan.work) work.push_back(jsonOf(frame));
+    for (const FrameWork& frame : plan.work) work.push_back(jsonOf(plan, frame));
     for (const PathPlan& path : plan.paths) {
         Json samples = Json::array();
         for (const SampledBytes& bytes : path.bytes)
@@ -90,17 +102,19 @@ Json jsonOf(const ScenePlan& plan) {
                          {"draws", path.drawn.draws},
                          {"notes", path.notes}});
     }
-    return {{"scene", plan.scene},
-            {"draws", plan.needs.draws},
-            {"triangles", plan.needs.triangles},
-            {"materials", plan.needs.materials},
-            {"textures", plan.needs.textures},
-            {"lights", plan.needs.lights()},
-            {"modelled", modelled},
-            {"left_out", leftOut},
-            {"notes", plan.notes},
-            {"paths", paths},
-            {"work", work}};
+    Json json{{"scene", plan.scene},
+              {"draws", plan.needs.draws},
+              {"triangles", plan.needs.triangles},
+              {"materials", plan.needs.materials},
+              {"textures", plan.needs.textures},
+              {"lights", plan.needs.lights()},
+              {"modelled", modelled},
+              {"left_out", leftOut},
+              {"notes", plan.notes},
+              {"paths", paths},
+              {"work", work}};
+    if (plan.compiler != nullptr) json["compiled"] = compiledJson(plan.compiled, *plan.compiler);
+    return json;
 }
 
 // "16 bytes per pixel, 48 with lit; with --msaa 4 96 and 176"
@@ -135,7 +149,8 @@ void print(const ScenePlan& plan) {
             path.drawn.instances);
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
-    for (const FrameWork& work : plan.work) print(work);
+    if (plan.compiler != nullptr) fmt::print("{}", compiledText(plan.compiled, *plan.compiler));
+    for (const FrameWork& work : plan.work) print(plan, work);
     for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);
 }
 
@@ -148,9 +163,14 @@ int runPlan(const Options& options) {
     if (paths.front() == Path::reference)
         throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");
     const std::vector<Settings> settings = settingsOf(options, paths);
-    Device device(deviceOptions(options));
+    std::optional<PipelineCompiler> compiler;
+    if (!options.compile_on.empty()) compiler.emplace(options.compile_on);
+    DeviceOptions drawing = deviceOptions(options);
+    if (compiler) drawing.compiler = &*compiler;
+    Device device(drawing);
     Progress progress(progressOutput(options));
     Json scenes = Json::array();
+    bool compiles = true;
     for (const std::string& name : options.scenes) {
         const Scene scene = loadShown(name, options.settings, Stage(progress, name));
         SceneViews views(scene);
@@ -161,7 +181,11 @@ int runPlan(const Options& options) {
             planLines(view, settings.front().skinning),
             describedFrame(scene, view, settings.front()).notes,
             planPaths(device, views, settings),
-            options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{}};
+            options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{},
+            compiler ? compilePaths(device, views, settings) : std::vector<CompiledPath>{},
+            compiler ? &compiler->info() : nullptr};
+        compiles &=
+            std::ranges::all_of(result.compiled, [](const CompiledPath& p) { return p.errors.empty(); });
         progress.wipe();
         if (options.json)
             scenes.push_back(jsonOf(result));
@@ -172,7 +196,7 @@ int runPlan(const Options& options) {
     if (options.json)
         fmt::print("{}\n", Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false,
                                                                         Json::error_handler_t::replace));
-    return 0;
+    return compiles ? 0 : 1;
 }
 
 }  // namespace diptych::cli

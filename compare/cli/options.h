@@ -90,6 +90,7 @@ struct Options {
     SelectionOptions selection;  // compare: pixels
     bool allow_noise = false;    // compare
     bool estimate = false;       // plan: what the frames should take on GPUs that are not here
+    std::string compile_on;      // plan: a device or a family of GPUs; empty: none
     bool explain = false;        // compare: why lit differs also where it passes
     std::vector<external::Renderer> renderers;  // compare, explain, tradeoff: --renderer
     std::vector<std::string> renderer_words;    // of the command line that name them

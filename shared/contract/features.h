@@ -9,6 +9,7 @@
 
 // id  name  set by  inputs  read by    what it switches; 0 is off
 //   set by   item: a draw's material or geometry; frame: the scene, the view and its lights;
+//            amount: the frame, how much or which way of another feature (0 does not switch it off);
 //            gbuffer: the layout of the G-buffer; pass: the code that records the pass
 //   inputs   the least set of shaders/lib/inputs.glsl that has what a surface with the feature reads
 //   read by  the passes whose modules use the constant, a sum of PASS_*; a test holds it against the modules
@@ -60,7 +61,7 @@
     /* BATCH_* of light_list.h: a draw walks a part of each list */                                         \
     X(33, light_batch,                pass,    0, PASSES_SHADE)                                             \
     /* lights of a packet: 1 or 4 */                                                                        \
-    X(34, list_width,                 frame,   0, PASSES_SHADE | PASS_LISTS)                                \
+    X(34, list_width,                 amount,  0, PASSES_SHADE | PASS_LISTS)                                \
     X(35, lightmap_texture,           item,    1, PASSES_SURFACE)                                           \
     X(36, ambient,                    frame,   0, PASSES_SHADE)    /* constant ambient radiance */          \
     /* OBJECT_LIGHTS_* of object_lights.h; those of vertices need inputs 3 */                               \
@@ -71,7 +72,7 @@
     /* beyond the packed format's range: float32 */                                                         \
     X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* VIEW_*: where a fragment shader has the view from */                                                 \
-    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_BACKGROUND)         \
+    X(41, view_source,                amount,  0, PASSES_SURFACE | PASS_LIGHTING | PASS_BACKGROUND)         \
     /* for channels, which may need more than shading does */                                               \
     X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
     /* a depth pre-pass has stored the depth, which the draw reads */                                       \
@@ -79,8 +80,8 @@
     /* SHADOWS_* of shadow.h; where a shadow begins depends on the triangle's normal */                     \
     X(44, shadows,                    frame,   2, PASSES_SURFACE | PASS_LIGHTING | PASS_SHADOWS)            \
     /* side of the filter, texels: odd */                                                                   \
-    X(45, shadow_kernel,              frame,   0, PASSES_SHADE | PASS_SHADOWS)                              \
-    X(46, shadow_cascades,            frame,   0, PASSES_SHADE)                                             \
+    X(45, shadow_kernel,              amount,  0, PASSES_SHADE | PASS_SHADOWS)                              \
+    X(46, shadow_cascades,            amount,  0, PASSES_SHADE)                                             \
     /* a sum of LOCAL_SHADOWS_* of local_shadow.h; normals as for shadows */                                \
     X(47, local_shadows,              frame,   2, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* MULTISCATTER_* of multiscatter.h */                                                                  \
@@ -108,10 +109,10 @@
     X(59, tonemapped_resolve,         frame,   0, PASS_SAMPLES)                                             \
     /* SPECULAR_AA_* of material.h, and the two numbers of shaders/lib/specular_aa.glsl, bits of float32 */  \
     X(60, specular_aa,                frame,   0, PASSES_SURFACE)                                           \
-    X(61, specular_aa_variance,       frame,   0, PASSES_SURFACE)                                           \
-    X(62, specular_aa_limit,          frame,   0, PASSES_SURFACE)                                           \
+    X(61, specular_aa_variance,       amount,  0, PASSES_SURFACE)                                           \
+    X(62, specular_aa_limit,          amount,  0, PASSES_SURFACE)                                           \
     /* DEPTH_* of view.h: how the scene's depth is stored */                                                \
-    X(63, depth_format,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS) \
+    X(63, depth_format,               amount,  0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS) \
     /* the light of points, spots and suns in floats of 16 bits */                                          \
     X(64, half_shading,               frame,   0, PASSES_SHADE)                                             \
     /* a dielectric's base loses each component of what its layer reflects, not the largest */              \

@@ -24,6 +24,7 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_BACKGROUND));
     if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
         variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
+    Pass& pass = passes.draw("background").color(lit, load).depthTest(depth);
     const VkPipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
                                                   .fragment = Shader::background_frag,
@@ -34,7 +35,7 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
                                                   .depth_compare = VK_COMPARE_OP_GREATER,
                                                   .depth_write = false,
                                                   .samples = inputs.samples}));
-    passes.draw("background").color(lit, load).depthTest(depth).record(recordFullScreen(inputs, pipeline));
+    pass.record(recordFullScreen(inputs, pipeline));
 }
 
 ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth,

@@ -22,10 +22,7 @@ constexpr double placesApart = 3;
 ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineLayout layout,
                                const Geometry& geometry, const SampleGrid& grid,
                                std::span<const gpu::CulledItem> items, const Sizes& sizes)
-    : device_(device),
-      layout_(layout),
-      pipeline_(pipelines.compute(Shader::cull_clusters_comp, {}, layout)),
-      sizes_(sizes) {
+    : device_(device), pipelines_(pipelines), layout_(layout), sizes_(sizes) {
     constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                  read = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     const auto bytesOf = [](std::uint64_t count, std::size_t each) { return count * each; };
@@ -63,11 +60,12 @@ std::span<std::uint32_t> ComputeCulling::order() {
 }
 
 void ComputeCulling::addPass(PassList& passes, const char* name) const {
-    passes.compute(name)
-        .uses(passes.buffer("chosen indices", indices_), access::storageWrite(inCompute))
+    Pass& pass = passes.compute(name);
+    const VkPipeline pipeline = pipelines_.compute(Shader::cull_clusters_comp, {}, layout_);
+    pass.uses(passes.buffer("chosen indices", indices_), access::storageWrite(inCompute))
         .uses(passes.buffer("indirect draws", draws_), access::storageWrite(inCompute))
-        .record([this](VkCommandBuffer commands) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+        .record([this, pipeline](VkCommandBuffer commands) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants_,
                                &constants_);
             vkCmdDispatch(commands, std::min(sizes_.parts, gpu::CULLING_GROUPS),

@@ -47,8 +47,8 @@ private:
     std::vector<T> readBack(const GpuBuffer& from) const;
 
     Device& device_;
+    Pipelines& pipelines_;
     VkPipelineLayout layout_;
-    VkPipeline pipeline_;
     Sizes sizes_;
     GpuBuffer items_, parts_, order_, indices_, draws_;
     gpu::CullingConstants constants_{};

@@ -175,15 +175,13 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled) {
+        Pass& pass = passes.compute("assign depth bounds");
         const VkPipeline bounds =
             kernel(Shader::light_depths_comp, variant.get(gpu::FEATURE_samples) > 1 ? 1 : 0);
-        passes.compute("assign depth bounds")
-            .samples(depth, inCompute)
-            .uses(depths, write)
-            .record([=, this](VkCommandBuffer commands) {
-                bind(commands);
-                dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});
-            });
+        pass.samples(depth, inCompute).uses(depths, write).record([=, this](VkCommandBuffer commands) {
+            bind(commands);
+            dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});
+        });
     }
     const bool gathers = choice_.kernel == ListKernel::gather;
     const char* const name = "assign lights";
@@ -195,8 +193,9 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         if (gathers) vkCmdFillBuffer(commands, candidates_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
     const auto step = [&](Shader shader, glm::uvec3 size) -> Pass& {
+        Pass& pass = passes.compute(name);
         const VkPipeline pipeline = kernel(shader);
-        return passes.compute(name).record([=](VkCommandBuffer commands) {
+        return pass.record([=](VkCommandBuffer commands) {
             bind(commands);
             dispatch(commands, pipeline, size);
         });

@@ -110,14 +110,14 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
     variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
         .set(gpu::FEATURE_samples, inputs.variant.get(gpu::FEATURE_samples))
         .set(gpu::FEATURE_depth_format, inputs.depth.kind);
-    const VkPipeline pipeline =
-        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline(), inputs.samples > 1);
     sets_.image(set, gpu::BINDING_CLIPMAP_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     passes.copy(name).uses(marks, access::transferWrite).record([this](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, marks_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
     Pass& mark = passes.compute(name);
+    const VkPipeline pipeline =
+        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline(), inputs.samples > 1);
     mark.samples(depth, inCompute)
         .uses(marks, access::storageRead(inCompute))
         .uses(marks, access::storageWrite(inCompute))

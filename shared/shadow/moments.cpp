@@ -95,11 +95,9 @@ ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef 
                     VK_IMAGE_LAYOUT_GENERAL);
     };
     constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkPipeline warp = pipelines.compute(Shader::shadow_moments_comp, request.variant, pipeline_layout_);
-    const VkPipeline blur =
-        blurs ? pipelines.compute(Shader::shadow_blur_comp, request.variant, pipeline_layout_) : warp;
-    const auto dispatch = [&](Pass& pass, VkPipeline pipeline, std::uint32_t set,
+    const auto dispatch = [&](Pass& pass, Shader shader, std::uint32_t set,
                               const gpu::MomentConstants& constants, VkExtent2D threads) {
+        const VkPipeline pipeline = pipelines.compute(shader, request.variant, pipeline_layout_);
         pass.record([this, pipeline, set, constants, threads](VkCommandBuffer commands) {
             const VkDescriptorSet sets = sets_[set];
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, 0, 1, &sets,
@@ -124,19 +122,19 @@ ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef 
         dispatch(passes.compute("shadow moments")
                      .samples(depth, inCompute, part)
                      .uses(moments, access::storageImageWrite(inCompute), part, true),
-                 warp, sets + TO_MOMENTS, constants, {size, size});
+                 Shader::shadow_moments_comp, sets + TO_MOMENTS, constants, {size, size});
         if (!blurs) continue;
         bind(sets + ACROSS, moments, part, sampled, scratch, only);
         dispatch(passes.compute("shadow blur")
                      .samples(moments, inCompute, part)
                      .uses(scratch, access::storageImageWrite(inCompute), only, true),
-                 blur, sets + ACROSS, constants, {runs, size});
+                 Shader::shadow_blur_comp, sets + ACROSS, constants, {runs, size});
         bind(sets + DOWN, scratch, only, sampled, moments, part);
         constants.down = 1;
         dispatch(passes.compute("shadow blur")
                      .samples(scratch, inCompute, only)
                      .uses(moments, access::storageImageWrite(inCompute), part, true),
-                 blur, sets + DOWN, constants, {size, runs});
+                 Shader::shadow_blur_comp, sets + DOWN, constants, {size, runs});
     }
     return moments;
 }

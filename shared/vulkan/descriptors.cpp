@@ -2,12 +2,13 @@
 #include "shared/vulkan/descriptors.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/pipeline_compiler.h"
 
 #include <map>
 
 namespace diptych {
 
-OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescriptorType> types) {
+OwnedDescriptorSetLayout makeSetLayout(VkDevice device, std::span<const VkDescriptorType> types) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < types.size(); ++i)
         bindings.push_back({i, types[i], 1, VK_SHADER_STAGE_ALL, nullptr});
@@ -17,12 +18,17 @@ OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescrip
                                                .bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                .pBindings = bindings.data()};
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
-                "vkCreateDescriptorSetLayout");
-    return {device.handle(), layout};
+    checkResult(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
+    return {device, layout};
 }
 
-OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescriptorSetLayout> sets,
+OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescriptorType> types) {
+    OwnedDescriptorSetLayout layout = makeSetLayout(device.handle(), types);
+    if (PipelineCompiler* const compiler = device.compiler()) compiler->addLayout(layout.get(), types);
+    return layout;
+}
+
+OwnedPipelineLayout makePipelineLayout(VkDevice device, std::span<const VkDescriptorSetLayout> sets,
                                        const std::optional<VkPushConstantRange>& constants) {
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .pNext = nullptr,
@@ -32,8 +38,16 @@ OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescrip
                                           .pushConstantRangeCount = constants ? 1u : 0u,
                                           .pPushConstantRanges = constants ? &*constants : nullptr};
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    return {device.handle(), layout};
+    checkResult(vkCreatePipelineLayout(device, &info, nullptr, &layout), "vkCreatePipelineLayout");
+    return {device, layout};
+}
+
+OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescriptorSetLayout> sets,
+                                       const std::optional<VkPushConstantRange>& constants) {
+    OwnedPipelineLayout layout = makePipelineLayout(device.handle(), sets, constants);
+    if (PipelineCompiler* const compiler = device.compiler())
+        compiler->addLayout(layout.get(), sets, constants);
+    return layout;
 }
 
 DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,

@@ -14,7 +14,10 @@ namespace diptych {
 
 OwnedDescriptorSetLayout makeSetLayout(
     Device& device, std::span<const VkDescriptorType> types);  // bindings 0..n-1, all stages
+OwnedDescriptorSetLayout makeSetLayout(VkDevice device, std::span<const VkDescriptorType> types);
 OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescriptorSetLayout> sets,
+                                       const std::optional<VkPushConstantRange>& constants = {});
+OwnedPipelineLayout makePipelineLayout(VkDevice device, std::span<const VkDescriptorSetLayout> sets,
                                        const std::optional<VkPushConstantRange>& constants = {});
 
 // Sets of one layout from one pool; they live as long as it.

@@ -6,6 +6,7 @@
 #include "shared/vulkan/instance.h"
 #include "shared/vulkan/physical_device.h"
 #include "shared/vulkan/pipeline_cache.h"
+#include "shared/vulkan/pipeline_compiler.h"
 
 #include <fmt/format.h>
 
@@ -46,6 +47,7 @@ struct Device::State {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
     DeviceProfile profile;
+    PipelineCompiler* compiler = nullptr;
     VkPhysicalDeviceLimits limits{};
     std::uint32_t indirect_draws = 1;
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
@@ -76,6 +78,13 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(s.physical, &properties);
     s.limits = properties.limits;
+    if (options.compiler != nullptr) {
+        const VkPhysicalDeviceLimits& there = options.compiler->limits();
+        for (std::uint32_t VkPhysicalDeviceLimits::*most :
+             {&VkPhysicalDeviceLimits::maxImageDimension2D, &VkPhysicalDeviceLimits::maxTexelBufferElements,
+              &VkPhysicalDeviceLimits::maxStorageBufferRange})
+            s.limits.*most = std::min(s.limits.*most, there.*most);
+    }
 
     const std::uint32_t family = *graphicsFamily(s.physical);  // a required fact: chooseDevice saw to it
     std::uint32_t families = 0;
@@ -84,7 +93,9 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, queues.data());
     s.family = family;
     s.timestamp_bits = queues.at(family).timestampValidBits;
-    s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
+    s.compiler = options.compiler;
+    const bool likeGpu = s.compiler != nullptr && s.compiler->info().type != "cpu";
+    s.profile = profileOf(s.info, s.timestamp_bits, likeGpu ? ProfileChoices::gpu : options.choices);
     if (!beginsAtAnyInstance(s.physical)) s.profile.culls_by_compute = false;
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(s.physical, &features);
@@ -146,6 +157,9 @@ bool Device::sortsFragments() const {
 }
 std::uint32_t Device::indirectDraws() const {
     return state_->indirect_draws;
+}
+PipelineCompiler* Device::compiler() const {
+    return state_->compiler;
 }
 const DeviceProfile& Device::profile() const {
     return state_->profile;

@@ -17,10 +17,14 @@
 
 namespace diptych {
 
+class PipelineCompiler;
+
 struct DeviceOptions {
     std::string choice;     // "" a real GPU first; an index of listDevices(); part of a name
     bool validate = false;  // Khronos validation with synchronization validation
     ProfileChoices choices = ProfileChoices::of_device;
+    // Is told of all pipelines, which are chosen as its device draws; must outlive the device. nullptr: none.
+    PipelineCompiler* compiler = nullptr;
 };
 
 // How a device rounds a float to a render target's format when a fragment shader writes it, measured by
@@ -67,6 +71,7 @@ public:
     // How many indirect draws one command may have: 1 where a device takes no more.
     std::uint32_t indirectDraws() const;
     const DeviceProfile& profile() const;
+    PipelineCompiler* compiler() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 
     VkQueue queue() const;

@@ -2,6 +2,7 @@
 #include "shared/vulkan/pass_list.h"
 
 #include "shared/vulkan/pass_resource.h"
+#include "shared/vulkan/pipeline_compiler.h"
 #include "shared/vulkan/transients.h"
 
 #include <fmt/format.h>
@@ -109,6 +110,7 @@ Pass& PassList::draw(const std::string& name) {
     passes_.push_back(std::make_unique<Pass>());
     prepared_.push_back(false);
     passes_.back()->name_ = name;
+    if (PipelineCompiler* const compiler = device_.compiler()) compiler->beginPass(name);
     return *passes_.back();
 }
 

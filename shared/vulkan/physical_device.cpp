@@ -60,6 +60,21 @@ std::string typeName(VkPhysicalDeviceType type) {
     }
 }
 
+bool knowsExtension(VkPhysicalDevice device, std::string_view name) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& extension) { return name == extension.extensionName; });
+}
+
+bool hasMemory(VkPhysicalDevice device) {
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    return memory.memoryTypeCount > 0;
+}
+
 std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{} MiB", bytes >> 20);
 }
@@ -119,6 +134,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     };
 
     need("a queue that draws and computes", graphicsFamily(device).has_value());
+    need(memoryFact, hasMemory(device));
     need("dynamic rendering", f.v13.dynamicRendering == VK_TRUE);
     need("synchronization2", f.v13.synchronization2 == VK_TRUE);
     need("maintenance4", f.v13.maintenance4 == VK_TRUE);
@@ -177,13 +193,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::string listOf(const std::vector<DeviceInfo>& infos) {
-    std::string text;
-    for (const DeviceInfo& info : infos)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", info.index, info.name);
-    return text.empty() ? "none" : text;
-}
-
 void requireUsable(const DeviceInfo& info) {
     for (const DeviceFact& fact : info.facts)
         if (fact.required && !fact.there)
@@ -225,6 +234,24 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
     return info;
 }
 
+std::string listOf(const std::vector<DeviceInfo>& infos) {
+    std::string text;
+    for (const DeviceInfo& info : infos)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", info.index, info.name);
+    return text.empty() ? "none" : text;
+}
+
+std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, const std::string& choice) {
+    int number = -1;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), number);
+    const bool isNumber = error == std::errc{} && end == choice.data() + choice.size();
+    for (std::size_t i = 0; i < infos.size(); ++i)
+        if (isNumber ? infos[i].index == number
+                     : lower(infos[i].name).find(lower(choice)) != std::string::npos)
+            return i;
+    return std::nullopt;
+}
+
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice) {
     if (infos.empty())
         throw std::runtime_error(
@@ -238,26 +265,18 @@ std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string
                 if (infos[i].type == type && infos[i].usable()) return i;
         requireUsable(infos.front());
     }
-    int number = -1;
-    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), number);
-    const bool isNumber = error == std::errc{} && end == choice.data() + choice.size();
-    for (std::size_t i = 0; i < infos.size(); ++i)
-        if (isNumber ? infos[i].index == number
-                     : lower(infos[i].name).find(lower(choice)) != std::string::npos) {
-            requireUsable(infos[i]);
-            return i;
-        }
+    if (const auto found = findDevice(infos, choice)) {
+        requireUsable(infos[*found]);
+        return *found;
+    }
     throw std::runtime_error(fmt::format("--device {}: no such device; there are {}", choice, listOf(infos)));
 }
 
 bool knowsMemoryBudget(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::ranges::any_of(extensions, [](const VkExtensionProperties& extension) {
-        return std::string_view(extension.extensionName) == VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
-    });
+    return knowsExtension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+}
+bool saysStatistics(VkPhysicalDevice device) {
+    return knowsExtension(device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
 }
 
 bool sortsFragments(VkPhysicalDevice device) {
@@ -292,7 +311,7 @@ bool beginsAtAnyInstance(VkPhysicalDevice device) {
     return there.drawIndirectFirstInstance == VK_TRUE;
 }
 
-VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
+VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family, bool statistics) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
     wanted.v13.synchronization2 = VK_TRUE;
@@ -325,7 +344,15 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
                                         .queueFamilyIndex = family,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    const char* const budget = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (knowsMemoryBudget(physical)) extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR compiled{};
+    compiled.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+    compiled.pipelineExecutableInfo = VK_TRUE;
+    if (statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        wanted.v13.pNext = &compiled;
+    }
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &wanted.v10,
                                   .flags = 0,
@@ -333,8 +360,8 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
                                   .pQueueCreateInfos = &queue,
                                   .enabledLayerCount = 0,
                                   .ppEnabledLayerNames = nullptr,
-                                  .enabledExtensionCount = knowsMemoryBudget(physical) ? 1u : 0u,
-                                  .ppEnabledExtensionNames = &budget,
+                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data(),
                                   .pEnabledFeatures = nullptr};
     VkDevice device = VK_NULL_HANDLE;
     checkResult(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");

@@ -23,6 +23,14 @@ std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device);
 // cpu. Throws std::runtime_error naming --device and what there is, or the feature that is missing.
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
 
+// The one of this index, or the first with this in its name.
+std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
+std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: llvmpipe, 1: ..."; "none"
+
+// The fact that a driver without hardware lacks, which compiles all the same (PipelineCompiler).
+inline constexpr const char* memoryFact = "memory";
+
+bool saysStatistics(VkPhysicalDevice device);     // VK_KHR_pipeline_executable_properties
 bool knowsMemoryBudget(VkPhysicalDevice device);  // VK_EXT_memory_budget
 
 // Fragment shaders may use 64-bit atomics on buffers and the number of their triangle.
@@ -36,7 +44,8 @@ bool hasFloat16(VkPhysicalDevice device);
 // Whether indirect draws may begin at any instance.
 bool beginsAtAnyInstance(VkPhysicalDevice device);
 
-// With exactly the features that we use, and what the device has of those that are of help.
-VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);
+// With exactly the features that we use, and what the device has of those that are of help. `statistics`:
+// with those of compiled pipelines, which the device must have.
+VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family, bool statistics = false);
 
 }  // namespace diptych

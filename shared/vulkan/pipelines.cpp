@@ -2,6 +2,7 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/pipeline_compiler.h"
 #include "shared/vulkan/specialize.h"
 
 #include <tbb/parallel_for.h>
@@ -73,64 +74,11 @@ PipelineParts plainParts(const PipelineKey& key) {
             {}};
 }
 
-std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
-    struct Missing {
-        const PipelineKey* key;
-        PipelineParts parts;
-        OwnedPipeline* pipeline;
-    };
-    std::vector<Missing> missing;
-    try {
-        for (const PipelineKey& key : keys) {
-            const auto [entry, isNew] = pipelines_.try_emplace(key);
-            if (!isNew) continue;
-            missing.push_back({&entry->first, {}, &entry->second});
-            missing.back().parts = choose_(key);
-        }
-        tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-            *missing[i].pipeline = make(*missing[i].key, missing[i].parts);
-        });
-    } catch (...) {
-        // None that was not made may be found later.
-        std::erase_if(pipelines_, [](const auto& entry) { return entry.second.get() == VK_NULL_HANDLE; });
-        throw;
-    }
-    std::vector<VkPipeline> pipelines;
-    for (const PipelineKey& key : keys) pipelines.push_back(pipelines_.at(key));
-    return pipelines;
-}
-
-VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
-    const auto [entry, isNew] = compute_.try_emplace({&module, variant});
-    if (!isNew) return entry->second;
-    const OwnedShaderModule code = specializedModule(device_.handle(), module, variant);
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
-    info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
-    info.layout = layout;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(
-        vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
-        "vkCreateComputePipelines");
-    entry->second = OwnedPipeline(device_.handle(), pipeline);
-    return pipeline;
-}
-
-void Pipelines::erase(const std::function<bool(const PipelineKey&)>& which) {
-    std::erase_if(pipelines_, [&](const auto& pipeline) { return which(pipeline.first); });
-}
-
-void Pipelines::clear() {
-    pipelines_.clear();
-    compute_.clear();
-}
-
-OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
+OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
     std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule& module) {
-        code.push_back(specializedModule(device_.handle(), module, key.variant));
+        code.push_back(specializedModule(site.device, module, key.variant));
         stages.push_back(stageOf(stage, code.back()));
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, *parts.vertex);
@@ -200,7 +148,7 @@ OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts
         .stencilAttachmentFormat = VK_FORMAT_UNDEFINED};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .pNext = &rendering,
-                                            .flags = 0,
+                                            .flags = site.flags,
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),
                                             .pVertexInputState = &input,
@@ -212,16 +160,76 @@ OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts
                                             .pDepthStencilState = &depth,
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamics,
-                                            .layout = layout_,
+                                            .layout = site.layout,
                                             .renderPass = VK_NULL_HANDLE,
                                             .subpass = 0,
                                             .basePipelineHandle = VK_NULL_HANDLE,
                                             .basePipelineIndex = 0};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(
-        vkCreateGraphicsPipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
-        "vkCreateGraphicsPipelines");
-    return {device_.handle(), pipeline};
+    checkResult(vkCreateGraphicsPipelines(site.device, site.cache, 1, &info, nullptr, &pipeline),
+                "vkCreateGraphicsPipelines");
+    return {site.device, pipeline};
+}
+
+OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant) {
+    const OwnedShaderModule code = specializedModule(site.device, module, variant);
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = site.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
+    info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
+    info.layout = site.layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    checkResult(vkCreateComputePipelines(site.device, site.cache, 1, &info, nullptr, &pipeline),
+                "vkCreateComputePipelines");
+    return {site.device, pipeline};
+}
+
+std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
+    struct Missing {
+        const PipelineKey* key;
+        PipelineParts parts;
+        OwnedPipeline* pipeline;
+    };
+    std::vector<Missing> missing;
+    const PipelineSite site{device_.handle(), device_.pipelineCache(), layout_};
+    if (PipelineCompiler* const compiler = device_.compiler())
+        for (const PipelineKey& key : keys) compiler->ask({.layout = layout_, .key = key, .choose = choose_});
+    try {
+        for (const PipelineKey& key : keys) {
+            const auto [entry, isNew] = pipelines_.try_emplace(key);
+            if (!isNew) continue;
+            missing.push_back({&entry->first, {}, &entry->second});
+            missing.back().parts = choose_(key);
+        }
+        tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+            *missing[i].pipeline = makePipeline(site, *missing[i].key, missing[i].parts);
+        });
+    } catch (...) {
+        // None that was not made may be found later.
+        std::erase_if(pipelines_, [](const auto& entry) { return entry.second.get() == VK_NULL_HANDLE; });
+        throw;
+    }
+    std::vector<VkPipeline> pipelines;
+    for (const PipelineKey& key : keys) pipelines.push_back(pipelines_.at(key));
+    return pipelines;
+}
+
+VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
+    if (PipelineCompiler* const compiler = device_.compiler())
+        compiler->ask({.layout = layout, .kernel = &module, .kernel_variant = variant});
+    const auto [entry, isNew] = compute_.try_emplace({&module, variant});
+    if (isNew)
+        entry->second = makePipeline({device_.handle(), device_.pipelineCache(), layout}, module, variant);
+    return entry->second;
+}
+
+void Pipelines::erase(const std::function<bool(const PipelineKey&)>& which) {
+    std::erase_if(pipelines_, [&](const auto& pipeline) { return which(pipeline.first); });
+}
+
+void Pipelines::clear() {
+    pipelines_.clear();
+    compute_.clear();
 }
 
 }  // namespace diptych

@@ -63,7 +63,18 @@ using ChooseParts = std::function<PipelineParts(const PipelineKey&)>;
 // attachments.
 PipelineParts plainParts(const PipelineKey& key);
 
+// Where a pipeline is made.
+struct PipelineSite {
+    VkDevice device = VK_NULL_HANDLE;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipelineCreateFlags flags = 0;
+};
 // Triangles; viewport, scissor, cull mode and front face are dynamic.
+OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts);
+// A compute shader whose dispatches may begin at any workgroup.
+OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant);
+
 class Pipelines {
 public:
     // `layout` must outlive the pipelines. Without `choose` shaders are their plain modules, and there are no
@@ -89,8 +100,6 @@ public:
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:
-    OwnedPipeline make(const PipelineKey& key, const PipelineParts& parts) const;
-
     Device& device_;
     VkPipelineLayout layout_;
     ChooseParts choose_;

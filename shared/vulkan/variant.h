@@ -46,14 +46,22 @@ struct FeatureRow {
     gpu::uint id;
     const char* name;
     FeatureSource source;
+    bool switches;     // what a scene or a view may lack: 0 is a variant without it
     int inputs;        // the least set of inputs (shaders/lib/inputs.glsl) that it needs
     gpu::uint passes;  // PASS_*
 };
 namespace feature_table {
 using namespace gpu;  // the last column names PASS_*
+struct SetBy {        // the column "set by"
+    FeatureSource from;
+    bool switches;
+};
+inline constexpr SetBy item{FeatureSource::item, true}, frame{FeatureSource::frame, true},
+    amount{FeatureSource::frame, false}, gbuffer{FeatureSource::gbuffer, false},
+    pass{FeatureSource::pass, false};
 inline constexpr FeatureRow rows[] = {
 #define DIPTYCH_FEATURE_ROW(id, name, source, inputs, passes) \
-    FeatureRow{id, #name, FeatureSource::source, inputs, passes},
+    FeatureRow{id, #name, source.from, source.switches, inputs, passes},
     FEATURES(DIPTYCH_FEATURE_ROW)
 #undef DIPTYCH_FEATURE_ROW
 };

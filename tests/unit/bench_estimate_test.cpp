@@ -53,6 +53,36 @@ TEST(BenchEstimate, EachDemandIsItsUnitsOverItsFigure) {
     EXPECT_NEAR(demanded(work, "arithmetic"), 10 + 3 + 100 + 5, 1e-12);
 }
 
+// Waves of 64 threads by the cycles of each, over those of all SIMD units; no part of a data sheet's figure.
+TEST(BenchEstimate, ArithmeticIsTheCompilersWhereItSaysAny) {
+    GpuFigures gpu = plainGpu;
+    gpu.simd_cycles = 2;
+    PassWork work = busyPass();
+    work.lights = 6'400'000;
+    work.counts.compute = 640'000;
+    const PassCycles cycles{.pass = "G-buffer", .vertex = 20, .fragment = 300, .compute = 50, .light = 7};
+    EstimateAssumptions half = exactly;
+    half.reached = 0.5;
+    for (const Demand& demand : demandsOf(work, gpu, half, &cycles))
+        if (demand.name == "arithmetic")
+            EXPECT_NEAR(demand.ms, (3e6 * 20 + 1e6 * 300 + 6.4e5 * 50 + 6.4e6 * 7) / 64 / 2e6, 1e-9);
+    const FrameWork frame{Path::deferred, {busyPass()}};
+    const PassCycles slow{.pass = "G-buffer", .fragment = 1e6};
+    EXPECT_EQ(estimate(frame, gpu, exactly, std::span(&slow, 1)).passes[0].bound, "arithmetic");
+    const PassCycles other{.pass = "shade", .fragment = 1e6};
+    EXPECT_EQ(estimate(frame, gpu, exactly, std::span(&other, 1)).passes[0].bound, "memory");
+}
+
+TEST(BenchEstimate, AGpuIsOfTheFamilyThatItsDeviceNames) {
+    GpuFigures gpu = plainGpu;
+    EXPECT_FALSE(isOfFamily(gpu, "Null hardware (RADV NAVI31)")) << "of none";
+    gpu.family = "navi31";
+    EXPECT_TRUE(isOfFamily(gpu, "Null hardware (RADV NAVI31)"));
+    EXPECT_TRUE(isOfFamily(gpu, "AMD Radeon RX 7900 XTX (RADV NAVI31)"));
+    EXPECT_FALSE(isOfFamily(gpu, "AMD Radeon RX 7600 (RADV NAVI33)"));
+    for (const GpuFigures& known : estimatedGpus()) EXPECT_EQ(known.family.empty(), known.simd_cycles == 0);
+}
+
 TEST(BenchEstimate, AFrameIsTheSumOfTheLongestDemands) {
     FrameWork frame{Path::deferred, {busyPass(), {}}};
     frame.passes[1].counts.name = "empty";

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/pipeline_compiler.h"
+
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/instance.h"
+#include "shared/vulkan/physical_device.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+struct CompilerDeviceDeleter {
+    using pointer = VkDevice;
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+};
+
+// "gbuffer.frag" of "gbuffer.frag.3.inputs0".
+std::string fileOf(const ShaderModule& module) {
+    return std::string(module.name.substr(0, module.name.find('.', module.name.find('.') + 1)));
+}
+
+double numberOf(const VkPipelineExecutableStatisticKHR& statistic) {
+    switch (statistic.format) {
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
+            return statistic.value.b32 == VK_TRUE ? 1 : 0;
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
+            return static_cast<double>(statistic.value.i64);
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
+            return static_cast<double>(statistic.value.u64);
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_FLOAT64_KHR:
+            return statistic.value.f64;
+        default:
+            return 0;
+    }
+}
+
+// RADV's name for a device of RADV_FORCE_FAMILY.
+constexpr std::string_view nullHardware = "Null hardware";
+// A family that RADV has known since it compiles without hardware.
+constexpr const char* oldestFamily = "vega10";
+
+// A draw and a dispatch that need no descriptors.
+void tryPipelines(VkDevice device) {
+    const OwnedPipelineLayout layout =
+        makePipelineLayout(device, {}, VkPushConstantRange{VK_SHADER_STAGE_ALL, 0, 128});
+    const PipelineSite site{device, VK_NULL_HANDLE, layout, VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
+    const PipelineKey draw{.vertex = Shader::full_screen_vert,
+                           .fragment = Shader::probe_rounding_frag,
+                           .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
+    makePipeline(site, draw, plainParts(draw));
+    makePipeline(site, plainModule(Shader::cull_clusters_comp), {});
+}
+
+}  // namespace
+
+std::string PipelineRequest::name() const {
+    if (kernel != nullptr) return fileOf(*kernel);
+    return fileOf(*shaderModules(key.fragment != Shader::none ? key.fragment : key.vertex).data());
+}
+
+struct PipelineCompiler::State {
+    std::optional<VulkanInstance> instance;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceInfo info;
+    VkPhysicalDeviceLimits limits{};
+    std::unique_ptr<VkDevice, CompilerDeviceDeleter> device;
+    PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
+    PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
+    // By the handles of the device that draws; there, a handle may be another layout later.
+    std::map<VkDescriptorSetLayout, OwnedDescriptorSetLayout> sets;
+    std::map<VkPipelineLayout, OwnedPipelineLayout> layouts;
+    std::string pass;
+    std::vector<PipelineRequest> requests;
+
+    std::vector<DeviceInfo> list() {
+        instance.emplace();
+        std::vector<DeviceInfo> infos;
+        for (const VkPhysicalDevice found : instance->devices())
+            infos.push_back(describe(found, static_cast<int>(infos.size())));
+        return infos;
+    }
+    void open(const DeviceInfo& chosen, const std::string& choice);
+    std::vector<CompiledShader> shadersOf(VkPipeline pipeline,
+                                          std::span<const ShaderModule* const> modules) const;
+    CompiledPipeline compile(const PipelineRequest& request) const;
+    std::string lackedFormats(const PipelineKey& key) const;
+};
+
+void PipelineCompiler::State::open(const DeviceInfo& chosen, const std::string& choice) {
+    info = chosen;
+    physical = instance->devices().at(static_cast<std::size_t>(chosen.index));
+    for (const DeviceFact& fact : info.facts)
+        if (fact.required && !fact.there && fact.what != memoryFact)
+            throw std::runtime_error(
+                fmt::format("--compile-on {}: {} lacks {}", choice, info.name, fact.what));
+    if (!saysStatistics(physical))
+        throw std::runtime_error(fmt::format(
+            "--compile-on {}: {} says nothing of what it compiles (VK_KHR_pipeline_executable_properties)",
+            choice, info.name));
+    VkPhysicalDeviceProperties all;
+    vkGetPhysicalDeviceProperties(physical, &all);
+    limits = all.limits;
+    device.reset(createDevice(physical, *graphicsFamily(physical), true));
+    const auto load = [&](const char* name) { return vkGetDeviceProcAddr(device.get(), name); };
+    properties = reinterpret_cast<PFN_vkGetPipelineExecutablePropertiesKHR>(
+        load("vkGetPipelineExecutablePropertiesKHR"));
+    statistics = reinterpret_cast<PFN_vkGetPipelineExecutableStatisticsKHR>(
+        load("vkGetPipelineExecutableStatisticsKHR"));
+}
+
+PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    const std::vector<DeviceInfo> infos = s.list();
+    if (const auto found = findDevice(infos, choice)) {
+        s.open(infos.at(*found), choice);
+        return;
+    }
+    const std::vector<std::string> files = radvFiles();
+    if (files.empty())
+        throw std::runtime_error(
+            fmt::format("--compile-on {}: no such device; there are {}. For AMD's GPUs RADV compiles without "
+                        "one: install mesa-vulkan-drivers (of Debian 13: Mesa 25)",
+                        choice, listOf(infos)));
+    const auto inFamily = [&](const char* family) {
+        return Environment(
+            {{"RADV_FORCE_FAMILY", family}, {"VK_DRIVER_FILES", fmt::format("{}", fmt::join(files, ":"))}});
+    };
+    const auto openFamily = [&] {
+        for (const DeviceInfo& info : s.list())
+            if (info.name.starts_with(nullHardware)) return s.open(info, choice);
+        throw std::runtime_error(
+            fmt::format("--compile-on {}: RADV ({}) lists no such GPU", choice, fmt::join(files, ", ")));
+    };
+    // RADV ends the process where it does not know the family, and old ones crash.
+    const DriverTrial trial = tryInChild([&] {
+        const Environment forced = inFamily(choice.c_str());
+        openFamily();
+        tryPipelines(s.device.get());
+        return std::string();
+    });
+    if (trial.crashed) {
+        const DriverTrial known = tryInChild([&] {
+            const Environment forced = inFamily(oldestFamily);
+            openFamily();
+            return s.info.driver;
+        });
+        throw std::runtime_error(fmt::format(
+            "--compile-on {}: no such device (there are {}), and {} ends where it should compile for a GPU "
+            "of "
+            "that name that is not there; Mesa 25 (Debian 13's mesa-vulkan-drivers) compiles for vega10, "
+            "navi21, navi31, gfx1201 and others",
+            choice, listOf(infos), known.crashed ? "RADV" : known.said));
+    }
+    const QuietStandardError quiet;  // RADV remarks on the hardware that it does not find
+    const Environment forced = inFamily(choice.c_str());
+    openFamily();
+}
+
+PipelineCompiler::~PipelineCompiler() = default;
+
+const DeviceInfo& PipelineCompiler::info() const {
+    return state_->info;
+}
+const VkPhysicalDeviceLimits& PipelineCompiler::limits() const {
+    return state_->limits;
+}
+
+void PipelineCompiler::addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types) {
+    state_->sets.insert_or_assign(of, makeSetLayout(state_->device.get(), types));
+}
+
+void PipelineCompiler::addLayout(VkPipelineLayout of, std::span<const VkDescriptorSetLayout> sets,
+                                 const std::optional<VkPushConstantRange>& constants) {
+    std::vector<VkDescriptorSetLayout> own;
+    for (const VkDescriptorSetLayout set : sets) own.push_back(state_->sets.at(set));
+    state_->layouts.insert_or_assign(of, makePipelineLayout(state_->device.get(), own, constants));
+}
+
+void PipelineCompiler::beginPass(const std::string& name) {
+    state_->pass = name;
+}
+
+void PipelineCompiler::ask(PipelineRequest request) {
+    request.pass = state_->pass;
+    if (std::ranges::find(state_->requests, request) == state_->requests.end())
+        state_->requests.push_back(std::move(request));
+}
+
+std::vector<PipelineRequest> PipelineCompiler::takeRequests() {
+    state_->pass.clear();
+    return std::exchange(state_->requests, {});
+}
+
+std::vector<CompiledPipeline> PipelineCompiler::compile(std::span<const PipelineRequest> requests) const {
+    std::vector<CompiledPipeline> compiled(requests.size());
+    tbb::parallel_for(std::size_t{0}, requests.size(),
+                      [&](std::size_t i) { compiled[i] = state_->compile(requests[i]); });
+    return compiled;
+}
+
+// What it cannot draw to; empty: nothing.
+std::string PipelineCompiler::State::lackedFormats(const PipelineKey& key) const {
+    const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
+        VkImageFormatProperties found{};
+        return vkGetPhysicalDeviceImageFormatProperties(physical, format, VK_IMAGE_TYPE_2D,
+                                                        VK_IMAGE_TILING_OPTIMAL, usage, 0,
+                                                        &found) == VK_SUCCESS &&
+               (found.sampleCounts & key.samples) != 0;
+    };
+    const auto words = [&](VkFormat format) {
+        return fmt::format("does not draw to VkFormat {} with {} samples", static_cast<int>(format),
+                           static_cast<int>(key.samples));
+    };
+    for (const VkFormat format : key.colors)
+        if (!draws(format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)) return words(format);
+    if (key.depth != VK_FORMAT_UNDEFINED && !draws(key.depth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))
+        return words(key.depth);
+    return {};
+}
+
+std::vector<CompiledShader> PipelineCompiler::State::shadersOf(
+    VkPipeline pipeline, std::span<const ShaderModule* const> modules) const {
+    const VkPipelineInfoKHR of{VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, nullptr, pipeline};
+    std::uint32_t count = 0;
+    checkResult(properties(device.get(), &of, &count, nullptr), "vkGetPipelineExecutablePropertiesKHR");
+    VkPipelineExecutablePropertiesKHR one{};
+    one.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR;
+    std::vector<VkPipelineExecutablePropertiesKHR> executables(count, one);
+    checkResult(properties(device.get(), &of, &count, executables.data()),
+                "vkGetPipelineExecutablePropertiesKHR");
+    std::vector<CompiledShader> shaders;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        CompiledShader shader;
+        // A fragment shader is the last of a draw's modules; what else there is comes from the first.
+        const bool last = (executables[i].stages & VK_SHADER_STAGE_FRAGMENT_BIT) != 0;
+        shader.name = fileOf(last ? *modules.back() : *modules.front());
+        shader.subgroup_size = executables[i].subgroupSize;
+        const VkPipelineExecutableInfoKHR which{VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR, nullptr,
+                                                pipeline, i};
+        std::uint32_t said = 0;
+        checkResult(statistics(device.get(), &which, &said, nullptr), "vkGetPipelineExecutableStatisticsKHR");
+        VkPipelineExecutableStatisticKHR empty{};
+        empty.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+        std::vector<VkPipelineExecutableStatisticKHR> all(said, empty);
+        checkResult(statistics(device.get(), &which, &said, all.data()),
+                    "vkGetPipelineExecutableStatisticsKHR");
+        for (const VkPipelineExecutableStatisticKHR& statistic : all)
+            shader.statistics.push_back({statistic.name, numberOf(statistic)});
+        shader.cost = costOf(shader.statistics);
+        shaders.push_back(std::move(shader));
+    }
+    return shaders;
+}
+
+CompiledPipeline PipelineCompiler::State::compile(const PipelineRequest& request) const {
+    CompiledPipeline compiled;
+    const PipelineSite site{device.get(), VK_NULL_HANDLE, layouts.at(request.layout),
+                            VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
+    try {
+        if (request.kernel != nullptr) {
+            compiled.shaders = shadersOf(makePipeline(site, *request.kernel, request.kernel_variant),
+                                         std::array{request.kernel});
+        } else {
+            if (compiled.error = lackedFormats(request.key); !compiled.error.empty()) return compiled;
+            const PipelineParts parts = request.choose(request.key);
+            std::vector<const ShaderModule*> modules{parts.vertex};
+            if (parts.fragment != nullptr) modules.push_back(parts.fragment);
+            compiled.shaders = shadersOf(makePipeline(site, request.key, parts), modules);
+        }
+    } catch (const std::runtime_error& failed) {
+        compiled.error = fmt::format("does not compile: {}", failed.what());
+    }
+    for (const CompiledShader& shader : compiled.shaders)
+        if (shader.cost.shared_bytes.value_or(0) > limits.maxComputeSharedMemorySize)
+            compiled.error = fmt::format("asks for {:.0f} bytes of LDS; there are {}",
+                                         *shader.cost.shared_bytes, limits.maxComputeSharedMemorySize);
+    return compiled;
+}
+
+}  // namespace diptych

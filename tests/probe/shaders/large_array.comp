@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// More values of a thread than it has registers, indexed by what only the run knows: for the tests of compilers.
+#version 460
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, std430) readonly buffer Input { uint values[]; } given;
+layout(set = 0, binding = 1, std430) writeonly buffer Output { uint values[]; } made;
+layout(push_constant) uniform Constants { uint rows; };
+
+void main() {
+    uint kept[2048];
+    for (uint i = 0; i < 2048; ++i) kept[i] = given.values[i * rows];
+    for (uint i = 0; i < rows; ++i) kept[given.values[i] % 2048] += i;
+    made.values[gl_GlobalInvocationID.x] = kept[given.values[rows] % 2048];
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// `plan --compile-on`: a GPU's compiler where there is no GPU. RADV of Mesa compiles for the families that it
+// knows: Debian 12's (Mesa 22.3) not for RDNA 3 and 4, Debian 13's for all.
+#include "shared/vulkan/driver_trial.h"
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace diptych {
+namespace {
+
+const std::string small = " --size 64x64 ";
+
+class CompileOn : public testing::Test {
+protected:
+    void SetUp() override {
+        if (radvFiles().empty()) GTEST_SKIP() << "RADV (mesa-vulkan-drivers) is not installed";
+    }
+    Folder folder;
+};
+
+TEST_F(CompileOn, EveryPipelineOfBothPathsIsCompiled) {
+    const Ran ran = runTool(folder, "plan builtin:gallery --compile-on vega10 --json --estimate" + small);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "") << "the driver's remarks on missing hardware are none of the user's";
+    const nlohmann::json scene = nlohmann::json::parse(ran.out)["scenes"][0];
+    const nlohmann::json& compiled = scene["compiled"];
+    EXPECT_NE(compiled["device"]["name"].get<std::string>().find("VEGA10"), std::string::npos);
+    ASSERT_EQ(compiled["paths"].size(), 2u);
+    const std::set<std::string> shades[] = {{"gbuffer.frag", "deferred_shade.frag", "deferred_capture.frag"},
+                                            {"forward_shade.frag", "forward_capture.frag"}};
+    for (std::size_t path = 0; path < 2; ++path) {
+        std::set<std::string> names;
+        for (const nlohmann::json& pipeline : compiled["paths"][path]["pipelines"]) {
+            names.insert(pipeline["name"]);
+            EXPECT_FALSE(pipeline.contains("error")) << pipeline;
+            EXPECT_NE(pipeline["pass"], "") << pipeline["name"];
+            ASSERT_FALSE(pipeline["shaders"].empty()) << pipeline["name"];
+            for (const nlohmann::json& shader : pipeline["shaders"]) {
+                EXPECT_GT(shader["cost"]["vgprs"], 0);
+                EXPECT_GT(shader["cost"]["occupancy"], 0);
+                EXPECT_EQ(shader["subgroup_size"], 64);
+            }
+        }
+        for (const std::string& name : shades[path]) EXPECT_TRUE(names.contains(name)) << name;
+        std::set<std::string> features;
+        for (const nlohmann::json& cost : compiled["paths"][path]["features"])
+            features.insert(cost["feature"]);
+        for (const char* feature : {"shadows", "normal_texture", "point_lights"})
+            EXPECT_TRUE(features.contains(feature)) << feature << " adds nothing";
+        EXPECT_FALSE(features.contains("area_lights")) << "the gallery has none";
+    }
+    ASSERT_EQ(scene["work"].size(), 2u);
+    ASSERT_EQ(scene["work"][0]["estimates"].size(), 1u) << "of the family's GPU alone";
+    EXPECT_EQ(scene["work"][0]["estimates"][0]["gpu"], "AMD Radeon RX Vega 64");
+}
+
+TEST_F(CompileOn, ATableAndWhatFeaturesAddAreText) {
+    const Ran ran = runTool(folder, "plan builtin:areas --compile-on vega10" + small);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    for (const char* word :
+         {"VGPRs", "occupancy", "forward_shade.frag", "deferred_shade.frag", "area_lights "})
+        EXPECT_NE(ran.out.find(word), std::string::npos) << word << "\n" << ran.out;
+}
+
+TEST_F(CompileOn, WhatCannotCompileIsOneLine) {
+    const Ran unknown = runTool(folder, "plan builtin:gallery --compile-on navi999" + small);
+    EXPECT_TRUE(unknown.failedOver("--compile-on navi999: no such device"));
+    EXPECT_TRUE(unknown.failedOver("Mesa 25"));
+    const Ran silent = runTool(folder, "plan builtin:gallery --compile-on llvmpipe" + small);
+    EXPECT_TRUE(silent.failedOver("says nothing of what it compiles"));
+}
+
+// What RADV lists where its variable is set runs nothing, and is not chosen to draw.
+TEST_F(CompileOn, HardwareThatIsNotThereDrawsNothing) {
+    const std::string forced = "RADV_FORCE_FAMILY=vega10 '" DIPTYCH_PROGRAM "' ";
+    const Ran listed =
+        runShell(folder, forced + "plan builtin:gallery -q --device VEGA10" + small, folder.path());
+    EXPECT_EQ(listed.code, 2);
+    EXPECT_NE(listed.err.find("lacks memory"), std::string::npos) << listed.err;
+    const Ran compiles =
+        runShell(folder, forced + "plan builtin:gallery --compile-on VEGA10" + small, folder.path());
+    EXPECT_EQ(compiles.code, 0) << compiles.err;
+}
+
+}  // namespace
+}  // namespace diptych
