@@ -39,14 +39,6 @@ std::vector<std::uint32_t> drawProbe(Device& device, Shader fragment, VkFormat f
     return bits;
 }
 
-// Small floats of `mantissa` bits and exponent bias 15, without sign.
-double smallFloat(std::uint32_t code, int mantissa) {
-    const auto m = static_cast<double>(code & ((1u << mantissa) - 1u)),
-               scale = static_cast<double>(1u << mantissa);
-    const int e = static_cast<int>(code >> mantissa);
-    return e == 0 ? std::ldexp(m / scale, -14) : std::ldexp(1.0 + m / scale, e - 15);
-}
-
 struct Target {
     const char* name;
     VkFormat format;
@@ -58,6 +50,11 @@ double floatStep(double value, int mantissa) {
     return std::ldexp(1.0, std::ilogb(value) - mantissa);
 }
 
+// PassList::readBack turns formats of small floats into float32.
+double readFloat(std::uint32_t bits) {
+    return static_cast<double>(std::bit_cast<float>(bits));
+}
+
 const std::array<Target, 5>& targets() {
     static const std::array<Target, 5> list{{
         {"R8G8B8A8_UNORM", VK_FORMAT_R8G8B8A8_UNORM, [](std::uint32_t b) { return (b & 0xff) / 255.0; },
@@ -66,11 +63,10 @@ const std::array<Target, 5>& targets() {
          [](std::uint32_t b) { return (b & 0x3ff) / 1023.0; }, [](double) { return 1 / 1023.0; }},
         {"R16G16_SNORM", VK_FORMAT_R16G16_SNORM, [](std::uint32_t b) { return (b & 0x7fff) / 32767.0; },
          [](double) { return 1 / 32767.0; }},
-        {"R16G16B16A16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT,
-         [](std::uint32_t b) { return smallFloat(b & 0x7fff, 10); },
+        {"R16G16B16A16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT, readFloat,
          [](double v) { return floatStep(v, 10); }},
-        {"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32,
-         [](std::uint32_t b) { return smallFloat(b & 0x7ff, 6); }, [](double v) { return floatStep(v, 6); }},
+        {"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32, readFloat,
+         [](double v) { return floatStep(v, 6); }},
     }};
     return list;
 }

@@ -22,6 +22,17 @@ TEST(DeviceProbesOnDevice, AllPass) {
     }
 }
 
+// A float that is converted to fewer bits goes to one of the two codes around it (Vulkan, "Fixed-Point Data
+// Conversion" and 16-bit floats): less than a step.
+TEST(DeviceProbesOnDevice, RoundingToATargetStaysWithinAStep) {
+    const std::vector<TargetRounding> all = probeDevice().probeRounding();
+    EXPECT_EQ(all.size(), 5u);
+    for (const TargetRounding& target : all) {
+        EXPECT_GT(target.steps, 0.4) << target.format;  // of 4,096 values one lies near the middle
+        EXPECT_LT(target.steps, 1.0) << target.format;
+    }
+}
+
 const Probe& probeNamed(const std::string& name) {
     const auto found = std::ranges::find(allProbes(), name, &Probe::name);
     if (found == allProbes().end()) throw std::logic_error("no probe is called " + name);
