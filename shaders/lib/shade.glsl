@@ -113,9 +113,13 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
 // The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
 // lies before all of it: lit() alone applies it.
 Radiance shade(Surface s, PixelLights lights) {
+    Radiance radiance = noRadiance();
+    bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
+    // First, while nothing else is made of the surface: the filter of a shadow map needs more registers than
+    // anything after it, of RDNA 2 80 instead of 128 (compare/bench/COMPILED.md).
+    if (has_suns) radiance.sun_visibility = sunVisibility(s);
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, shadedBrdf(s, v));
-    Radiance radiance = noRadiance();
     radiance.emission = s.emission;
     if (feature_light_batch == BATCH_LATER) {
         vec4 diffuse = partialDiffuse(), specular = partialSpecular();
@@ -131,8 +135,7 @@ Radiance shade(Surface s, PixelLights lights) {
     }
     if (on(feature_environment) && feature_light_batch != BATCH_LATER)
         addEnvironment(s, shading.brdf, v, radiance.diffuse, radiance.specular);
-    if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {
-        radiance.sun_visibility = sunVisibility(s);
+    if (has_suns) {
         uvec2 range = directionalPackets();
         EACH(range) {
             Incident light = fromDirectionalLight(directionalAt(range.x));

@@ -20,7 +20,7 @@ namespace diptych {
 
 namespace fs = std::filesystem;
 
-Environment::Environment(const std::vector<std::pair<std::string, std::string>>& values) {
+EnvironmentVariables::EnvironmentVariables(const std::vector<std::pair<std::string, std::string>>& values) {
     for (const auto& [name, value] : values) {
         const char* const there = std::getenv(name.c_str());
         before_.emplace_back(name, there ? std::optional<std::string>(there) : std::nullopt);
@@ -28,7 +28,7 @@ Environment::Environment(const std::vector<std::pair<std::string, std::string>>&
     }
 }
 
-Environment::~Environment() {
+EnvironmentVariables::~EnvironmentVariables() {
     for (const auto& [name, value] : before_) {
         if (value)
             ::setenv(name.c_str(), value->c_str(), 1);

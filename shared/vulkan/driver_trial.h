@@ -11,12 +11,12 @@
 namespace diptych {
 
 // Sets variables of the environment, and sets them back. While no other thread reads it.
-class Environment {
+class EnvironmentVariables {
 public:
-    explicit Environment(const std::vector<std::pair<std::string, std::string>>& values);
-    ~Environment();
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
+    explicit EnvironmentVariables(const std::vector<std::pair<std::string, std::string>>& values);
+    ~EnvironmentVariables();
+    EnvironmentVariables(const EnvironmentVariables&) = delete;
+    EnvironmentVariables& operator=(const EnvironmentVariables&) = delete;
 
 private:
     std::vector<std::pair<std::string, std::optional<std::string>>> before_;

@@ -6,6 +6,8 @@
 #include "shared/vulkan/driver_trial.h"
 #include "shared/vulkan/instance.h"
 #include "shared/vulkan/physical_device.h"
+#include "shared/vulkan/shared_memory.h"
+#include "shared/vulkan/specialize.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -134,7 +136,7 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
                         "one: install mesa-vulkan-drivers (of Debian 13: Mesa 25)",
                         choice, listOf(infos)));
     const auto inFamily = [&](const char* family) {
-        return Environment(
+        return EnvironmentVariables(
             {{"RADV_FORCE_FAMILY", family}, {"VK_DRIVER_FILES", fmt::format("{}", fmt::join(files, ":"))}});
     };
     const auto openFamily = [&] {
@@ -145,14 +147,14 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
     };
     // RADV ends the process where it does not know the family, and old ones crash.
     const DriverTrial trial = tryInChild([&] {
-        const Environment forced = inFamily(choice.c_str());
+        const EnvironmentVariables forced = inFamily(choice.c_str());
         openFamily();
         tryPipelines(s.device.get());
         return std::string();
     });
     if (trial.crashed) {
         const DriverTrial known = tryInChild([&] {
-            const Environment forced = inFamily(oldestFamily);
+            const EnvironmentVariables forced = inFamily(oldestFamily);
             openFamily();
             return s.info.driver;
         });
@@ -164,7 +166,7 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
             choice, listOf(infos), known.crashed ? "RADV" : known.said));
     }
     const QuietStandardError quiet;  // RADV remarks on the hardware that it does not find
-    const Environment forced = inFamily(choice.c_str());
+    const EnvironmentVariables forced = inFamily(choice.c_str());
     openFamily();
 }
 
@@ -270,6 +272,14 @@ CompiledPipeline PipelineCompiler::State::compile(const PipelineRequest& request
                             VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
     try {
         if (request.kernel != nullptr) {
+            // RADV divides by zero where not one workgroup fits.
+            const std::uint64_t shared = sharedBytes(specialized(
+                request.kernel->words, [&](std::uint32_t id) { return request.kernel_variant.get(id); }));
+            if (shared > limits.maxComputeSharedMemorySize) {
+                compiled.error = fmt::format("asks for {} bytes of shared memory; there are {}", shared,
+                                             limits.maxComputeSharedMemorySize);
+                return compiled;
+            }
             compiled.shaders = shadersOf(makePipeline(site, *request.kernel, request.kernel_variant),
                                          std::array{request.kernel});
         } else {
@@ -282,10 +292,6 @@ CompiledPipeline PipelineCompiler::State::compile(const PipelineRequest& request
     } catch (const std::runtime_error& failed) {
         compiled.error = fmt::format("does not compile: {}", failed.what());
     }
-    for (const CompiledShader& shader : compiled.shaders)
-        if (shader.cost.shared_bytes.value_or(0) > limits.maxComputeSharedMemorySize)
-            compiled.error = fmt::format("asks for {:.0f} bytes of LDS; there are {}",
-                                         *shader.cost.shared_bytes, limits.maxComputeSharedMemorySize);
     return compiled;
 }
 

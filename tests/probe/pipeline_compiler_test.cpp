@@ -110,7 +110,7 @@ TEST_F(PipelineCompilerTest, NamesWhatLiesInMemory) {
 
 TEST_F(PipelineCompilerTest, RefusesMoreSharedMemoryThanThereIs) {
     const CompiledPipeline compiled = this->compiled("large_shared.comp");
-    EXPECT_NE(compiled.error.find("131072 bytes of LDS"), std::string::npos) << compiled.error;
+    EXPECT_NE(compiled.error.find("131072 bytes of shared memory"), std::string::npos) << compiled.error;
 }
 
 TEST_F(PipelineCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
@@ -152,7 +152,7 @@ TEST(DriverTrial, TheEnvironmentIsSetBack) {
     ::setenv("DIPTYCH_THERE", "before", 1);
     ::unsetenv("DIPTYCH_ABSENT");
     {
-        const Environment set({{"DIPTYCH_THERE", "now"}, {"DIPTYCH_ABSENT", "now"}});
+        const EnvironmentVariables set({{"DIPTYCH_THERE", "now"}, {"DIPTYCH_ABSENT", "now"}});
         EXPECT_STREQ(std::getenv("DIPTYCH_THERE"), "now");
         EXPECT_STREQ(std::getenv("DIPTYCH_ABSENT"), "now");
     }
