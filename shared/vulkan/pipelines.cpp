@@ -2,25 +2,60 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/flatten.h"
 #include "shared/vulkan/specialize.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace diptych {
 
 namespace {
 
+[[noreturn]] void refuse(const Device& device, std::string_view what, const std::string& why) {
+    throw std::runtime_error(
+        fmt::format("device {} ({}): {}: {}", device.info().index, device.info().name, what, why));
+}
+
+// Refuses what the device draws no such pipeline with.
+void checkPipeline(const Device& device, const PipelineKey& key, const PipelineParts& parts) {
+    const std::string_view name = parts.fragment != nullptr ? parts.fragment->name : parts.vertex->name;
+    const auto needs = [&](VkFormat format, std::uint32_t uses) {
+        if (const auto lacks = device.support().lacks(format, uses)) refuse(device, name, *lacks);
+    };
+    const auto blendOf = [&](std::size_t i) { return key.blends.empty() ? Blend::none : key.blends.at(i); };
+    for (std::size_t i = 0; i < key.colors.size(); ++i) {
+        needs(key.colors[i], blendOf(i) == Blend::none ? std::uint32_t{format_use::drawn}
+                                                       : format_use::drawn | format_use::blended);
+        if (blendOf(i) != blendOf(0) && !device.support().has(DeviceFeature::independentBlend))
+            refuse(device, name, "it lacks blending by attachment; choose another device with --device");
+    }
+    if (key.depth != VK_FORMAT_UNDEFINED) needs(key.depth, format_use::depth);
+    for (const VkVertexInputAttributeDescription& attribute : parts.attributes)
+        needs(attribute.format, format_use::vertices);
+    if (key.depth_clamp && !device.support().has(DeviceFeature::depthClamp))
+        refuse(device, name, "it lacks depth clamping; choose another device with --device");
+}
+
 // The module without what the variant switches off.
-OwnedShaderModule specializedModule(VkDevice device, const ShaderModule& module, const Variant& variant) {
-    const auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
+OwnedShaderModule specializedModule(const Device& device, const ShaderModule& module,
+                                    const Variant& variant) {
+    if (const auto problem = moduleProblem(device.support(), module.words))
+        refuse(device, module.name, *problem + ", which it lacks; choose another with --device");
+    auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
+    if (device.profile().flattens_branches) words = flattened(words);
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .pNext = nullptr,
                                         .flags = 0,
                                         .codeSize = words.size() * sizeof(std::uint32_t),
                                         .pCode = words.data()};
     VkShaderModule handle = VK_NULL_HANDLE;
-    checkResult(vkCreateShaderModule(device, &info, nullptr, &handle), "vkCreateShaderModule");
-    return {device, handle};
+    checkResult(vkCreateShaderModule(device.handle(), &info, nullptr, &handle), "vkCreateShaderModule");
+    return {device.handle(), handle};
 }
 
 VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderModule module) {
@@ -103,7 +138,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
 VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
     if (!isNew) return entry->second;
-    const OwnedShaderModule code = specializedModule(device_.handle(), module, variant);
+    const OwnedShaderModule code = specializedModule(device_, module, variant);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
@@ -127,10 +162,11 @@ void Pipelines::clear() {
 }
 
 OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
+    checkPipeline(device_, key, parts);
     std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule& module) {
-        code.push_back(specializedModule(device_.handle(), module, key.variant));
+        code.push_back(specializedModule(device_, module, key.variant));
         stages.push_back(stageOf(stage, code.back()));
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, *parts.vertex);
