@@ -39,11 +39,12 @@ std::uint64_t mostFurther(const PassList& passes, const FrameInputs& inputs) {
 // Whether the further groups are listed. A picture whose list is larger than an image is drawn as without.
 bool listsFurther(const PassList& passes, const FrameInputs& inputs) {
     const Device& device = inputs.device;
-    const std::uint32_t most = std::min(device.limits().maxImageDimension2D, 1u << gpu::FURTHER_PIXEL_BITS);
+    const std::uint32_t most = std::min(device.support().mostPixels(), 1u << gpu::FURTHER_PIXEL_BITS);
     return device.profile().shades_failed_samples && inputs.edges != MsaaEdges::all &&
-           device.storesSamples() &&
-           (device.sampleCounts(litFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                               VK_IMAGE_USAGE_STORAGE_BIT) &
+           device.support().storesSamples() &&
+           (device.support().sampleCounts(litFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                         VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                         VK_IMAGE_USAGE_STORAGE_BIT) &
             inputs.samples) != 0 &&
            std::max(passes.width(), passes.height()) <= most &&
            mostFurther(passes, inputs) <= std::uint64_t{most} << gpu::FURTHER_WIDTH_BITS;

@@ -66,7 +66,8 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     }
     overdraw.textures /= static_cast<double>(std::max<std::uint64_t>(overdraw.triangles, 1));
     // lavapipe 22.3 crashes where nothing is drawn before a full-screen triangle without a fragment shader.
-    if (!drawsSolids(inputs.draws) || !inputs.device.countsFragments()) return overdraw;
+    if (!drawsSolids(inputs.draws) || !inputs.device.support().has(DeviceFeature::occlusionQueryPrecise))
+        return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);

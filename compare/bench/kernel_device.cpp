@@ -139,14 +139,8 @@ const std::vector<DeviceKernel>& deviceKernels() {
 }
 
 std::string whyNotDrawn(const Device& device, const DeviceKernel& kernel) {
-    VkPhysicalDeviceSubgroupProperties subgroups{};
-    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    properties.pNext = &subgroups;
-    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
-    const bool ballots = (subgroups.supportedStages & VK_SHADER_STAGE_FRAGMENT_BIT) != 0 &&
-                         (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+    const bool ballots =
+        device.support().hasSubgroups(VK_SHADER_STAGE_FRAGMENT_BIT, VK_SUBGROUP_FEATURE_BALLOT_BIT);
     return kernel.subgroups && !ballots ? device.info().name + " has no subgroup ballots in fragment shaders"
                                         : "";
 }

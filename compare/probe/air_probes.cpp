@@ -22,7 +22,8 @@ Probe airProbe(const char* name, std::uint32_t function, const char* inputs, con
 
 // exponential() of air.glsl promises 2e-7 of the value, and is made of sums, products and a floor alone:
 // where these are rounded up or down instead of to nearest, each errs by twice as much.
-constexpr double exponential_promise = 4e-7;
+// Its last product, of a power of two, may be a denormal, which Vulkan lets be 0.
+constexpr double exponential_promise = 4e-7, exponential_flush = least_normal;
 
 constexpr auto exact_exp = [](double x) { return std::exp(x); };
 constexpr auto exact_expm1 = [](double x) { return std::expm1(x); };
@@ -40,13 +41,13 @@ Probe exponentialProbe() {
         out[0] = std::exp(double{in[0]}), out[1] = std::expm1(double{in[0]});
     };
     follow(p, [](const auto* in, auto* out) {
-        out[0] = monotoneOf(in[0], exact_exp, exponential_promise);
-        out[1] = monotoneOf(in[0], exact_expm1, exponential_promise);
+        out[0] = monotoneOf(in[0], exact_exp, exponential_promise, exponential_flush);
+        out[1] = monotoneOf(in[0], exact_expm1, exponential_promise, exponential_flush);
     });
     // The promise is of the value's both sides.
     p.allowance = [](const float* in, double* allowed) {
-        allowed[0] = std::exp(double{in[0]}) * exponential_promise;
-        allowed[1] = std::abs(std::expm1(double{in[0]})) * exponential_promise;
+        allowed[0] = std::exp(double{in[0]}) * exponential_promise + exponential_flush;
+        allowed[1] = std::abs(std::expm1(double{in[0]})) * exponential_promise + exponential_flush;
     };
     return p;
 }
@@ -83,9 +84,9 @@ Probe alongProbe() {
     };
     follow(p, []<class N>(const N* in, N* out) {
         const N low = in[0] + least(in[1], N(0.0f)), x = most(size(in[1]) * in[3], N(1e-30f));
-        const N whole =
-            monotoneOf(least(most(-low * in[3], N(-87.0f)), N(60.0f)), exact_exp, exponential_promise);
-        const N lost = monotoneOf(-least(x, N(87.0f)), exact_expm1, exponential_promise);
+        const N whole = monotoneOf(least(most(-low * in[3], N(-87.0f)), N(60.0f)), exact_exp,
+                                   exponential_promise, exponential_flush);
+        const N lost = monotoneOf(-least(x, N(87.0f)), exact_expm1, exponential_promise, exponential_flush);
         out[0] = least(in[2] * (whole * (-lost / x)), N(gpu::HAZE_OPAQUE_METRES));
     });
     return p;
@@ -109,8 +110,8 @@ Probe beyondProbe() {
         out[0] = in[1] > 0 ? std::min(density / (double{in[1]} * double{in[2]}), opaque) : opaque;
     };
     follow(p, []<class N>(const N* in, N* out) {
-        const N whole =
-            monotoneOf(least(most(-in[0] * in[2], N(-87.0f)), N(60.0f)), exact_exp, exponential_promise);
+        const N whole = monotoneOf(least(most(-in[0] * in[2], N(-87.0f)), N(60.0f)), exact_exp,
+                                   exponential_promise, exponential_flush);
         const N opaque(gpu::HAZE_OPAQUE_METRES);
         out[0] =
             chosen(isLess(N(0.0f), in[1]), least(whole / most(in[1] * in[2], N(1e-30f)), opaque), opaque);
@@ -164,9 +165,9 @@ Probe hazeProbe() {
         const N both = one + cosine * cosine, lobe = both / (k * root(k));
         for (int c = 0; c < 3; ++c) {
             const N depth = -least(in[c] * in[23], N(87.0f));
-            out[c] = monotoneOf(depth, exact_exp, exponential_promise);
+            out[c] = monotoneOf(depth, exact_exp, exponential_promise, exponential_flush);
             const N source = in[8 + c] * both + in[12 + c] * lobe + in[16 + c];
-            out[3 + c] = source * -monotoneOf(depth, exact_expm1, exponential_promise);
+            out[3 + c] = source * -monotoneOf(depth, exact_expm1, exponential_promise, exponential_flush);
         }
     });
     return p;

@@ -199,9 +199,9 @@ inline Interval approximating(Interval x, double relative, double absolute = 0) 
 
 // What a function that only grows or only falls makes of it, within a share of that.
 template <class Of>
-Interval monotoneOf(Interval x, Of of, double relative) {
+Interval monotoneOf(Interval x, Of of, double relative, double absolute = 0) {
     const double a = of(x.lo), b = of(x.hi);
-    return approximating({std::min(a, b), std::max(a, b)}, relative);
+    return approximating({std::min(a, b), std::max(a, b)}, relative, absolute);
 }
 
 }  // namespace diptych::probe

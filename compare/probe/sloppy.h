@@ -91,8 +91,8 @@ inline Sloppy approximating(Sloppy x, double relative, double absolute = 0) {
     return anyOf(approximating(Interval(x.value), relative, absolute));
 }
 template <class Of>
-Sloppy monotoneOf(Sloppy x, Of of, double relative) {
-    return anyOf(monotoneOf(Interval(x.value), of, relative));
+Sloppy monotoneOf(Sloppy x, Of of, double relative, double absolute = 0) {
+    return anyOf(monotoneOf(Interval(x.value), of, relative, absolute));
 }
 
 }  // namespace diptych::probe

@@ -13,7 +13,7 @@ std::vector<int> sampleCounts(const Device& device) {
     // Of the G-buffer's words whatever its encoding.
     for (const VkFormat format :
          {litFormat, depthFormat, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT})
-        all &= device.sampleCounts(
+        all &= device.support().sampleCounts(
             format,
             VK_IMAGE_USAGE_SAMPLED_BIT | (format == depthFormat ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                                                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));

@@ -2,8 +2,8 @@
 #include "compare/viewer/presenter.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/device_support.h"
 #include "shared/vulkan/owned.h"
-#include "shared/vulkan/physical_device.h"
 
 #include <vulkan/vulkan.h>
 
@@ -117,6 +117,7 @@ struct Presenter::State {
     VulkanInstance instance;
     Surface surface;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceSupport support;
     std::string name;
     std::uint32_t family = 0;
     LogicalDevice device;
@@ -136,7 +137,8 @@ struct Presenter::State {
     // The first device with a queue that draws and shows.
     void choosePhysical() {
         for (const VkPhysicalDevice candidate : instance.devices()) {
-            const std::optional<std::uint32_t> graphics = graphicsFamily(candidate);
+            DeviceSupport asked(candidate);
+            const std::optional<std::uint32_t> graphics = asked.graphicsFamily();
             VkBool32 shows = VK_FALSE;
             if (!graphics ||
                 vkGetPhysicalDeviceSurfaceSupportKHR(candidate, *graphics, surface.handle, &shows) < 0 ||
@@ -144,9 +146,8 @@ struct Presenter::State {
                 continue;
             physical = candidate;
             family = *graphics;
-            VkPhysicalDeviceProperties properties;
-            vkGetPhysicalDeviceProperties(physical, &properties);
-            name = properties.deviceName;
+            support = std::move(asked);
+            name = support.properties().deviceName;
             return;
         }
         throw std::runtime_error(
@@ -427,8 +428,7 @@ struct Presenter::State {
         staging.buffer = {device.handle, buffer};
         VkMemoryRequirements needs{};
         vkGetBufferMemoryRequirements(device.handle, buffer, &needs);
-        VkPhysicalDeviceMemoryProperties memory{};
-        vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+        const VkPhysicalDeviceMemoryProperties& memory = support.memory();
         constexpr VkMemoryPropertyFlags wanted =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
         std::uint32_t type = 0;  // Vulkan promises that there is one

@@ -3,6 +3,7 @@
 #ifndef LIGHT_KERNEL_GLSL
 #define LIGHT_KERNEL_GLSL
 
+#include "shaders/lib/addressed_texels.glsl"
 #include "shaders/lib/light_cull.glsl"
 
 layout(set = SET_LISTS, binding = BINDING_BOUNDS) uniform samplerBuffer bound_texels;
@@ -45,10 +46,12 @@ LightListHead headOf(LightListCount count) {
     return head;
 }
 
+vec4 boundTexel(uint i) {
+    if (on(feature_addressed_lights)) return FloatTexels(grid_block.bounds).at[i];
+    return texelFetch(bound_texels, int(i));
+}
 LightBound boundOf(uint light) {
-    int texel = int(3u * light);
-    vec4 a = texelFetch(bound_texels, texel), b = texelFetch(bound_texels, texel + 1),
-         c = texelFetch(bound_texels, texel + 2);
+    vec4 a = boundTexel(3u * light), b = boundTexel(3u * light + 1u), c = boundTexel(3u * light + 2u);
     return LIGHT_BOUND_OF_TEXELS(a, b, c);
 }
 

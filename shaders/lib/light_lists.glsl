@@ -5,6 +5,7 @@
 #ifndef LIGHT_LISTS_GLSL
 #define LIGHT_LISTS_GLSL
 
+#include "shaders/lib/addressed_texels.glsl"
 #include "shaders/lib/draw.glsl"
 #include "shaders/lib/light_grid.glsl"
 #include "shaders/lib/position.glsl"
@@ -22,16 +23,40 @@ layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objec
     ObjectLights object_lights[];
 };
 
+// Texels of the lights' buffers and of the lists.
+vec4 lightTexel(uint i) {
+    if (on(feature_addressed_lights)) return FloatTexels(view_block.lights).at[i];
+    return texelFetch(light_texels, int(i));
+}
+vec4 spotConeTexel(uint i) {
+    if (on(feature_addressed_lights)) return FloatTexels(view_block.spot_cones).at[i];
+    return texelFetch(spot_cone_texels, int(i));
+}
+vec4 areaLightTexel(uint i) {
+    if (on(feature_addressed_lights)) return FloatTexels(view_block.area_lights).at[i];
+    return texelFetch(area_light_texels, int(i));
+}
+uvec4 headTexel(uint i) {
+    if (on(feature_addressed_lights)) return WordTexels(grid_block.heads).at[i];
+    return texelFetch(list_heads, int(i));
+}
+uvec4 packetTexel(uint i) {
+    if (on(feature_addressed_lights)) {
+        if (feature_list_width == 1u) return uvec4(SingleWords(grid_block.indices).at[i], 0u, 0u, 1u);
+        return WordTexels(grid_block.indices).at[i];
+    }
+    return texelFetch(list_indices, int(i));
+}
+
 Light lightAt(uint i) {
-    vec4 a = texelFetch(light_texels, int(2u * i)), b = texelFetch(light_texels, int(2u * i + 1u));
+    vec4 a = lightTexel(2u * i), b = lightTexel(2u * i + 1u);
     return LIGHT_OF_TEXELS(a, b);
 }
 
 SpotCone spotConeAt(uint i) {
     // The null light's cone is the last one.
     uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);
-    vec4 a = texelFetch(spot_cone_texels, int(2u * cone)),
-         b = texelFetch(spot_cone_texels, int(2u * cone + 1u));
+    vec4 a = spotConeTexel(2u * cone), b = spotConeTexel(2u * cone + 1u);
     return SPOT_CONE_OF_TEXELS(a, b);
 }
 
@@ -40,9 +65,8 @@ uint firstDisc() { return view.rect_light_count; }
 uint firstTube() { return view.rect_light_count + view.disc_light_count; }
 uint areaCount() { return firstTube() + view.tube_light_count; }
 AreaLight areaLightAt(uint area) {
-    vec4 a = texelFetch(area_light_texels, int(3u * area)),
-         b = texelFetch(area_light_texels, int(3u * area + 1u)),
-         c = texelFetch(area_light_texels, int(3u * area + 2u));
+    vec4 a = areaLightTexel(3u * area), b = areaLightTexel(3u * area + 1u),
+         c = areaLightTexel(3u * area + 2u);
     return AREA_LIGHT_OF_TEXELS(a, b, c);
 }
 
@@ -75,7 +99,7 @@ PixelLights lightsAt(vec2 pixel, float z) {
     }
     if (feature_light_lists != LISTS_NONE) {
         uint list = listAt(pixel, viewDepth(z));
-        uvec4 head = texelFetch(list_heads, int(list));
+        uvec4 head = headTexel(list);
         return PixelLights(list, LIGHT_LIST_HEAD_OF_TEXEL(head));
     }
     uint points = view.point_light_count, spots = points + view.spot_light_count;
@@ -118,7 +142,7 @@ uvec4 lightsOfPacket(uint packet) {
         return uvec4(entry.light);
     }
     if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + packet);
-    return texelFetch(list_indices, int(packet));
+    return packetTexel(packet);
 }
 
 // The directional lights, the same for a whole draw: directionalAt() of [x, y).

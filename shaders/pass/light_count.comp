@@ -10,6 +10,11 @@ layout(local_size_x = 64) in;
 
 layout(set = SET_LISTS, binding = BINDING_MASK_TEXELS) uniform usamplerBuffer mask_texels;
 
+uvec4 maskTexel(uint i) {
+    if (on(feature_addressed_lights)) return WordTexels(grid_block.masks).at[i];
+    return texelFetch(mask_texels, int(i));
+}
+
 struct FourCounts {
     uvec4 all, points, points_and_spots;
 };
@@ -33,7 +38,7 @@ void main() {
         uvec4 used = uvec4(0u);
         uint end = min(first + 32u, grid.words);
         for (uint word = first; word < end; ++word) {
-            uvec4 mask = texelFetch(mask_texels, int(word * row + four));
+            uvec4 mask = maskTexel(word * row + four);
             used |= uvec4(notEqual(mask, uvec4(0u))) << (word - first);
             sum.all += uvec4(bitCount(mask));
             if (!points_alone) {

@@ -43,6 +43,11 @@ struct LightGrid {
     uint all_end;
     vec2 centre;  // pixel coordinates of the optical axis
     float pixel;  // side of a pixel in m per m of depth; orthographic: in m
+    // Addresses of the lists' buffers, for FEATURE_addressed_lights.
+    uvec2 heads;
+    uvec2 indices;
+    uvec2 bounds;
+    uvec2 masks;
 };
 
 // The region that a light can reach, for culling alone: what lies inside both a bounding sphere and a cone.

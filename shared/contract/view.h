@@ -31,6 +31,10 @@ struct View {
     uint disc_light_count;
     uint tube_light_count;
     vec3 ambient;  // W/(sr m^2), from everywhere
+    // Addresses of the lights' buffers, for FEATURE_addressed_lights.
+    uvec2 lights;
+    uvec2 spot_cones;
+    uvec2 area_lights;
 };
 
 CONTRACT_END

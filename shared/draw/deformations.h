@@ -36,9 +36,4 @@ private:
     GpuBuffer buffer_;
 };
 
-// An address as shaders have it.
-inline gpu::uvec2 addressWords(VkDeviceAddress address) {
-    return {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32)};
-}
-
 }  // namespace diptych

@@ -63,7 +63,8 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
                            device.info().name, what, option, instead);
     };
     const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
-        return (device.sampleCounts(format, usage | VK_IMAGE_USAGE_SAMPLED_BIT) & VK_SAMPLE_COUNT_1_BIT) != 0;
+        return (device.support().sampleCounts(format, usage | VK_IMAGE_USAGE_SAMPLED_BIT) &
+                VK_SAMPLE_COUNT_1_BIT) != 0;
     };
     if (!draws(depthStorage(settings.depth_format).format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))
         return lacks("depth-format", "draws to no such images", "d32f");
@@ -72,16 +73,18 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
         return lacks("lit-format", "draws to no such images", "fp32");
     if (settings.path == Path::deferred && settings.lighting == Lighting::compute) {
         const auto samples = static_cast<VkSampleCountFlags>(settings.msaa);
-        const bool stores = settings.msaa == 1 || device.storesSamples();
-        if (!stores || (device.sampleCounts(litFormatOf(LitFormat::fp32),
-                                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
-                        samples) == 0)
+        const bool stores = settings.msaa == 1 || device.support().storesSamples();
+        if (!stores ||
+            (device.support().sampleCounts(litFormatOf(LitFormat::fp32),
+                                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
+             samples) == 0)
             return lacks("lighting",
                          fmt::format("stores to no such images of --msaa {}", settings.msaa).c_str(),
                          "fragment");
     }
-    if (settings.shading_precision == ShadingPrecision::fp16 && !device.hasFloat16())
+    if (settings.shading_precision == ShadingPrecision::fp16 &&
+        !device.support().has(DeviceFeature::shaderFloat16))
         return lacks("shading-precision", "has no shaderFloat16", "fp32");
     return {};
 }

@@ -26,6 +26,20 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.disc_light_count = lights.disc;
     gpuView.tube_light_count = lights.tube;
     gpuView.ambient = lights.ambient;
+    lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, texelsOrAddress);
+    spot_cones_ =
+        makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones, texelsOrAddress);
+    area_lights_ =
+        makeBuffer<gpu::AreaLight>(device, uploader, "area lights", lights.area_lights, texelsOrAddress);
+    const auto texels = [&](const char* name, const GpuBuffer& buffer) {
+        return texelsUnless(lists_.addressed(), device, name, buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+    };
+    lights_view_ = texels("lights", lights_);
+    spot_cones_view_ = texels("spot cones", spot_cones_);
+    area_lights_view_ = texels("area lights", area_lights_);
+    gpuView.lights = addressWords(lights_.address());
+    gpuView.spot_cones = addressWords(spot_cones_.address());
+    gpuView.area_lights = addressWords(area_lights_.address());
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     const PackedView packed = packedView(gpuView, lists_.grid());
@@ -36,15 +50,6 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     if (!draws.sorted_indices.empty())
         sorted_indices_ = makeBuffer<std::uint32_t>(device, uploader, "sorted indices", draws.sorted_indices,
                                                     VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
-                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,
-                                            VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    lights_view_ = makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
-    spot_cones_view_ = makeTexelView(device, "spot cones", spot_cones_, VK_FORMAT_R32G32B32A32_SFLOAT);
-    area_lights_ = makeBuffer<gpu::AreaLight>(device, uploader, "area lights", lights.area_lights,
-                                              VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
     std::vector<glm::vec4> albedo;
     if (albedoTable) albedo = directionalAlbedoPairs();

@@ -111,7 +111,7 @@ OwnedPipelineLayout makePosingLayout(Device& device) {
 
 Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
                const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning)
-    : layout_(layout), skinning_(skinning), wide_(device.hasInt64()) {
+    : layout_(layout), skinning_(skinning), wide_(device.support().has(DeviceFeature::shaderInt64)) {
     // Arrays first with their offsets in place of addresses.
     struct Arrays {
         gpu::PosedInstance instance;

@@ -62,9 +62,10 @@ void checkSamples(const FrameInputs& inputs) {
         const VkImageUsageFlags attachment = format == depthFormat
                                                  ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                                  : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-        if ((device.sampleCounts(format, attachment | VK_IMAGE_USAGE_SAMPLED_BIT) & inputs.samples) == 0)
-            fail(fmt::format("does not draw to images of format {} with so many samples; use --msaa {}",
-                             static_cast<int>(format), samples > 4 ? 4 : 1));
+        if ((device.support().sampleCounts(format, attachment | VK_IMAGE_USAGE_SAMPLED_BIT) &
+             inputs.samples) == 0)
+            fail(fmt::format("does not draw to images of {} with so many samples; use --msaa {}",
+                             nameOf(format), samples > 4 ? 4 : 1));
     }
     const gpu::uint most = device.profile().packets_per_draw;
     if (inputs.longest_list > most)

@@ -58,6 +58,11 @@ ListLayouts::ListLayouts(Device& device, VkDescriptorSetLayout frame)
     pipeline_ = makePipelineLayout(device, sets);
 }
 
+OwnedBufferView texelsUnless(bool addressed, Device& device, const std::string& name, const GpuBuffer& buffer,
+                             VkFormat format) {
+    return makeTexelView(device, name, buffer, format, addressed ? bytesPerTexel(format) : VK_WHOLE_SIZE);
+}
+
 LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& layouts, const Choice& choice,
                        const View& view, const GpuLights& lights)
     : device_(device), layouts_(layouts), choice_(choice) {
@@ -66,41 +71,49 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     std::vector<gpu::uint> all;
     if (any()) {
         bounds = lightBounds(lights, view);
-        const std::uint64_t texels = std::uint64_t{device.limits().maxTexelBufferElements} * 4;
-        grid_ = makeLightGrid(
-            choice_.lists, view, lights, bounds, device.profile().costs,
-            std::min({std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes, texels}));
+        grid_ = makeLightGrid(choice_.lists, view, lights, bounds, device.profile().costs,
+                              std::min(std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes));
         all = listOfAll(grid_);
     }
+    constexpr std::uint64_t texel = sizeof(gpu::vec4);
+    const std::uint64_t most =
+        std::max({lights.lights.size() * sizeof(gpu::Light) / texel,
+                  lights.spot_cones.size() * sizeof(gpu::SpotCone) / texel,
+                  lights.area_lights.size() * sizeof(gpu::AreaLight) / texel,
+                  bounds.size() * sizeof(gpu::LightBound) / texel, std::uint64_t{grid_.lists} + 1,
+                  std::uint64_t{grid_.capacity},  // a texel each, whatever a packet's width
+                  std::uint64_t{grid_.words} * grid_.list_stride / 4});
+    addressed_ = most > device.limits().maxTexelBufferElements;
     const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t each,
                             VkBufferUsageFlags usage = 0) {
         return GpuBuffer(device, name, std::max<std::uint64_t>(count * each, 16),
                          usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     };
-    grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
-                                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     // One more than the cells have: that of all lights, for what lies in none.
     heads_ = buffer("light list heads", std::uint64_t{grid_.lists} + 1, sizeof(gpu::LightListHead),
-                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4,
-                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+                    texelsOrAddress);
+    indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4, texelsOrAddress);
     listed_ = buffer("light list counts", 2 * std::uint64_t{grid_.lists} + 1, 4);
-    heads_view_ = makeTexelView(device, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
-    indices_view_ = makeTexelView(device, "light lists", indices_,
-                                  grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
-    if (!any()) {
-        uploader.flush();
-        return;
+    heads_view_ = texelsUnless(addressed_, device, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
+    indices_view_ = texelsUnless(addressed_, device, "light lists", indices_,
+                                 grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
+    grid_.heads = addressWords(heads_.address());
+    grid_.indices = addressWords(indices_.address());
+    if (any()) {
+        uploader.buffer(indices_, std::as_bytes(std::span(all)));
+        bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds, texelsOrAddress);
+        bounds_view_ =
+            texelsUnless(addressed_, device, "light bounds", bounds_, VK_FORMAT_R32G32B32A32_SFLOAT);
+        masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4, texelsOrAddress);
+        masks_view_ = texelsUnless(addressed_, device, "light masks", masks_, VK_FORMAT_R32G32B32A32_UINT);
+        grid_.bounds = addressWords(bounds_.address());
+        grid_.masks = addressWords(masks_.address());
     }
-    uploader.buffer(indices_, std::as_bytes(std::span(all)));
-    bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds,
-                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    bounds_view_ = makeTexelView(device, "light bounds", bounds_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
+                                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     uploader.flush();
-    masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4,
-                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    masks_view_ = makeTexelView(device, "light masks", masks_, VK_FORMAT_R32G32B32A32_UINT);
+    if (!any()) return;
     const bool gathers = choice_.kernel == ListKernel::gather;
     candidates_ =
         buffer("light candidates",
@@ -132,7 +145,8 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
 
 void LightLists::specialise(Variant& variant) const {
     variant.set(gpu::FEATURE_light_lists, choice_.lists)
-        .set(gpu::FEATURE_list_width, any() ? grid_.width : 1);
+        .set(gpu::FEATURE_list_width, any() ? grid_.width : 1)
+        .set(gpu::FEATURE_addressed_lights, addressed_);
 }
 
 void LightLists::bind(DescriptorSets& frame) const {
@@ -211,7 +225,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     mark.uses(masks, write);
     if (tiled) mark.uses(depths, read);
     step(Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
-        .uses(masks, access::texelRead(inCompute))
+        .uses(masks, addressed_ ? read : access::texelRead(inCompute))
         .uses(used, write)
         .uses(counts, write)
         .uses(counts, read)
@@ -231,8 +245,9 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
 
 void LightLists::read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages) const {
     if (!any()) return;
-    pass.uses(passes.buffer("list heads", heads_), access::texelRead(stages))
-        .uses(passes.buffer("light lists", indices_), access::texelRead(stages))
+    const Access reads = addressed_ ? access::storageRead(stages) : access::texelRead(stages);
+    pass.uses(passes.buffer("list heads", heads_), reads)
+        .uses(passes.buffer("light lists", indices_), reads)
         .uses(passes.buffer("list counts", listed_), access::storageRead(stages));
 }
 

@@ -7,8 +7,9 @@
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
+#include <cstdint>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -35,6 +36,12 @@ private:
     OwnedPipelineLayout pipeline_;
 };
 
+// Of a buffer that shaders read as texels or, where `addressed`, by its address.
+constexpr VkBufferUsageFlags texelsOrAddress =
+    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+OwnedBufferView texelsUnless(bool addressed, Device& device, const std::string& name, const GpuBuffer& buffer,
+                             VkFormat format);
+
 // The light lists of one view. Kernels first make bit masks, one bit for each list and light, whose order
 // needs no sorting; then count the bits, place the lists by a prefix sum, and write them as indices. No light
 // is ever dropped: a list that does not fit into the buffer is replaced by the list of all lights, and such
@@ -53,7 +60,10 @@ public:
 
     const gpu::LightGrid& grid() const { return grid_; }
     bool any() const { return choice_.lists != gpu::LISTS_NONE; }
-    void specialise(Variant& variant) const;  // light_lists, list_width
+    // Whether shaders read lights and lists by their addresses, as one of these has more texels than a texel
+    // buffer of the device.
+    bool addressed() const { return addressed_; }
+    void specialise(Variant& variant) const;  // light_lists, list_width, addressed_lights
 
     // Writes the bindings LIGHT_GRID, LIST_HEADS, LIST_INDICES and LIST_COUNTS of a frame's set.
     void bind(DescriptorSets& frame) const;
@@ -83,6 +93,7 @@ private:
     const ListLayouts& layouts_;
     Choice choice_;
     gpu::LightGrid grid_{};
+    bool addressed_ = false;
     GpuBuffer grid_buffer_, bounds_, candidates_, masks_, used_words_, four_begins_, counts_, tile_depths_,
         overflow_, overflow_seen_, heads_, indices_, listed_;
     OwnedBufferView bounds_view_, masks_view_, heads_view_, indices_view_;

@@ -26,12 +26,7 @@ TextureFormat textureFormat(const Device& device, const TextureImage& image, boo
                             TexturePrecision precision) {
     // Of floats as of 16 bits of sRGB, which become floats.
     return textureFormat(image.deep(), srgb || !image.rgba32.empty(), precision, [&](VkFormat format) {
-        VkFormatProperties properties;
-        vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
-        constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
-                                                VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-                                                VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
-        return (properties.optimalTilingFeatures & needed) == needed;
+        return device.support().can(format, format_use::sampled | format_use::filtered);
     });
 }
 
@@ -41,10 +36,13 @@ GpuImage uploadTexture(Device& device, Uploader& uploader, const MipChain& chain
         throw std::runtime_error(fmt::format("image {}: {} x {} pixels; {} takes up to {} a side",
                                              chain.name(), chain.width(), chain.height(), device.info().name,
                                              most));
-    GpuImage image(device,
-                   {chain.name(), format, static_cast<std::uint32_t>(chain.width()),
-                    static_cast<std::uint32_t>(chain.height()), static_cast<std::uint32_t>(chain.count()),
-                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    GpuImage image(device, {.name = chain.name(),
+                            .format = format,
+                            .width = static_cast<std::uint32_t>(chain.width()),
+                            .height = static_cast<std::uint32_t>(chain.height()),
+                            .levels = static_cast<std::uint32_t>(chain.count()),
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                            .filtered = true});
     for (std::uint32_t level = 0; level < chain.count(); ++level)
         uploader.level(image, level, chain.level(level));
     return image;

@@ -19,14 +19,12 @@ bool hasMoments(Shadows shadows) {
 }
 
 MomentSupport momentSupport(const Device& device) {
-    const auto can = [&](VkFormat format, VkFormatFeatureFlags features) {
-        VkFormatProperties properties;
-        vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
-        return (properties.optimalTilingFeatures & features) == features;
+    using namespace format_use;
+    const auto can = [&](VkFormat format) {
+        return device.support().can(format, sampled | filtered | stored | stored_unnamed);
     };
-    constexpr VkFormatFeatureFlags filter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    return {.filters32 = can(VK_FORMAT_R32G32_SFLOAT, filter) && can(VK_FORMAT_R32G32B32A32_SFLOAT, filter),
-            .shares16 = can(VK_FORMAT_R16G16B16A16_UNORM, filter | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)};
+    return {.filters32 = can(VK_FORMAT_R32G32_SFLOAT) && can(VK_FORMAT_R32G32B32A32_SFLOAT),
+            .shares16 = can(VK_FORMAT_R16G16B16A16_UNORM)};
 }
 
 namespace {
@@ -82,7 +80,9 @@ ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef 
                              .extent = {size, size},
                              .layers = count,
                              .usage = VK_IMAGE_USAGE_STORAGE_BIT,
-                             .array = true});
+                             .array = true,
+                             .drawn = false,
+                             .filtered = true});
     };
     const ImageRef moments = image("shadow moments", layers);
     const bool blurs = request.variant.get(gpu::FEATURE_shadow_kernel) > 1;

@@ -17,7 +17,7 @@ bool hasMoments(Shadows shadows);
 
 // What a device can do with formats of moments.
 struct MomentSupport {
-    bool filters32 = false;  // filters RG32F and RGBA32F linearly
+    bool filters32 = false;  // stores RG32F and RGBA32F from shaders and filters them linearly
     bool shares16 = false;   // stores RGBA16 unorm from shaders and filters it linearly
 };
 MomentSupport momentSupport(const Device& device);

@@ -64,6 +64,11 @@ MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
         .exponent = settings.evsm_exponent,
         .negative = settings.evsm_negative_exponent,
         .nearest = settings.evsm_depth == EvsmDepth::from_minus_one ? -1.0f : 0.0f};
+    using namespace format_use;
+    if (const auto lacks =
+            device.support().lacks(request.format.format, sampled | filtered | stored | stored_unnamed))
+        throw std::runtime_error(
+            fmt::format("--shadows {}: {}: {}", settings.valueOf("shadows"), device.info().name, *lacks));
     request.variant.set(gpu::FEATURE_shadows, featureOf(settings.shadows))
         .set(gpu::FEATURE_shadow_kernel, static_cast<gpu::uint>(settings.shadow_kernel));
     const double largest = largestExponent(request.format.half);

@@ -45,7 +45,7 @@ std::vector<std::byte> readBuffer(Device& device, const GpuBuffer& buffer, VkDev
 FragmentLists::FragmentLists(Device& device, const DrawList& draws, const Settings& settings)
     : device_(device) {
     if (settings.transparency != Transparency::list || draws.blended().empty()) return;
-    if (!device.sortsFragments())
+    if (!device.support().sortsFragments())
         throw std::runtime_error(fmt::format(
             "--transparency list: {} lacks 64-bit atomics or stores in fragment shaders, or numbers "
             "of triangles there; use sorted, weighted or moments",

@@ -32,7 +32,7 @@ std::vector<DeviceInfo> listDevices() {
     const VulkanInstance instance;
     std::vector<DeviceInfo> infos;
     for (const VkPhysicalDevice device : instance.devices())
-        infos.push_back(describe(device, static_cast<int>(infos.size())));
+        infos.push_back(describe(DeviceSupport(device), static_cast<int>(infos.size())));
     return infos;
 }
 
@@ -44,17 +44,13 @@ std::uint64_t elapsedTicks(std::uint64_t from, std::uint64_t to, std::uint32_t v
 struct Device::State {
     ValidationLog log;
     std::optional<VulkanInstance> instance;
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceSupport support;
     DeviceInfo info;
     DeviceProfile profile;
     PipelineCompiler* compiler = nullptr;
-    VkPhysicalDeviceLimits limits{};
-    std::uint32_t indirect_draws = 1;
-    std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
     std::optional<DrawDivision> draw_division;
-    std::uint32_t family = 0;
     std::optional<PipelineCache> pipeline_cache;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedCommandPool pool;
@@ -68,42 +64,25 @@ struct Device::State {
 Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.instance.emplace(options.validate ? &s.log : nullptr);
-    const std::vector<VkPhysicalDevice> devices = s.instance->devices();
+    std::vector<DeviceSupport> devices;
     std::vector<DeviceInfo> infos;
-    for (const VkPhysicalDevice device : devices)
-        infos.push_back(describe(device, static_cast<int>(infos.size())));
-    const std::size_t chosen = chooseDevice(infos, options.choice);
-    s.physical = devices[chosen];
-    s.info = infos[chosen];
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(s.physical, &properties);
-    s.limits = properties.limits;
-    if (options.compiler != nullptr) {
-        const VkPhysicalDeviceLimits& there = options.compiler->limits();
-        for (std::uint32_t VkPhysicalDeviceLimits::*most :
-             {&VkPhysicalDeviceLimits::maxImageDimension2D, &VkPhysicalDeviceLimits::maxTexelBufferElements,
-              &VkPhysicalDeviceLimits::maxStorageBufferRange})
-            s.limits.*most = std::min(s.limits.*most, there.*most);
+    for (const VkPhysicalDevice device : s.instance->devices()) {
+        devices.emplace_back(device);
+        infos.push_back(describe(devices.back(), static_cast<int>(infos.size())));
     }
-
-    const std::uint32_t family = *graphicsFamily(s.physical);  // a required fact: chooseDevice saw to it
-    std::uint32_t families = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, nullptr);
-    std::vector<VkQueueFamilyProperties> queues(families);
-    vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, queues.data());
-    s.family = family;
-    s.timestamp_bits = queues.at(family).timestampValidBits;
+    const std::size_t chosen = chooseDevice(infos, options.choice);
+    s.support = devices[chosen];
+    s.info = infos[chosen];
     s.compiler = options.compiler;
+    if (s.compiler != nullptr) s.support.limitTo(s.compiler->limits());
     const bool likeGpu = s.compiler != nullptr && s.compiler->info().type != "cpu";
-    s.profile = profileOf(s.info, s.timestamp_bits, likeGpu ? ProfileChoices::gpu : options.choices);
-    if (!beginsAtAnyInstance(s.physical)) s.profile.culls_by_compute = false;
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(s.physical, &features);
-    if (features.multiDrawIndirect == VK_TRUE) s.indirect_draws = s.limits.maxDrawIndirectCount;
-    s.device.reset(createDevice(s.physical, family));
+    const std::uint32_t family = s.support.graphicsFamily().value();  // chooseDevice saw to it
+    s.profile = profileOf(s.info, s.support.timestampBits(), likeGpu ? ProfileChoices::gpu : options.choices);
+    if (!s.support.has(DeviceFeature::drawIndirectFirstInstance)) s.profile.culls_by_compute = false;
+    s.device.reset(createDevice(s.support));
     s.draw_division.emplace(s.device.get(), s.profile.bins_at_once);
-    s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
-    s.pipeline_cache.emplace(s.physical, s.device.get(), userCacheFolder());
+    s.memory = std::make_unique<Memory>(s.support, s.device.get());
+    s.pipeline_cache.emplace(s.support.properties(), s.device.get(), userCacheFolder());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
     s.pool = makeCommandPool(s.device.get(), family);
     s.commands = allocateCommands(s.device.get(), s.pool);
@@ -124,39 +103,8 @@ Device::~Device() {
 const DeviceInfo& Device::info() const {
     return state_->info;
 }
-bool Device::countsFragments() const {
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(state_->physical, &features);
-    return features.occlusionQueryPrecise == VK_TRUE;
-}
-bool Device::countsStages() const {
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(state_->physical, &features);
-    return features.pipelineStatisticsQuery == VK_TRUE;
-}
-VkSampleCountFlags Device::sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
-    VkImageFormatProperties properties{};
-    const VkResult found = vkGetPhysicalDeviceImageFormatProperties(
-        state_->physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
-    return found == VK_SUCCESS ? properties.sampleCounts : 0;
-}
-
-bool Device::storesSamples() const {
-    return diptych::storesSamples(state_->physical);
-}
-
-bool Device::hasFloat16() const {
-    return diptych::hasFloat16(state_->physical);
-}
-bool Device::hasInt64() const {
-    return diptych::hasInt64(state_->physical);
-}
-
-bool Device::sortsFragments() const {
-    return diptych::sortsFragments(state_->physical);
-}
 std::uint32_t Device::indirectDraws() const {
-    return state_->indirect_draws;
+    return support().has(DeviceFeature::multiDrawIndirect) ? limits().maxDrawIndirectCount : 1;
 }
 PipelineCompiler* Device::compiler() const {
     return state_->compiler;
@@ -165,16 +113,13 @@ const DeviceProfile& Device::profile() const {
     return state_->profile;
 }
 std::uint64_t Device::ticksBetween(std::uint64_t from, std::uint64_t to) const {
-    return elapsedTicks(from, to, state_->timestamp_bits);
+    return elapsedTicks(from, to, support().timestampBits());
 }
-const VkPhysicalDeviceLimits& Device::limits() const {
-    return state_->limits;
+const DeviceSupport& Device::support() const {
+    return state_->support;
 }
 VkDevice Device::handle() const {
     return state_->device.get();
-}
-VkPhysicalDevice Device::physical() const {
-    return state_->physical;
 }
 Memory& Device::memory() {
     return *state_->memory;
@@ -187,7 +132,7 @@ VkQueue Device::queue() const {
     return state_->queue;
 }
 std::uint32_t Device::queueFamily() const {
-    return state_->family;
+    return *support().graphicsFamily();
 }
 
 void Device::record(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record) {

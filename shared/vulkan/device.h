@@ -4,6 +4,7 @@
 
 #include "shared/vulkan/device_info.h"
 #include "shared/vulkan/device_profile.h"
+#include "shared/vulkan/device_support.h"
 #include "shared/vulkan/draw_division.h"
 #include "shared/vulkan/memory.h"
 #include "shared/vulkan/owned.h"
@@ -32,7 +33,7 @@ struct DeviceOptions {
 struct TargetRounding {
     std::string format;
     double steps = 0;
-    std::string kind;  // "to nearest", "towards zero", ...
+    std::string kind;  // "to nearest", "towards zero", ...; empty: the device does not draw to it
 };
 
 // Ticks from one time stamp to a later one, of which the lowest `validBits` count: the others are undefined,
@@ -51,23 +52,12 @@ public:
     Device& operator=(const Device&) = delete;
 
     const DeviceInfo& info() const;
-    const VkPhysicalDeviceLimits& limits() const;
+    // What the device has, asked once.
+    const DeviceSupport& support() const;
+    const VkPhysicalDeviceLimits& limits() const { return support().limits(); }
     VkDevice handle() const;
-    VkPhysicalDevice physical() const;
     Memory& memory();
     VkPipelineCache pipelineCache() const;  // for everything that makes pipelines, from any thread
-    bool countsFragments() const;           // occlusion queries are exact
-    bool countsStages() const;              // pipeline statistics
-    // Fragment shaders have 64-bit atomics on buffers and the number of their triangle.
-    bool sortsFragments() const;
-    // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
-    VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const;
-    // Fragment shaders may store to a sample of an image.
-    bool storesSamples() const;
-    // Whether shaders may have integers of 64 bits.
-    bool hasInt64() const;
-    // Whether shaders may compute with floats of 16 bits.
-    bool hasFloat16() const;
     // How many indirect draws one command may have: 1 where a device takes no more.
     std::uint32_t indirectDraws() const;
     const DeviceProfile& profile() const;

@@ -31,6 +31,7 @@ enum class ProfileChoices {
     gpu,  // a GPU's, on any device, so that tests may draw with them where there is none
     // The device's own, but for DeviceProfile::culls_by_compute: so that it alone may be measured and tested.
     culling_by_compute,
+    flattening_branches,  // the same for DeviceProfile::flattens_branches
 };
 
 struct DeviceProfile {
@@ -46,6 +47,9 @@ struct DeviceProfile {
     // So many threads run at once that light lists are made by many for each tile (gather); otherwise by few
     // for each light, which test less (scatter).
     bool wide_groups = false;
+    // The driver's compiler takes twice as long for every branch inside a loop: pipelines are made of modules
+    // whose branches are selections (flattened() of flatten.h).
+    bool flattens_branches = false;
     // Sets of inputs between vertex and fragment shaders that pipelines are made with
     // (shaders/lib/inputs.glsl): 4, where every input costs, or 1, the set of all inputs, so that fewer
     // modules are loaded.

@@ -93,25 +93,12 @@ std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& p
     return types;
 }
 
-Memory::Memory(VkPhysicalDevice physical, VkDevice device, bool budget) : device_(device) {
-    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+Memory::Memory(const DeviceSupport& support, VkDevice device)
+    : device_(device), properties_(support.memory()) {
     calls_.allocate = [device](const VkMemoryAllocateInfo& info, VkDeviceMemory* memory) {
         return vkAllocateMemory(device, &info, nullptr, memory);
     };
-    calls_.left = [physical, budget] {
-        std::vector<VkDeviceSize> left;
-        if (!budget) return left;
-        VkPhysicalDeviceMemoryBudgetPropertiesEXT budgets{};
-        budgets.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
-        VkPhysicalDeviceMemoryProperties2 all{};
-        all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
-        all.pNext = &budgets;
-        vkGetPhysicalDeviceMemoryProperties2(physical, &all);
-        for (std::uint32_t heap = 0; heap < all.memoryProperties.memoryHeapCount; ++heap)
-            left.push_back(budgets.heapBudget[heap] -
-                           std::min(budgets.heapUsage[heap], budgets.heapBudget[heap]));
-        return left;
-    };
+    calls_.left = [&support] { return support.bytesLeft(); };
 }
 
 Memory::Memory(VkDevice device, const VkPhysicalDeviceMemoryProperties& properties, MemoryCalls calls)

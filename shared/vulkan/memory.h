@@ -2,6 +2,7 @@
 // Device memory, sub-allocated: a GPU allows a few thousand allocations, a scene has more resources.
 #pragma once
 
+#include "shared/vulkan/device_support.h"
 #include "shared/vulkan/owned.h"
 
 #include <cstdint>
@@ -59,8 +60,7 @@ struct MemoryCalls {
 
 class Memory {
 public:
-    // `budget`: the device has VK_EXT_memory_budget.
-    Memory(VkPhysicalDevice physical, VkDevice device, bool budget);
+    Memory(const DeviceSupport& support, VkDevice device);  // `support` outlives it
     Memory(VkDevice device, const VkPhysicalDeviceMemoryProperties& properties, MemoryCalls calls);
     ~Memory();
 

@@ -42,6 +42,8 @@ struct ImageDeclaration {
     VkImageUsageFlags usage = 0;  // beside attachment, sampled and, of kept images, copied from
     Life life = Life::kept;
     bool array = false;         // shaders read it as an array, even of one layer
+    bool drawn = true;          // false: no pass draws to it
+    bool filtered = false;      // shaders filter it linearly
     bool with_picture = false;  // of a size of its own that grows with the list's
     StoredDepths depths = {};   // of a depth image
 };

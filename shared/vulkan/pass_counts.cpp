@@ -72,7 +72,8 @@ void PassList::addTraffic(const Pass& pass, PassCounts& counts) const {
 }
 
 std::vector<PassCounts> PassList::count(std::size_t first, std::size_t last) {
-    if (!device_.countsStages() || !device_.countsFragments())
+    if (!device_.support().has(DeviceFeature::pipelineStatisticsQuery) ||
+        !device_.support().has(DeviceFeature::occlusionQueryPrecise))
         throw std::runtime_error(
             fmt::format("{}: the device has no pipeline statistics or no exact occlusion queries, which "
                         "counting needs; choose another by --device",

@@ -20,9 +20,10 @@ bool isDepth(const GpuImage& image) {
 
 VkImageUsageFlags usageOf(const ImageDeclaration& declared) {
     VkImageUsageFlags usage = declared.usage | VK_IMAGE_USAGE_SAMPLED_BIT;
-    usage |= aspectOf(declared.format) == VK_IMAGE_ASPECT_DEPTH_BIT
-                 ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (declared.drawn)
+        usage |= aspectOf(declared.format) == VK_IMAGE_ASPECT_DEPTH_BIT
+                     ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                     : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     if (declared.life == Life::kept) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     return usage;
 }
@@ -55,7 +56,7 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
         device_,
         GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
                      own ? height_ : declared.extent.height, declared.levels, usageOf(declared),
-                     declared.layers, declared.samples, declared.array},
+                     declared.layers, declared.samples, declared.array, declared.filtered},
         declared.life == Life::kept ? GpuImage::Memory::own : GpuImage::Memory::none);
     tracker_.add(declared.name, declared.levels, declared.layers);
     resources_.push_back(std::move(resource));

@@ -107,11 +107,10 @@ bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::
     return false;
 }
 
-PipelineCache::PipelineCache(VkPhysicalDevice physical, VkDevice device, const fs::path& folder)
+PipelineCache::PipelineCache(const VkPhysicalDeviceProperties& properties, VkDevice device,
+                             const fs::path& folder)
     : device_(device) {
     if (!folder.empty()) {
-        VkPhysicalDeviceProperties properties;
-        vkGetPhysicalDeviceProperties(physical, &properties);
         std::memcpy(key_.driver.data(), properties.pipelineCacheUUID, VK_UUID_SIZE);
         key_.vendor = properties.vendorID;
         key_.device = properties.deviceID;

@@ -40,7 +40,8 @@ bool writePipelineCache(const std::filesystem::path& file, const PipelineCacheKe
 // A device's cache, begun with what is kept in `folder` and kept there when it dies. Empty folder: not kept.
 class PipelineCache {
 public:
-    PipelineCache(VkPhysicalDevice physical, VkDevice device, const std::filesystem::path& folder);
+    PipelineCache(const VkPhysicalDeviceProperties& properties, VkDevice device,
+                  const std::filesystem::path& folder);
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;

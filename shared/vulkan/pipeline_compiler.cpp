@@ -53,18 +53,6 @@ constexpr std::string_view nullHardware = "Null hardware";
 // A family that RADV has known since it compiles without hardware.
 constexpr const char* oldestFamily = "vega10";
 
-// A draw and a dispatch that need no descriptors.
-void tryPipelines(VkDevice device) {
-    const OwnedPipelineLayout layout =
-        makePipelineLayout(device, {}, VkPushConstantRange{VK_SHADER_STAGE_ALL, 0, 128});
-    const PipelineSite site{device, VK_NULL_HANDLE, layout, VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
-    const PipelineKey draw{.vertex = Shader::full_screen_vert,
-                           .fragment = Shader::probe_rounding_frag,
-                           .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
-    makePipeline(site, draw, plainParts(draw));
-    makePipeline(site, plainModule(Shader::cull_clusters_comp), {});
-}
-
 }  // namespace
 
 std::string PipelineRequest::name() const {
@@ -74,9 +62,9 @@ std::string PipelineRequest::name() const {
 
 struct PipelineCompiler::State {
     std::optional<VulkanInstance> instance;
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    std::vector<DeviceSupport> devices;
+    DeviceSupport support;
     DeviceInfo info;
-    VkPhysicalDeviceLimits limits{};
     std::unique_ptr<VkDevice, CompilerDeviceDeleter> device;
     PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
@@ -88,12 +76,21 @@ struct PipelineCompiler::State {
 
     std::vector<DeviceInfo> list() {
         instance.emplace();
+        devices.clear();
         std::vector<DeviceInfo> infos;
         for (const VkPhysicalDevice found : instance->devices())
-            infos.push_back(describe(found, static_cast<int>(infos.size())));
+            infos.push_back(describe(devices.emplace_back(found), static_cast<int>(infos.size())));
         return infos;
     }
+    PipelineSite site(VkPipelineLayout layout) const {
+        return {.device = device.get(),
+                .support = support,
+                .info = info,
+                .layout = layout,
+                .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
+    }
     void open(const DeviceInfo& chosen, const std::string& choice);
+    void tryPipelines() const;  // a draw and a dispatch that need no descriptors
     std::vector<CompiledShader> shadersOf(VkPipeline pipeline,
                                           std::span<const ShaderModule* const> modules) const;
     CompiledPipeline compile(const PipelineRequest& request) const;
@@ -102,24 +99,32 @@ struct PipelineCompiler::State {
 
 void PipelineCompiler::State::open(const DeviceInfo& chosen, const std::string& choice) {
     info = chosen;
-    physical = instance->devices().at(static_cast<std::size_t>(chosen.index));
+    support = devices.at(static_cast<std::size_t>(chosen.index));
     for (const DeviceFact& fact : info.facts)
         if (fact.required && !fact.there && fact.what != memoryFact)
             throw std::runtime_error(
                 fmt::format("--compile-on {}: {} lacks {}", choice, info.name, fact.what));
-    if (!saysStatistics(physical))
+    if (!support.hasExtension(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
         throw std::runtime_error(fmt::format(
             "--compile-on {}: {} says nothing of what it compiles (VK_KHR_pipeline_executable_properties)",
             choice, info.name));
-    VkPhysicalDeviceProperties all;
-    vkGetPhysicalDeviceProperties(physical, &all);
-    limits = all.limits;
-    device.reset(createDevice(physical, *graphicsFamily(physical), true));
+    device.reset(createDevice(support, true));
     const auto load = [&](const char* name) { return vkGetDeviceProcAddr(device.get(), name); };
     properties = reinterpret_cast<PFN_vkGetPipelineExecutablePropertiesKHR>(
         load("vkGetPipelineExecutablePropertiesKHR"));
     statistics = reinterpret_cast<PFN_vkGetPipelineExecutableStatisticsKHR>(
         load("vkGetPipelineExecutableStatisticsKHR"));
+}
+
+void PipelineCompiler::State::tryPipelines() const {
+    const OwnedPipelineLayout layout =
+        makePipelineLayout(device.get(), {}, VkPushConstantRange{VK_SHADER_STAGE_ALL, 0, 128});
+    const PipelineSite site = this->site(layout);
+    const PipelineKey draw{.vertex = Shader::full_screen_vert,
+                           .fragment = Shader::probe_rounding_frag,
+                           .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
+    makePipeline(site, draw, plainParts(draw));
+    makePipeline(site, plainModule(Shader::cull_clusters_comp), {});
 }
 
 PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
@@ -149,7 +154,7 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
     const DriverTrial trial = tryInChild([&] {
         const EnvironmentVariables forced = inFamily(choice.c_str());
         openFamily();
-        tryPipelines(s.device.get());
+        s.tryPipelines();
         return std::string();
     });
     if (trial.crashed) {
@@ -176,7 +181,7 @@ const DeviceInfo& PipelineCompiler::info() const {
     return state_->info;
 }
 const VkPhysicalDeviceLimits& PipelineCompiler::limits() const {
-    return state_->limits;
+    return state_->support.limits();
 }
 
 void PipelineCompiler::addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types) {
@@ -215,14 +220,10 @@ std::vector<CompiledPipeline> PipelineCompiler::compile(std::span<const Pipeline
 // What it cannot draw to; empty: nothing.
 std::string PipelineCompiler::State::lackedFormats(const PipelineKey& key) const {
     const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
-        VkImageFormatProperties found{};
-        return vkGetPhysicalDeviceImageFormatProperties(physical, format, VK_IMAGE_TYPE_2D,
-                                                        VK_IMAGE_TILING_OPTIMAL, usage, 0,
-                                                        &found) == VK_SUCCESS &&
-               (found.sampleCounts & key.samples) != 0;
+        return (support.sampleCounts(format, usage) & key.samples) != 0;
     };
     const auto words = [&](VkFormat format) {
-        return fmt::format("does not draw to VkFormat {} with {} samples", static_cast<int>(format),
+        return fmt::format("does not draw to {} with {} samples", nameOf(format),
                            static_cast<int>(key.samples));
     };
     for (const VkFormat format : key.colors)
@@ -268,16 +269,15 @@ std::vector<CompiledShader> PipelineCompiler::State::shadersOf(
 
 CompiledPipeline PipelineCompiler::State::compile(const PipelineRequest& request) const {
     CompiledPipeline compiled;
-    const PipelineSite site{device.get(), VK_NULL_HANDLE, layouts.at(request.layout),
-                            VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
+    const PipelineSite site = this->site(layouts.at(request.layout));
     try {
         if (request.kernel != nullptr) {
             // RADV divides by zero where not one workgroup fits.
             const std::uint64_t shared = sharedBytes(specialized(
                 request.kernel->words, [&](std::uint32_t id) { return request.kernel_variant.get(id); }));
-            if (shared > limits.maxComputeSharedMemorySize) {
+            if (shared > support.limits().maxComputeSharedMemorySize) {
                 compiled.error = fmt::format("asks for {} bytes of shared memory; there are {}", shared,
-                                             limits.maxComputeSharedMemorySize);
+                                             support.limits().maxComputeSharedMemorySize);
                 return compiled;
             }
             compiled.shaders = shadersOf(makePipeline(site, *request.kernel, request.kernel_variant),

@@ -2,26 +2,61 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/flatten.h"
 #include "shared/vulkan/pipeline_compiler.h"
 #include "shared/vulkan/specialize.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace diptych {
 
 namespace {
 
+[[noreturn]] void refuse(const PipelineSite& site, std::string_view what, const std::string& why) {
+    throw std::runtime_error(
+        fmt::format("device {} ({}): {}: {}", site.info.index, site.info.name, what, why));
+}
+
+// Refuses what the device draws no such pipeline with.
+void checkPipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
+    const std::string_view name = parts.fragment != nullptr ? parts.fragment->name : parts.vertex->name;
+    const auto needs = [&](VkFormat format, std::uint32_t uses) {
+        if (const auto lacks = site.support.lacks(format, uses)) refuse(site, name, *lacks);
+    };
+    const auto blendOf = [&](std::size_t i) { return key.blends.empty() ? Blend::none : key.blends.at(i); };
+    for (std::size_t i = 0; i < key.colors.size(); ++i) {
+        needs(key.colors[i], blendOf(i) == Blend::none ? std::uint32_t{format_use::drawn}
+                                                       : format_use::drawn | format_use::blended);
+        if (blendOf(i) != blendOf(0) && !site.support.has(DeviceFeature::independentBlend))
+            refuse(site, name, "it lacks blending by attachment; choose another device with --device");
+    }
+    if (key.depth != VK_FORMAT_UNDEFINED) needs(key.depth, format_use::depth);
+    for (const VkVertexInputAttributeDescription& attribute : parts.attributes)
+        needs(attribute.format, format_use::vertices);
+    if (key.depth_clamp && !site.support.has(DeviceFeature::depthClamp))
+        refuse(site, name, "it lacks depth clamping; choose another device with --device");
+}
+
 // The module without what the variant switches off.
-OwnedShaderModule specializedModule(VkDevice device, const ShaderModule& module, const Variant& variant) {
-    const auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
+OwnedShaderModule specializedModule(const PipelineSite& site, const ShaderModule& module,
+                                    const Variant& variant) {
+    if (const auto problem = moduleProblem(site.support, module.words))
+        refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
+    auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
+    if (site.flattens_branches) words = flattened(words);
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .pNext = nullptr,
                                         .flags = 0,
                                         .codeSize = words.size() * sizeof(std::uint32_t),
                                         .pCode = words.data()};
     VkShaderModule handle = VK_NULL_HANDLE;
-    checkResult(vkCreateShaderModule(device, &info, nullptr, &handle), "vkCreateShaderModule");
-    return {device, handle};
+    checkResult(vkCreateShaderModule(site.device, &info, nullptr, &handle), "vkCreateShaderModule");
+    return {site.device, handle};
 }
 
 VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderModule module) {
@@ -75,10 +110,11 @@ PipelineParts plainParts(const PipelineKey& key) {
 }
 
 OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
+    checkPipeline(site, key, parts);
     std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule& module) {
-        code.push_back(specializedModule(site.device, module, key.variant));
+        code.push_back(specializedModule(site, module, key.variant));
         stages.push_back(stageOf(stage, code.back()));
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, *parts.vertex);
@@ -172,7 +208,7 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
 }
 
 OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant) {
-    const OwnedShaderModule code = specializedModule(site.device, module, variant);
+    const OwnedShaderModule code = specializedModule(site, module, variant);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = site.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
@@ -184,6 +220,19 @@ OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
     return {site.device, pipeline};
 }
 
+namespace {
+
+PipelineSite siteOf(Device& device, VkPipelineLayout layout) {
+    return {.device = device.handle(),
+            .support = device.support(),
+            .info = device.info(),
+            .layout = layout,
+            .cache = device.pipelineCache(),
+            .flattens_branches = device.profile().flattens_branches};
+}
+
+}  // namespace
+
 std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     struct Missing {
         const PipelineKey* key;
@@ -191,7 +240,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
         OwnedPipeline* pipeline;
     };
     std::vector<Missing> missing;
-    const PipelineSite site{device_.handle(), device_.pipelineCache(), layout_};
+    const PipelineSite site = siteOf(device_, layout_);
     if (PipelineCompiler* const compiler = device_.compiler())
         for (const PipelineKey& key : keys) compiler->ask({.layout = layout_, .key = key, .choose = choose_});
     try {
@@ -218,8 +267,7 @@ VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant
     if (PipelineCompiler* const compiler = device_.compiler())
         compiler->ask({.layout = layout, .kernel = &module, .kernel_variant = variant});
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
-    if (isNew)
-        entry->second = makePipeline({device_.handle(), device_.pipelineCache(), layout}, module, variant);
+    if (isNew) entry->second = makePipeline(siteOf(device_, layout), module, variant);
     return entry->second;
 }
 

@@ -66,11 +66,15 @@ PipelineParts plainParts(const PipelineKey& key);
 // Where a pipeline is made.
 struct PipelineSite {
     VkDevice device = VK_NULL_HANDLE;
-    VkPipelineCache cache = VK_NULL_HANDLE;
+    const DeviceSupport& support;
+    const DeviceInfo& info;
     VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipelineCache cache = VK_NULL_HANDLE;
     VkPipelineCreateFlags flags = 0;
+    bool flattens_branches = false;  // DeviceProfile
 };
-// Triangles; viewport, scissor, cull mode and front face are dynamic.
+// Throws std::runtime_error that names what the device lacks. Triangles; viewport, scissor, cull mode and
+// front face are dynamic.
 OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts);
 // A compute shader whose dispatches may begin at any workgroup.
 OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant);

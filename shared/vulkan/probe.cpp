@@ -79,6 +79,10 @@ std::vector<TargetRounding> Device::probeRounding() {
         drawProbe(*this, Shader::probe_rounding_frag, VK_FORMAT_R32G32B32A32_SFLOAT, samples);
     std::vector<TargetRounding> result;
     for (const Target& target : targets()) {
+        if (!support().can(target.format, format_use::drawn | format_use::sampled)) {
+            result.push_back({target.name, 0, ""});
+            continue;
+        }
         const std::vector<std::uint32_t> bits =
             drawProbe(*this, Shader::probe_rounding_frag, target.format, samples);
         double largest = 0, above = 0;
@@ -109,8 +113,10 @@ std::vector<DeviceFact> Device::probe() {
                          : fmt::format("all loops of one invocation end silently after {}", limit)});
     for (const TargetRounding& target : probeRounding())
         facts.push_back({"rounds to nearest: " + target.format, target.kind == "to nearest", false,
-                         fmt::format("{}, up to {:.2f} of a step; the G-buffer rounds in the shader",
-                                     target.kind, target.steps)});
+                         target.kind.empty()
+                             ? "not supported: it cannot be drawn to, which nothing else here needs"
+                             : fmt::format("{}, up to {:.2f} of a step; the G-buffer rounds in the shader",
+                                           target.kind, target.steps)});
     return facts;
 }
 

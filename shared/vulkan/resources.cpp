@@ -11,6 +11,48 @@
 
 namespace diptych {
 
+namespace {
+
+[[noreturn]] void refuse(const Device& device, const std::string& name, const std::string& why) {
+    throw std::runtime_error(
+        fmt::format("device {} ({}): {}: {}", device.info().index, device.info().name, name, why));
+}
+
+// Refuses what the device has no images of.
+void checkImage(const Device& device, const GpuImageInfo& info) {
+    const auto uses = [&](VkImageUsageFlags usage, std::uint32_t use) {
+        return (info.usage & usage) != 0 ? use : 0;
+    };
+    using namespace format_use;
+    const std::uint32_t attached = uses(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, drawn) |
+                                   uses(VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, depth);
+    std::uint32_t needed =
+        attached | uses(VK_IMAGE_USAGE_SAMPLED_BIT, sampled) | uses(VK_IMAGE_USAGE_STORAGE_BIT, stored);
+    if (info.filtered) needed |= filtered;
+    if (info.samples > VK_SAMPLE_COUNT_1_BIT) needed |= multisampled;
+    if (const auto lacks = device.support().lacks(info.format, needed)) refuse(device, info.name, *lacks);
+    const VkImageFormatProperties can = device.support().images(info.format, info.usage);
+    const std::uint32_t most = attached != 0 ? device.support().mostPixels() : ~0u;
+    if ((can.sampleCounts & info.samples) == 0)
+        refuse(
+            device, info.name,
+            fmt::format("there are no images of {} for these uses with {} samples a pixel; use --msaa 1 and "
+                        "--lighting fragment, or choose another device with --device",
+                        nameOf(info.format), static_cast<int>(info.samples)));
+    if (info.width > std::min(can.maxExtent.width, most) ||
+        info.height > std::min(can.maxExtent.height, most) || info.layers > can.maxArrayLayers ||
+        info.levels > can.maxMipLevels)
+        refuse(
+            device, info.name,
+            fmt::format("{} x {} texels and {} layers; images of {} have up to {} x {} and {}; use a smaller "
+                        "--size or --shadow-size, or choose another device with --device",
+                        info.width, info.height, info.layers, nameOf(info.format),
+                        std::min(can.maxExtent.width, most), std::min(can.maxExtent.height, most),
+                        can.maxArrayLayers));
+}
+
+}  // namespace
+
 VkImageAspectFlags aspectOf(VkFormat format) {
     const bool depth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
                        format == VK_FORMAT_D16_UNORM;
@@ -74,6 +116,10 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
         throw std::runtime_error(
             fmt::format("the scene's {} take {} MiB; {} reads up to {} MiB of one buffer", name, size_ >> 20,
                         device.info().name, device.limits().maxStorageBufferRange >> 20));
+    if (size_ > device.support().mostBytesOfBuffer())
+        throw std::runtime_error(fmt::format("the scene's {} take {} MiB; {} has buffers of up to {} MiB",
+                                             name, size_ >> 20, device.info().name,
+                                             device.support().mostBytesOfBuffer() >> 20));
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .pNext = nullptr,
                                   .flags = 0,
@@ -87,6 +133,9 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     buffer_ = OwnedBuffer(device.handle(), buffer);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    // By their addresses shaders load four words at once.
+    if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0)
+        needs.alignment = std::max(needs.alignment, VkDeviceSize{16});
     memory_ = device.memory().allocate(needs, use, false, "the buffer " + name);
     checkResult(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
                 "vkBindBufferMemory");
@@ -100,6 +149,7 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
 
 GpuImage::GpuImage(Device& device, const GpuImageInfo& info, Memory memory)
     : device_(device.handle()), info_(info) {
+    checkImage(device, info);
     const VkImageCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .pNext = nullptr,
                                    .flags = 0,
@@ -158,8 +208,9 @@ OwnedImageView GpuImage::makeView(std::uint32_t level, std::uint32_t levels, std
 }
 
 OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,
-                              VkFormat format) {
-    const VkDeviceSize texels = buffer.size() / bytesPerTexel(format);
+                              VkFormat format, VkDeviceSize bytes) {
+    if (const auto lacks = device.support().lacks(format, format_use::texels)) refuse(device, name, *lacks);
+    const VkDeviceSize texels = std::min(bytes, buffer.size()) / bytesPerTexel(format);
     if (texels > device.limits().maxTexelBufferElements)
         throw std::runtime_error(fmt::format("the scene's {} take {} texels; {} reads up to {} of one buffer",
                                              name, texels, device.info().name,
@@ -170,7 +221,7 @@ OwnedBufferView makeTexelView(Device& device, const std::string& name, const Gpu
                                       .buffer = buffer.handle(),
                                       .format = format,
                                       .offset = 0,
-                                      .range = VK_WHOLE_SIZE};
+                                      .range = bytes};
     VkBufferView view = VK_NULL_HANDLE;
     checkResult(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
     return {device.handle(), view};

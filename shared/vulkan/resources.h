@@ -3,6 +3,7 @@
 // device is idle (Device::submit waits, so that is after every submit).
 #pragma once
 
+#include "shared/contract/types.h"
 #include "shared/vulkan/device.h"
 
 #include <cstddef>
@@ -37,10 +38,15 @@ private:
     VkDeviceAddress address_ = 0;
 };
 
-// The buffer as texels of `format`, for shaders to fetch; its usage has UNIFORM_TEXEL_BUFFER.
-// Throws std::runtime_error where it holds more of them than the device reads.
+// An address as shaders take it, the low word first.
+inline gpu::uvec2 addressWords(VkDeviceAddress address) {
+    return {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32)};
+}
+
+// The buffer, or its first `bytes`, as texels of `format`, for shaders to fetch; its usage has
+// UNIFORM_TEXEL_BUFFER. Throws std::runtime_error where there are more of them than the device reads.
 OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,
-                              VkFormat format);
+                              VkFormat format, VkDeviceSize bytes = VK_WHOLE_SIZE);
 
 struct GpuImageInfo {
     std::string name;
@@ -49,7 +55,8 @@ struct GpuImageInfo {
     VkImageUsageFlags usage = 0;
     std::uint32_t layers = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool array = false;  // views are of an array, even of one layer
+    bool array = false;     // views are of an array, even of one layer
+    bool filtered = false;  // shaders filter it linearly
 };
 
 // A two-dimensional image, an array where it has several layers.
@@ -58,6 +65,7 @@ public:
     enum class Memory { own, none };  // none: bind() gives it some before anything else
 
     GpuImage() = default;
+    // Throws std::runtime_error that names the format or the size which the device has not.
     GpuImage(Device& device, const GpuImageInfo& info, Memory memory = Memory::own);
 
     // To memory that outlives the image and meets requirements().

@@ -117,7 +117,7 @@ TEST(LightingImages, AreTheSameInEveryFormat) {
                                    s.lit_format = to;
                                    s.depth_format = depth;
                                });
-    if (device().hasFloat16())
+    if (device().support().has(DeviceFeature::shaderFloat16))
         expectSameLighting("builtin:gallery", "light in 16 bits",
                            [](Settings& s) { s.shading_precision = ShadingPrecision::fp16; });
     // Beyond the largest number of 16 bits.

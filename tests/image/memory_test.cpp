@@ -70,7 +70,7 @@ private:
         if (info.allocationSize > room) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         room -= info.allocationSize;
         VkPhysicalDeviceMemoryProperties real;
-        vkGetPhysicalDeviceMemoryProperties(device().physical(), &real);
+        vkGetPhysicalDeviceMemoryProperties(device().support().handle(), &real);
         info.memoryTypeIndex = memoryTypes(real, ~0u, MemoryUse::upload).at(0);
         return vkAllocateMemory(device().handle(), &info, nullptr, memory);
     }

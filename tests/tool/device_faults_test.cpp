@@ -80,23 +80,6 @@ TEST(DeviceFaults, WhatCannotBeMadeIsNamed) {
     EXPECT_GE(sweep("vkAllocateDescriptorSets", VK_ERROR_OUT_OF_POOL_MEMORY, "vkAllocateDescriptorSets"), 1);
 }
 
-TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
-    const Folder folder;
-    for (const auto& [feature, says] : {std::pair{"dynamicRendering", "dynamic rendering"},
-                                        {"synchronization2", "synchronization2"},
-                                        {"shaderDemoteToHelperInvocation", "demotion to helper invocations"},
-                                        {"scalarBlockLayout", "scalar block layout"},
-                                        {"fullDrawIndexUint32", "32-bit indices"}}) {
-        const Fault fault{"features", feature};
-        const Faulted ran = runFaulted(folder, compareTriangle, fault, 1);
-        EXPECT_TRUE(ran.failedOver("lacks " + std::string(says) + "; choose another with --device"))
-            << ran.err;
-        EXPECT_FALSE(fs::exists(folder / "r"));
-        const Ran devices = runFaulted(folder, "devices", fault, 1);
-        EXPECT_NE(devices.out.find(says), std::string::npos) << devices.out;
-    }
-}
-
 // All large allocations of this program and of its libraries. Smaller ones are too many to fail one by one.
 TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;

@@ -99,6 +99,37 @@ TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
               Faults{"compare/render/planted.cpp"});
 }
 
+// What a device has is asked in one place; the window's surface is the viewer's own, and instances list their
+// devices and layers. The functions' names, so that a wrapper of them is found too.
+Faults askersOfVulkan(const Files& files) {
+    static const std::regex asks("\\bvkGetPhysicalDevice(\\w+)|\\bvkEnumerateDeviceExtensionProperties");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!endsIn(path, {".cpp", ".h"}) || path.starts_with("tests/") ||
+            path == "shared/vulkan/device_support.cpp")
+            continue;
+        for (std::sregex_iterator it(text.begin(), text.end(), asks), end; it != end; ++it)
+            if (!path.starts_with("compare/viewer/") || !(*it)[1].str().starts_with("Surface"))
+                faults.push_back(path + " calls " + it->str());
+    }
+    return faults;
+}
+
+TEST(Conventions, OnlyDeviceSupportAsksVulkanWhatADeviceHas) {
+    EXPECT_EQ(joined(askersOfVulkan(sources())), "");
+}
+
+TEST(Conventions, APlantedQuestionToVulkanIsFound) {
+    const auto plant = [](const std::string& path, const std::string& line) {
+        return askersOfVulkan({{path, line}}).size();
+    };
+    EXPECT_EQ(plant("shared/draw/planted.cpp", "vkGetPhysicalDeviceFormatProperties(d, f, &p);"), 1u);
+    EXPECT_EQ(plant("shared/vulkan/planted.h", "vkEnumerateDeviceExtensionProperties(d, 0, &n, 0);"), 1u);
+    EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 1u);
+    EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceSurfaceSupportKHR(d, 0, s, &b);"), 0u);
+    EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
+}
+
 TEST(Conventions, LibpngIsUsedInOnePlace) {
     EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
 }

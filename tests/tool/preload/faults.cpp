@@ -2,7 +2,7 @@
 // Preloaded into the tool: makes the n-th call of a kind fail, or kills the program before it.
 //   FAULT_IN     "create" (folders, files, links), "write", "close" (and flush), "move" (renames), "remove",
 //   "lock", a comma between; or
-//                "memory", "vkAllocateMemory", another function of Vulkan below, "features"
+//                "memory", "vkAllocateMemory", another function of Vulkan below
 //   FAULT_AT     n, from 1; of Vulkan's functions every later call fails too, as a lost device stays lost
 //   FAULT_FOR    set: only so many calls of Vulkan's functions fail, as where a device comes back
 //   FAULT_DO     "kill", an errno as a number, or a VkResult
@@ -220,26 +220,6 @@ FAILS_IN_VULKAN(vkQueueSubmit, (VkQueue q, uint32_t n, const VkSubmitInfo* i, Vk
 FAILS_IN_VULKAN(vkQueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2* i, VkFence f), (q, n, i, f))
 FAILS_IN_VULKAN(vkWaitForFences, (VkDevice d, uint32_t n, const VkFence* f, VkBool32 w, uint64_t t),
                 (d, n, f, w, t))
-
-// FAULT_DO names a feature that every device then lacks.
-VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceFeatures2(VkPhysicalDevice device,
-                                                        VkPhysicalDeviceFeatures2* asked) {
-    NEXT(vkGetPhysicalDeviceFeatures2)(device, asked);
-    if (!isMeant("features")) return;
-    const auto lacks = [](const char* name) { return std::strcmp(setting("FAULT_DO"), name) == 0; };
-    if (lacks("fullDrawIndexUint32")) asked->features.fullDrawIndexUint32 = VK_FALSE;
-    for (auto* link = static_cast<VkBaseOutStructure*>(asked->pNext); link; link = link->pNext) {
-        if (link->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
-            auto* const features = reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(link);
-            if (lacks("dynamicRendering")) features->dynamicRendering = VK_FALSE;
-            if (lacks("synchronization2")) features->synchronization2 = VK_FALSE;
-            if (lacks("shaderDemoteToHelperInvocation")) features->shaderDemoteToHelperInvocation = VK_FALSE;
-        }
-        if (link->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES &&
-            lacks("scalarBlockLayout"))
-            reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(link)->scalarBlockLayout = VK_FALSE;
-    }
-}
 
 }  // extern "C"
 

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// What Vulkan leaves to the device and this program uses: features, formats by their use, limits, extensions.
+// Each is a row of a table here and is asked once, by DeviceSupport: nobody else asks Vulkan
+// (unit.Conventions). tool.HiddenSupport hides row by row from the program (tests/tool/layer).
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+// version  feature  need  what it is
+//   need   required: a device without it is not usable; optional: switched on where it is there
+// clang-format off
+#define DEVICE_FEATURES(X)                                                                      \
+    X(v13, dynamicRendering,               required, "dynamic rendering")                       \
+    X(v13, synchronization2,               required, "synchronization2")                        \
+    X(v13, maintenance4,                   required, "maintenance4") /* a workgroup's size by a constant */ \
+    X(v13, shaderDemoteToHelperInvocation, required, "demotion to helper invocations") /* alpha masks */ \
+    X(v12, scalarBlockLayout,              required, "scalar block layout")                     \
+    X(v12, bufferDeviceAddress,            required, "addresses of buffers")                    \
+    X(v10, sampleRateShading,              required, "shading of samples")                      \
+    X(v10, fullDrawIndexUint32,            required, "32-bit indices")                          \
+    X(v10, occlusionQueryPrecise,          optional, "exact occlusion queries")                 \
+    X(v10, pipelineStatisticsQuery,        optional, "pipeline statistics")                     \
+    X(v10, depthClamp,                     optional, "depth clamping")                          \
+    X(v10, independentBlend,               optional, "blending by attachment")                  \
+    X(v10, drawIndirectFirstInstance,      optional, "indirect draws of later instances")       \
+    X(v10, multiDrawIndirect,              optional, "several indirect draws at once")          \
+    X(v10, fragmentStoresAndAtomics,       optional, "stores in fragment shaders")              \
+    X(v10, shaderStorageImageMultisample,  optional, "stores to samples")                       \
+    X(v10, shaderInt64,                    optional, "64-bit integers in shaders")              \
+    X(v10, geometryShader,                 optional, "triangles' numbers in fragment shaders")  \
+    X(v12, shaderBufferInt64Atomics,       optional, "64-bit atomics on buffers")               \
+    X(v12, shaderFloat16,                  optional, "16-bit floats in shaders")
+
+// use  of an image or a buffer  the bit that Vulkan tells it by  what a format without it cannot be
+#define DEVICE_FORMAT_USES(X)                                                                          \
+    X(sampled,        optimalTilingFeatures, SAMPLED_IMAGE_BIT,               "read by shaders")       \
+    X(filtered,       optimalTilingFeatures, SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filtered linearly")     \
+    X(stored,         optimalTilingFeatures, STORAGE_IMAGE_BIT,               "stored to by shaders")  \
+    X(stored_unnamed, optimalTilingFeatures, STORAGE_WRITE_WITHOUT_FORMAT_BIT,                         \
+                                                     "stored to by shaders that do not name it")       \
+    X(drawn,          optimalTilingFeatures, COLOR_ATTACHMENT_BIT,            "drawn to")              \
+    X(blended,        optimalTilingFeatures, COLOR_ATTACHMENT_BLEND_BIT,      "blended")               \
+    X(depth,          optimalTilingFeatures, DEPTH_STENCIL_ATTACHMENT_BIT,    "drawn to as depth")     \
+    X(texels,         bufferFeatures,        UNIFORM_TEXEL_BUFFER_BIT,        "read as a texel buffer") \
+    X(vertices,       bufferFeatures,        VERTEX_BUFFER_BIT,               "read as vertices")
+
+// format  uses that Vulkan promises  uses that it leaves to the device  what helps where one of these lacks
+//   Uses that this program makes of it. Vulkan 1.3, "Required Format Support". `multisampled`: drawn to with
+//   4 samples a pixel, and read; promised of floats and depths.
+#define DEVICE_FORMATS(X)                                                                             \
+    X(R8G8B8A8_UNORM,           sampled | filtered | drawn, 0, "")                                    \
+    X(R8G8B8A8_SRGB,            sampled | filtered, 0, "")                                            \
+    X(A2B10G10R10_UNORM_PACK32, sampled | drawn, 0, "")                                               \
+    X(B10G11R11_UFLOAT_PACK32,  sampled, drawn | blended | multisampled, "use --lit-format fp32")     \
+    X(R16G16_SNORM,             0, sampled | drawn, "")                                               \
+    X(R16G16_SFLOAT,            sampled | filtered | drawn, stored | stored_unnamed,                  \
+                                                                   "use --evsm-precision fp32")       \
+    X(R16G16B16A16_UNORM,       0, sampled | filtered | stored | stored_unnamed, "use --shadows evsm4") \
+    X(R16G16B16A16_SFLOAT,      sampled | filtered | stored | drawn | blended | multisampled,         \
+                                                                   stored_unnamed, "use --shadows pcf") \
+    X(R32_UINT,                 sampled | stored | drawn | texels, multisampled, "use --msaa 1")      \
+    X(R32_SFLOAT,               sampled | stored | drawn | multisampled, blended,                     \
+                                                                   "use --transparency sorted")       \
+    X(R32G32_UINT,              sampled | drawn, multisampled, "use --msaa 1")                        \
+    X(R32G32_SFLOAT,            sampled | stored | drawn | multisampled, filtered | stored_unnamed,   \
+                                                                   "use --shadows pcf")               \
+    X(R32G32B32_SFLOAT,         vertices, 0, "")                                                      \
+    X(R32G32B32A32_UINT,        sampled | drawn | texels, multisampled, "use --msaa 1")               \
+    X(R32G32B32A32_SFLOAT,      sampled | stored | drawn | texels | vertices | multisampled,          \
+                                filtered | stored_unnamed | blended,                                  \
+                                "use --lit-format fp16 with --transparency sorted or list, and --shadows pcf") \
+    X(D16_UNORM,                sampled | depth | multisampled, 0, "")                                \
+    X(X8_D24_UNORM_PACK32,      0, sampled | depth | multisampled, "use --depth-format d32f")         \
+    X(D32_SFLOAT,               sampled | multisampled, depth, "")
+
+// limit  the least that a device may have  what this program must have, from physical_device.cpp; 0: any
+#define DEVICE_LIMITS(X)                                                                                \
+    X(maxImageDimension2D, 4096, 0, "")                                                                 \
+    X(maxImageArrayLayers, 256, 0, "")                                                                  \
+    X(maxFramebufferWidth, 4096, 0, "")                                                                 \
+    X(maxFramebufferHeight, 4096, 0, "")                                                                \
+    X(maxTexelBufferElements, 65536, 0, "")                                                             \
+    X(maxUniformBufferRange, 16384, 0, "")                                                              \
+    X(maxStorageBufferRange, 1 << 27, 0, "")                                                            \
+    X(maxPushConstantsSize, 128, 0, "")                                                                 \
+    X(maxBoundDescriptorSets, 4, 0, "")                                                                 \
+    X(maxPerStageDescriptorSamplers, 16, descriptors({image}), "samplers a shader")                     \
+    X(maxPerStageDescriptorUniformBuffers, 12, descriptors({uniform_buffer}), "uniform buffers a shader") \
+    X(maxPerStageDescriptorStorageBuffers, 4, descriptors({storage_buffer}), "storage buffers a shader") \
+    /* a texel buffer counts as a sampled image */                                                      \
+    X(maxPerStageDescriptorSampledImages, 16, descriptors({image, texel_buffer}),                       \
+                                                                        "sampled images a shader")      \
+    X(maxPerStageDescriptorStorageImages, 4, descriptors({storage_image}), "storage images a shader")   \
+    X(maxVertexInputAttributes, 16, 0, "")                                                              \
+    X(maxVertexInputBindings, 16, 0, "")                                                                \
+    X(maxVertexOutputComponents, 64, 0, "")                                                             \
+    X(maxFragmentInputComponents, 64, 0, "")                                                            \
+    X(maxColorAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "colour attachments")                           \
+    X(maxFragmentOutputAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "outputs of a fragment shader")        \
+    X(maxFragmentCombinedOutputResources, 4, gpu::CAPTURE_ATTACHMENTS + frameDescriptors(storage_buffer), \
+                                                    "outputs and storage of a fragment shader")         \
+    X(maxComputeSharedMemorySize, 16384, 0, "")                                                         \
+    X(maxComputeWorkGroupInvocations, 128, gpu::LIST_GROUP, "threads of a workgroup")                   \
+    X(maxComputeWorkGroupSize[0], 128, gpu::LIST_GROUP, "threads of a workgroup along x")               \
+    X(maxDrawIndirectCount, 1, 0, "")                                                                   \
+    X(standardSampleLocations, 0, 0, "")
+
+// extension  what it tells
+#define DEVICE_EXTENSIONS(X)                                                                            \
+    X(VK_EXT_memory_budget, "memory budgets")
+// clang-format on
+
+// A use of a format, or several, of DEVICE_FORMAT_USES.
+namespace format_use {
+enum : std::uint32_t {
+#define DIPTYCH_FORMAT_USE(name, ...) name##_index,
+    DEVICE_FORMAT_USES(DIPTYCH_FORMAT_USE)
+#undef DIPTYCH_FORMAT_USE
+        multisampled_index
+};
+enum : std::uint32_t {
+#define DIPTYCH_FORMAT_USE(name, ...) name = 1u << name##_index,
+    DEVICE_FORMAT_USES(DIPTYCH_FORMAT_USE)
+#undef DIPTYCH_FORMAT_USE
+        multisampled = 1u << multisampled_index
+};
+}  // namespace format_use
+
+enum class DeviceFeature {
+#define DIPTYCH_DEVICE_FEATURE(version, name, ...) name,
+    DEVICE_FEATURES(DIPTYCH_DEVICE_FEATURE)
+#undef DIPTYCH_DEVICE_FEATURE
+};
+
+// The name in Vulkan without VK_FORMAT_; "format 78" for one that is in no row.
+std::string nameOf(VkFormat format);
+
+class DeviceSupport {
+public:
+    DeviceSupport() = default;
+    explicit DeviceSupport(VkPhysicalDevice device);
+
+    VkPhysicalDevice handle() const { return device_; }
+    const VkPhysicalDeviceProperties& properties() const { return properties_; }
+    const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    // Makes the limits that choices depend on no larger than another device's.
+    void limitTo(const VkPhysicalDeviceLimits& other);
+    VkDeviceSize mostBytesOfBuffer() const { return most_bytes_of_buffer_; }
+    const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+    // Driver's name and version.
+    const std::string& driver() const { return driver_; }
+    // The first queue family that draws and computes; the bits of its time stamps, 0: it has none.
+    std::optional<std::uint32_t> graphicsFamily() const { return graphics_family_; }
+    std::uint32_t timestampBits() const { return timestamp_bits_; }
+
+    bool has(DeviceFeature feature) const { return features_.at(static_cast<std::size_t>(feature)); }
+    bool hasExtension(std::string_view name) const;
+    // Operations on subgroups in all of these stages.
+    bool hasSubgroups(VkShaderStageFlags stages, VkSubgroupFeatureFlags operations) const {
+        return (subgroups_.supportedStages & stages) == stages &&
+               (subgroups_.supportedOperations & operations) == operations;
+    }
+    // Fragment shaders may use 64-bit atomics on buffers and the number of their triangle.
+    bool sortsFragments() const;
+    // Fragment shaders may store to a sample of an image.
+    bool storesSamples() const;
+    // Told of and never used: bindless textures, several views at once, anisotropy.
+    bool hasDescriptorIndexing() const { return descriptor_indexing_; }
+    bool hasMultiview() const { return multiview_; }
+    bool hasAnisotropy() const { return anisotropy_; }
+
+    // Whether a format has all of these uses, a sum of format_use. Throws std::logic_error where
+    // DEVICE_FORMATS does not list one of them: a use that is in no row would be hidden by no test.
+    bool can(VkFormat format, std::uint32_t uses) const;
+    // What lacks and what helps, in words; nothing where the format has them all.
+    std::optional<std::string> lacks(VkFormat format, std::uint32_t uses) const;
+    // What images of a format and usage may be: extent, levels, layers, samples; all 0: there are none.
+    VkImageFormatProperties images(VkFormat format, VkImageUsageFlags usage) const;
+    // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
+    VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
+        return images(format, usage).sampleCounts;
+    }
+    // The largest side of an image that is drawn to.
+    std::uint32_t mostPixels() const;
+
+    // Bytes that are left in each heap now; empty where the device does not say.
+    std::vector<VkDeviceSize> bytesLeft() const;
+
+private:
+    void askFeatures();
+    void askFormats();
+
+    VkPhysicalDevice device_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceProperties properties_{};
+    VkPhysicalDeviceSubgroupProperties subgroups_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDeviceSize most_bytes_of_buffer_ = 0;
+    std::string driver_;
+    std::optional<std::uint32_t> graphics_family_;
+    std::uint32_t timestamp_bits_ = 0;
+#define DIPTYCH_ONE(...) +1
+    std::array<bool, 0 DEVICE_FEATURES(DIPTYCH_ONE)> features_{};
+    std::array<std::uint32_t, 0 DEVICE_FORMATS(DIPTYCH_ONE)> formats_{};  // uses that are there, by row
+#undef DIPTYCH_ONE
+    std::vector<std::string> extensions_;
+    bool descriptor_indexing_ = false, multiview_ = false, anisotropy_ = false;
+};
+
+// The structs of features that DEVICE_FEATURES names, chained from v10.
+struct FeatureChain {
+    VkPhysicalDeviceVulkan13Features v13{};
+    VkPhysicalDeviceVulkan12Features v12{};
+    VkPhysicalDeviceVulkan11Features v11{};
+    VkPhysicalDeviceFeatures2 all{};
+    VkPhysicalDeviceFeatures& v10 = all.features;
+
+    FeatureChain();
+    FeatureChain(const FeatureChain&) = delete;
+    FeatureChain& operator=(const FeatureChain&) = delete;
+};
+
+// Why a module cannot be given to the device: the feature that lacks, by what its capabilities ask for;
+// nothing where it can. Throws std::logic_error for a capability that no row of DEVICE_FEATURES stands for.
+std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<const std::uint32_t> words);
+
+}  // namespace diptych

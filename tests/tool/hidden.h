@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The tool on a device that lacks something: the layer of tests/tool/layer hides it, below the validation
+// layer.
+#pragma once
+
+#include "tests/tool/layer/hidden.h"
+#include "tests/tool/run.h"
+
+#include <string>
+
+namespace diptych {
+
+// `hidden` as layer/hidden.h names it; empty: nothing.
+inline Ran runHiding(const Folder& scratch, const std::string& hidden, const std::string& arguments) {
+    return runShell(
+        scratch,
+        "env DIPTYCH_HIDE='" + hidden +
+            "' VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_DIPTYCH_hide VK_LAYER_PATH='" +
+            DIPTYCH_LAYER "':/usr/share/vulkan/explicit_layer.d '" DIPTYCH_PROGRAM "' " + arguments,
+        scratch.path());
+}
+
+}  // namespace diptych

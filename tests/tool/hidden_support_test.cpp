@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Nothing is used before the device was asked. Row by row of DeviceSupport's tables a layer hides what Vulkan
+// leaves to the device; a comparison that uses it then has the same verdict, or ends in one line that names
+// what lacks and what helps. A validation message, which the layer above this one would have, is a failure.
+#include "tests/campaign.h"
+#include "tests/tool/hidden.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// What uses the rows whose names contain one of `rows`.
+struct Use {
+    std::vector<std::string> rows;
+    std::string arguments;
+};
+const std::vector<Use>& uses() {
+    static const std::vector<Use> list{
+        {{"blended", "multisampled", "independentBlend", "maxColorAttachments", "Outputs",
+          "OutputAttachments"},
+         "builtin:crossed --transparency weighted --msaa 4"},
+        {{"Int64", "geometryShader", "fragmentStores"}, "builtin:crossed --transparency list"},
+        {{"shaderInt64", "bufferDeviceAddress"}, "builtin:motion"},
+        {{"B10G11R11"}, "builtin:crossed --lit-format b10g11r11 --msaa 4"},
+        {{"D24"}, "builtin:triangle --depth-format d24 --msaa 4"},
+        {{"Float16"}, "builtin:points --shading-precision fp16"},
+        {{"R16G16B16A16_UNORM"}, "builtin:sixteen_bits builtin:suns --shadows msm4"},
+        {{"R32G32_SFLOAT", "filtered", "stored_unnamed"}, "builtin:sixteen_bits builtin:suns --shadows evsm"},
+        {{"R16G16_SFLOAT"}, "builtin:suns --shadows evsm --evsm-precision fp16"},
+        {{"R16G16B16A16_SFLOAT"}, "builtin:suns --shadows evsm4 --evsm-precision fp16"},
+        {{"multisampled", "StorageImageMultisample", "fragmentStores", "StorageImages"},
+         "builtin:points --lighting compute --msaa 4"},
+        {{"R32G32B32A32_UINT"}, "builtin:points --gbuffer full --msaa 4"},
+        {{"maxTexelBufferElements", "maxStorageBufferRange"}, "builtin:points --lights point:40000"},
+        {{"D32_SFLOAT", "limit", "feature", "extension"}, "builtin:crossed --msaa 4 --shadows pcf"},
+    };
+    return list;
+}
+
+std::vector<std::string> usesOf(const std::string& row) {
+    std::vector<std::string> arguments;
+    for (const Use& use : uses())
+        for (const std::string& name : use.rows)
+            if (row.find(name) != row.npos && (name.size() > 9 || arguments.empty())) {
+                arguments.push_back(use.arguments);
+                break;
+            }
+    return arguments;
+}
+
+std::string compared(const std::string& arguments) {
+    return "compare " + arguments +
+           " -q -o r --force --size 32x18 --runs 1 --channels lit,normals --twice none --validate";
+}
+
+std::string verdictIn(const Folder& folder) {
+    const auto report = nlohmann::json::parse(contentsOf(folder / "r" / "report.json"), nullptr, false);
+    return report.is_discarded() ? "none" : report.value("verdict", "none");
+}
+
+TEST(HiddenSupport, ACompareHasTheSameVerdictOrNamesWhatLacks) {
+    const std::vector<std::string> all = everythingToHide();
+    ASSERT_GT(all.size(), 60u);
+    std::map<std::string, std::string> verdicts;  // with nothing hidden, by arguments
+    const Rows rows(6);
+    int same = 0, named = 0;
+    const Folder folder;
+    for (int row = 0; row < static_cast<int>(all.size()); row = rows.after(row)) {
+        const std::string& hidden = all[static_cast<std::size_t>(row)];
+        const std::vector<std::string> arguments = usesOf(hidden);
+        // Drawn to by the probe alone.
+        if (hidden.find("R16G16_SNORM") == hidden.npos) EXPECT_FALSE(arguments.empty()) << hidden;
+        for (const std::string& use : arguments) {
+            SCOPED_TRACE(hidden + ": " + use);
+            if (!verdicts.contains(use)) {
+                const Ran usual = runHiding(folder, "", compared(use));
+                EXPECT_LE(usual.code, 1) << usual.err;
+                verdicts[use] = verdictIn(folder);
+            }
+            fs::remove_all(folder / "r");
+            const Ran ran = runHiding(folder, hidden, compared(use));
+            if (ran.code == 2) {
+                ++named;
+                EXPECT_TRUE(ran.failedOver("")) << ran.err;
+                EXPECT_TRUE(std::regex_search(
+                    ran.err,
+                    std::regex("lacks|cannot|needs|no such|reads up to|draws|stores|up to|there are no")))
+                    << ran.err;
+                EXPECT_TRUE(std::regex_search(ran.err, std::regex("use --|another")))
+                    << "what helps is not said: " << ran.err;
+                EXPECT_EQ(ran.err.find("alidation"), std::string::npos) << ran.err;
+            } else {
+                ++same;
+                EXPECT_EQ(ran.err, "");
+                EXPECT_EQ(verdictIn(folder), verdicts[use]) << ran.err;
+            }
+        }
+    }
+    EXPECT_GT(same, 0);
+    EXPECT_GT(named, 0);
+    RecordProperty("same", same);
+    RecordProperty("named", named);
+}
+
+// Negative control: of a limit below what Vulkan promises nobody asks, and the validation layer says so.
+TEST(HiddenSupport, WhatIsUsedWithoutAskingIsAValidationMessage) {
+    const Folder folder;
+    const Ran ran = runHiding(folder, "limit maxPushConstantsSize 16", compared("builtin:triangle"));
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_NE(ran.err.find("maxPushConstantsSize"), std::string::npos) << ran.err;
+}
+
+TEST(HiddenSupport, ARequiredFeatureThatLacksIsNamedAndAnotherDeviceOffered) {
+    const Folder folder;
+#define DIPTYCH_REQUIRED(version, name, need, what)                                                      \
+    if (std::string(#need) == "required" && (isCampaign() || std::string(#name) == "dynamicRendering" || \
+                                             std::string(#name) == "fullDrawIndexUint32")) {             \
+        const Ran ran = runHiding(folder, "feature " #name, compared("builtin:triangle"));               \
+        EXPECT_TRUE(ran.failedOver(std::string("lacks ") + (what) + "; choose another with --device"))   \
+            << ran.err;                                                                                  \
+        EXPECT_FALSE(fs::exists(folder / "r"));                                                          \
+        EXPECT_NE(runHiding(folder, "feature " #name, "devices").out.find(what), std::string::npos);     \
+    }
+    DEVICE_FEATURES(DIPTYCH_REQUIRED)
+#undef DIPTYCH_REQUIRED
+}
+
+// The table of roundings says so, and Vulkan is told nothing of the format.
+TEST(HiddenSupport, AProbeOfWhatADeviceLacksSaysNotSupported) {
+    const Folder folder;
+    const Ran ran = runHiding(folder, "format R16G16_SNORM drawn", "devices --validate --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    bool found = false;
+    for (const auto& fact : nlohmann::json::parse(ran.out)["devices"][0]["facts"])
+        if (fact["what"] == "rounds to nearest: R16G16_SNORM") {
+            found = true;
+            EXPECT_EQ(fact["there"], false);
+            EXPECT_TRUE(fact["note"].get<std::string>().starts_with("not supported")) << fact["note"];
+        }
+    EXPECT_TRUE(found);
+}
+
+// More lights than a texel buffer holds are read by their addresses: the same bits, of every kind of light
+// and every way to choose them. Vulkan promises 65,536 texels; fewer make the same of a small rig.
+TEST(HiddenSupport, LightsBeyondATexelBufferGiveTheSameBits) {
+    struct Case {
+        std::string texels, arguments;
+    };
+    std::vector<Case> cases{{"65536", "--lights point:20000,spot:20500 --assign clustered --path deferred"}};
+    for (const char* assign : {"every", "tiled", "clustered"})
+        for (const char* path : {"forward_plus", "deferred"})
+            cases.push_back({"2048", std::string("--lights point:500,spot:500,area:60 --assign ") + assign +
+                                         " --path " + path});
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.arguments);
+        const Folder folder;
+        const std::string render =
+            "render builtin:points -q --size 24x14 --channels lit --runs 0 --validate " + c.arguments +
+            " -o ";
+        const Ran usual = runHiding(folder, "", render + "a.exr"),
+                  hiding = runHiding(folder, "limit maxTexelBufferElements " + c.texels, render + "b.exr");
+        ASSERT_EQ(usual.code, 0) << usual.err;
+        ASSERT_EQ(hiding.code, 0) << hiding.err;
+        const Ran diff = runTool(folder, "diff a.exr b.exr --metric max --json");
+        ASSERT_EQ(diff.code, 0) << diff.err;
+        EXPECT_EQ(contentsOf(folder / "a.exr") == contentsOf(folder / "b.exr"), true);
+    }
+}
+
+}  // namespace
+}  // namespace diptych
