@@ -41,21 +41,6 @@ std::string typeName(VkPhysicalDeviceType type) {
     }
 }
 
-bool knowsExtension(VkPhysicalDevice device, std::string_view name) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::ranges::any_of(
-        extensions, [&](const VkExtensionProperties& extension) { return name == extension.extensionName; });
-}
-
-bool hasMemory(VkPhysicalDevice device) {
-    VkPhysicalDeviceMemoryProperties memory;
-    vkGetPhysicalDeviceMemoryProperties(device, &memory);
-    return memory.memoryTypeCount > 0;
-}
-
 std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{} MiB", bytes >> 20);
 }
