@@ -44,7 +44,7 @@ git clone -q --no-hardlinks "$repository" "$system/root/diptych"
 status=0
 SYSTEM=$system unshare --mount sh -euc '
     mount --make-rprivate /
-    for folder in proc sys dev; do mount --bind /$folder "$SYSTEM/$folder"; done
+    for folder in proc sys dev; do mount --rbind /$folder "$SYSTEM/$folder"; done
     exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C CXXFLAGS=-Werror ${CXX:+"CXX=$CXX"} chroot "$SYSTEM" sh -uc "$1"' sh '
     cd /root/diptych
     failed=0
