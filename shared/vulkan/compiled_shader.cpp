@@ -9,7 +9,7 @@ namespace diptych {
 namespace {
 
 // Mesa, src/amd/vulkan/radv_shader.c and src/amd/compiler/aco_statistics.cpp.
-constexpr ShaderCostRow rows[] = {
+constexpr ShaderCostRow costRows[] = {
     {"vgprs", "VGPRs", &ShaderCost::vector_registers, "VGPRs", true},
     {"sgprs", "SGPRs", &ShaderCost::scalar_registers, "SGPRs", true},
     {"spilled_vgprs", "spilled", &ShaderCost::spilled_vectors, "Spilled VGPRs", true},
@@ -26,12 +26,12 @@ constexpr ShaderCostRow rows[] = {
 }  // namespace
 
 std::span<const ShaderCostRow> shaderCostRows() {
-    return rows;
+    return costRows;
 }
 
 ShaderCost costOf(std::span<const CompilerStatistic> statistics) {
     ShaderCost cost;
-    for (const ShaderCostRow& row : rows) {
+    for (const ShaderCostRow& row : costRows) {
         const auto found = std::ranges::find(statistics, row.driver_name, &CompilerStatistic::name);
         if (found != statistics.end()) cost.*row.value = found->value;
     }

@@ -75,7 +75,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.info = infos[chosen];
     s.compiler = options.compiler;
     if (s.compiler != nullptr) s.support.limitTo(s.compiler->limits());
-    const bool likeGpu = s.compiler != nullptr && s.compiler->info().type != "cpu";
+    const bool likeGpu = s.compiler != nullptr && !profileOf(s.compiler->info(), 0).software;
     const std::uint32_t family = s.support.graphicsFamily().value();  // chooseDevice saw to it
     s.profile = profileOf(s.info, s.support.timestampBits(), likeGpu ? ProfileChoices::gpu : options.choices);
     if (!s.support.has(DeviceFeature::drawIndirectFirstInstance)) s.profile.culls_by_compute = false;

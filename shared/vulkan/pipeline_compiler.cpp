@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -140,9 +141,11 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
             fmt::format("--compile-on {}: no such device; there are {}. For AMD's GPUs RADV compiles without "
                         "one: install mesa-vulkan-drivers (of Debian 13: Mesa 25)",
                         choice, listOf(infos)));
-    const auto inFamily = [&](const char* family) {
+    std::string family = choice;  // RADV writes them in small letters
+    for (char& c : family) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto inFamily = [&](const char* name) {
         return EnvironmentVariables(
-            {{"RADV_FORCE_FAMILY", family}, {"VK_DRIVER_FILES", fmt::format("{}", fmt::join(files, ":"))}});
+            {{"RADV_FORCE_FAMILY", name}, {"VK_DRIVER_FILES", fmt::format("{}", fmt::join(files, ":"))}});
     };
     const auto openFamily = [&] {
         for (const DeviceInfo& info : s.list())
@@ -150,9 +153,9 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
         throw std::runtime_error(
             fmt::format("--compile-on {}: RADV ({}) lists no such GPU", choice, fmt::join(files, ", ")));
     };
-    // RADV ends the process where it does not know the family, and old ones crash.
+    // RADV ends the process where it does not know the family.
     const DriverTrial trial = tryInChild([&] {
-        const EnvironmentVariables forced = inFamily(choice.c_str());
+        const EnvironmentVariables forced = inFamily(family.c_str());
         openFamily();
         s.tryPipelines();
         return std::string();
@@ -164,14 +167,13 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
             return s.info.driver;
         });
         throw std::runtime_error(fmt::format(
-            "--compile-on {}: no such device (there are {}), and {} ends where it should compile for a GPU "
-            "of "
-            "that name that is not there; Mesa 25 (Debian 13's mesa-vulkan-drivers) compiles for vega10, "
-            "navi21, navi31, gfx1201 and others",
+            "--compile-on {}: no such device (there are {}), and {} ends the process where it should compile "
+            "for a GPU of this name; Mesa 25 (mesa-vulkan-drivers of Debian 13) does for vega10, navi21, "
+            "navi31, gfx1201 and others",
             choice, listOf(infos), known.crashed ? "RADV" : known.said));
     }
     const QuietStandardError quiet;  // RADV remarks on the hardware that it does not find
-    const EnvironmentVariables forced = inFamily(choice.c_str());
+    const EnvironmentVariables forced = inFamily(family.c_str());
     openFamily();
 }
 
