@@ -120,7 +120,23 @@ TEST_F(PipelineCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
     const std::array requests{PipelineRequest{.layout = layout, .key = key, .choose = plainParts}};
     const CompiledPipeline compiled = compiler_->compile(requests).front();
     EXPECT_TRUE(compiled.shaders.empty());
-    EXPECT_NE(compiled.error.find("does not draw to X8_D24_UNORM_PACK32"), std::string::npos) << compiled.error;
+    EXPECT_NE(compiled.error.find("does not draw to X8_D24_UNORM_PACK32"), std::string::npos)
+        << compiled.error;
+}
+
+// Debian 12's Mesa 22.3 knows no RDNA 3 and 4 by these names, Debian 13's Mesa 25 all.
+TEST_F(PipelineCompilerTest, RecentFamiliesCompileOrAreNamed) {
+    const std::string driver = compiler_->info().driver, mesa = "Mesa ";
+    ASSERT_NE(driver.find(mesa), std::string::npos) << driver;
+    const int version = std::stoi(driver.substr(driver.find(mesa) + mesa.size()));
+    for (const char* recent : {"navi21", "NAVI31", "gfx1201"}) {
+        try {
+            EXPECT_NE(PipelineCompiler(recent).info().name.find("Null hardware"), std::string::npos);
+        } catch (const std::runtime_error& error) {
+            EXPECT_LT(version, 25) << error.what();
+            EXPECT_NE(std::string(error.what()).find(driver), std::string::npos) << error.what();
+        }
+    }
 }
 
 // RADV ends the whole process there, which must not be this one.
