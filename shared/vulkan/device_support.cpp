@@ -14,14 +14,14 @@ namespace {
 struct FormatRow {
     VkFormat format;
     const char* name;
-    std::uint32_t uses;  // that this program makes of it
+    std::uint32_t uses, left;  // that this program makes of it; those of them that Vulkan does not promise
     const char* helps;
 };
 
 std::span<const FormatRow> formatRows() {
     using namespace format_use;
 #define DIPTYCH_FORMAT_ROW(name, promised, left, helps) \
-    FormatRow{VK_FORMAT_##name, #name, (promised) | (left), helps},
+    FormatRow{VK_FORMAT_##name, #name, (promised) | (left), left, helps},
     static constexpr std::array rows{DEVICE_FORMATS(DIPTYCH_FORMAT_ROW)};
 #undef DIPTYCH_FORMAT_ROW
     return rows;
@@ -182,9 +182,11 @@ bool DeviceSupport::can(VkFormat format, std::uint32_t uses) const {
 std::optional<std::string> DeviceSupport::lacks(VkFormat format, std::uint32_t uses) const {
     if (can(format, uses)) return std::nullopt;
     const std::size_t row = *rowOf(format);
-    const std::string helps = formatRows()[row].helps;
+    const FormatRow& asked = formatRows()[row];
+    const std::uint32_t missing = uses & ~formats_[row];
+    const std::string helps = (missing & ~asked.left) == 0 ? asked.helps : "";
     return fmt::format("{} cannot be {}; {}choose another device with --device", nameOf(format),
-                       wordsOf(uses & ~formats_[row]), helps.empty() ? "" : helps + ", or ");
+                       wordsOf(missing), helps.empty() ? "" : helps + ", or ");
 }
 
 VkImageFormatProperties DeviceSupport::images(VkFormat format, VkImageUsageFlags usage) const {

@@ -62,7 +62,7 @@ namespace diptych {
     X(R8G8B8A8_UNORM,           sampled | filtered | drawn, 0, "")                                    \
     X(R8G8B8A8_SRGB,            sampled | filtered, 0, "")                                            \
     X(A2B10G10R10_UNORM_PACK32, sampled | drawn, 0, "")                                               \
-    X(B10G11R11_UFLOAT_PACK32,  sampled, drawn | blended | multisampled, "use --lit-format fp32")     \
+    X(B10G11R11_UFLOAT_PACK32,  sampled, drawn | blended, "use --lit-format fp32")                    \
     X(R16G16_SNORM,             0, sampled | drawn, "")                                               \
     X(R16G16_SFLOAT,            sampled | filtered | drawn, stored | stored_unnamed,                  \
                                                                    "use --evsm-precision fp32")       \
@@ -80,8 +80,8 @@ namespace diptych {
     X(R32G32B32A32_SFLOAT,      sampled | stored | drawn | texels | vertices | multisampled,          \
                                 filtered | stored_unnamed | blended,                                  \
                                 "use --lit-format fp16 with --transparency sorted or list, and --shadows pcf") \
-    X(D16_UNORM,                sampled | depth | multisampled, 0, "")                                \
-    X(X8_D24_UNORM_PACK32,      0, sampled | depth | multisampled, "use --depth-format d32f")         \
+    X(D16_UNORM,                sampled | depth, 0, "")                                               \
+    X(X8_D24_UNORM_PACK32,      0, sampled | depth, "use --depth-format d32f")                        \
     X(D32_SFLOAT,               sampled | multisampled, depth, "")
 
 // limit  the least that a device may have  what this program must have, from physical_device.cpp; 0: any

@@ -55,6 +55,23 @@ INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
                                          "builtin:spheres"),
                          [](const auto& test) { return testName(test.param); });
 
+// Modules whose branches are selections draw the same bits: of every kind of light, the most branches.
+TEST(GpuChoice, FlattenedBranchesDrawTheSamePictures) {
+    Device flat({.choice = "", .validate = true, .choices = ProfileChoices::flattening_branches});
+    ASSERT_TRUE(flat.profile().flattens_branches);
+    for (const char* name : {"builtin:areas", "builtin:points"}) {
+        const Scene scene = loadScene(name);
+        Renderer here(device(), scene, pipelines()), there(flat, scene, makePipelineSet(flat));
+        for (const Path path : {Path::forward_plus, Path::deferred}) {
+            SCOPED_TRACE(fmt::format("{}, {}", name, nameOf(path)));
+            const Settings settings = smallPicture(GBufferEncoding::standard);
+            expectSameChannels(drawnBy(path, here, settings, channels),
+                               drawnBy(path, there, settings, channels), channels.size());
+        }
+    }
+    EXPECT_EQ(flat.validationMessages(), 0u) << flat.firstValidationMessage();
+}
+
 // Groups of samples after a pixel's first are shaded from a list, or by a draw each that the depth test
 // leaves a part of. Of a mesh finer than pixels the list takes several draws.
 TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {

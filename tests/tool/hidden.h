@@ -10,14 +10,16 @@
 
 namespace diptych {
 
-// `hidden` as layer/hidden.h names it; empty: nothing.
+// `hidden` as layer/hidden.h names it; empty: nothing. Older loaders order layers as they find their
+// manifests, newer ones as they are named: the first is nearest to the program.
 inline Ran runHiding(const Folder& scratch, const std::string& hidden, const std::string& arguments) {
-    return runShell(
-        scratch,
-        "env DIPTYCH_HIDE='" + hidden +
-            "' VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_DIPTYCH_hide VK_LAYER_PATH='" +
-            DIPTYCH_LAYER "':/usr/share/vulkan/explicit_layer.d '" DIPTYCH_PROGRAM "' " + arguments,
-        scratch.path());
+    return runShell(scratch,
+                    "env DIPTYCH_HIDE='" + hidden +
+                        "' VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_DIPTYCH_hide "
+                        "VK_LAYER_PATH=/usr/share/vulkan/explicit_layer.d:'" DIPTYCH_LAYER
+                        "' '" DIPTYCH_PROGRAM "' " +
+                        arguments,
+                    scratch.path());
 }
 
 }  // namespace diptych
