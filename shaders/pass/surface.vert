@@ -17,7 +17,8 @@ layout(location = 3) in vec4 texcoords;  // first and second set
 #endif
 #if INPUTS >= 2
 layout(location = 2) in vec4 tangent;
-layout(location = 12) in mat4x3 world_from_object;
+layout(location = 12) in mat3 world_from_object;
+layout(location = 15) in vec3 world_from_object_origin;
 #endif
 #if INPUTS >= 3
 layout(location = 4) in vec4 color;
@@ -75,9 +76,11 @@ void main() {
     v_texcoord = bounded(v.texcoords.xy);
 #endif
 #if INPUTS >= 2
-    vec3 world = world_from_object * vec4(v.position, 1.0);
+    mat4x3 affine = mat4x3(world_from_object[0], world_from_object[1], world_from_object[2],
+                           world_from_object_origin);
+    vec3 world = affine * vec4(v.position, 1.0);
     v_tangent =
-        vec4(unitVector(mat3(world_from_object) * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
+        vec4(unitVector(world_from_object * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
     v_world = world;
 #endif
 #if INPUTS >= 3

@@ -43,12 +43,15 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
 }
 
 // The module without what the variant switches off.
-OwnedShaderModule specializedModule(const PipelineSite& site, const ShaderModule& module,
-                                    const Variant& variant) {
+std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
+                                            const Variant& variant) {
     if (const auto problem = moduleProblem(site.support, module.words))
         refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
     auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
-    if (site.flattens_branches) words = flattened(words);
+    return site.flattens_branches ? flattened(words) : words;
+}
+
+OwnedShaderModule makeModule(const PipelineSite& site, std::span<const std::uint32_t> words) {
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .pNext = nullptr,
                                         .flags = 0,
@@ -113,12 +116,19 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
     checkPipeline(site, key, parts);
     std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
-    const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule& module) {
-        code.push_back(specializedModule(site, module, key.variant));
+    const auto addStage = [&](VkShaderStageFlagBits stage, std::span<const std::uint32_t> words) {
+        code.push_back(makeModule(site, words));
         stages.push_back(stageOf(stage, code.back()));
     };
-    addStage(VK_SHADER_STAGE_VERTEX_BIT, *parts.vertex);
-    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, *parts.fragment);
+    const std::vector<std::uint32_t> vertex = specializedWords(site, *parts.vertex, key.variant);
+    addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
+    if (parts.fragment != nullptr)
+        addStage(VK_SHADER_STAGE_FRAGMENT_BIT, specializedWords(site, *parts.fragment, key.variant));
+    // Attributes that this variant does not read are not fetched.
+    std::vector<VkVertexInputAttributeDescription> attributes = parts.attributes;
+    std::erase_if(attributes, [read = inputLocations(vertex)](const VkVertexInputAttributeDescription& a) {
+        return !read.contains(a.location);
+    });
 
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
@@ -126,8 +136,8 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
         .flags = 0,
         .vertexBindingDescriptionCount = static_cast<std::uint32_t>(parts.bindings.size()),
         .pVertexBindingDescriptions = parts.bindings.data(),
-        .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(parts.attributes.size()),
-        .pVertexAttributeDescriptions = parts.attributes.data()};
+        .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size()),
+        .pVertexAttributeDescriptions = attributes.data()};
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .pNext = nullptr,
@@ -208,7 +218,7 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
 }
 
 OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant) {
-    const OwnedShaderModule code = specializedModule(site, module, variant);
+    const OwnedShaderModule code = makeModule(site, specializedWords(site, module, variant));
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = site.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -16,6 +17,7 @@ namespace {
 // Opcodes of the specification's section 3.49.
 enum Op : std::uint32_t {
     OpName = 5,
+    OpEntryPoint = 15,
     OpExtInst = 12,
     OpTypeBool = 20,
     OpTypeInt = 21,
@@ -78,7 +80,7 @@ enum Op : std::uint32_t {
     OpUnreachable = 255,
     OpTerminateInvocation = 4416,
 };
-constexpr std::uint32_t decorationSpecId = 1, memoryVolatile = 1;
+constexpr std::uint32_t decorationSpecId = 1, memoryVolatile = 1, storageInput = 1;
 constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51;  // of GLSL.std.450: they store, too
 
 constexpr std::uint32_t none = ~0u;
@@ -139,6 +141,7 @@ private:
         bool boolean = false;        // a type of bools
         bool known = false;          // its value is in bits_
         bool marked = false;
+        bool unread_input = false;  // a variable of storage class Input that nothing has needed so far
     };
     struct Block {
         std::uint32_t first = 0, last = 0;  // instructions: places in at_; the last is the terminator
@@ -195,6 +198,9 @@ private:
                     break;
                 case OpSpecConstantOp:
                     if (const auto folded = fold(in[3], in[1], in.subspan(4))) know(in[1], in[2], *folded);
+                    break;
+                case OpVariable:
+                    ids_[in[2]].unread_input = in[3] == storageInput;
                     break;
                 default:
                     break;
@@ -526,7 +532,9 @@ private:
 
     // A word that may be an id, or a number that looks like one: then something is kept that need not be.
     void need(std::uint32_t word) {
-        if (word >= bound_ || ids_[word].marked || ids_[word].at == 0) return;
+        if (word >= bound_) return;
+        ids_[word].unread_input = false;
+        if (ids_[word].marked || ids_[word].at == 0) return;
         ids_[word].marked = true;
         if (ids_[word].known)
             constants_.push_back(word);
@@ -567,11 +575,26 @@ private:
             case OpDecorate: {
                 // Of what is made in the function only where it is still made there.
                 const Id& id = ids_[in[1]];
+                if (id.unread_input) return;
                 if (id.at != 0 && (!id.marked || id.known || id.copied != 0)) return;
                 if (id.block != none && !blocks_[id.block].alive && !blocks_[id.block].stub) return;
                 if (op(at) == OpDecorate && in[2] == decorationSpecId) return;
                 break;
             }
+            case OpEntryPoint: {
+                // The stage, the function, its name up to a word with a zero byte, the interface.
+                std::size_t interface = 3;
+                while ((in[interface++] >> 24) != 0) continue;
+                const std::size_t start = out_.size();
+                put(in.first(interface));
+                for (const std::uint32_t id : in.subspan(interface))
+                    if (!ids_[id].unread_input) out_.push_back(id);
+                out_[start] = static_cast<std::uint32_t>(out_.size() - start) << 16 | OpEntryPoint;
+                return;
+            }
+            case OpVariable:
+                if (ids_[in[2]].unread_input) return;
+                break;
             case OpSpecConstantTrue:
             case OpSpecConstantFalse:
             case OpSpecConstant:
@@ -669,6 +692,35 @@ private:
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
                                        const SpecializationValue& value) {
     return Specializer(module, value).result();
+}
+
+std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module) {
+    constexpr std::uint32_t decorationLocation = 30, typeMatrix = 24, typePointer = 32;
+    std::map<std::uint32_t, std::uint32_t> columns, pointed, locations;  // by id
+    std::set<std::uint32_t> found;
+    for (std::size_t at = 5; at < module.size() && (module[at] & 0xffff) != OpFunction;
+         at += module[at] >> 16) {
+        const auto in = module.subspan(at);
+        switch (module[at] & 0xffff) {
+            case OpDecorate:
+                if (in[2] == decorationLocation) locations[in[1]] = in[3];
+                break;
+            case typeMatrix:
+                columns[in[1]] = in[3];
+                break;
+            case typePointer:
+                pointed[in[1]] = in[3];
+                break;
+            case OpVariable:
+                if (in[3] != storageInput || !locations.contains(in[2])) break;
+                for (std::uint32_t i = 0; i < std::max(1u, columns[pointed[in[1]]]); ++i)
+                    found.insert(locations[in[2]] + i);
+                break;
+            default:
+                break;
+        }
+    }
+    return found;
 }
 
 }  // namespace diptych

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -18,9 +19,12 @@ using SpecializationValue = std::function<std::uint32_t(std::uint32_t id)>;
 // build does that: shaders/README.md), and constants of 32 bits. Integer and logical arithmetic on constants
 // is folded, as vkCreateGraphicsPipelines would fold it; arithmetic on floats is left as it is, instruction
 // by instruction, so that what is computed does not change by a bit. Code that no constant lets run is left
-// out, as are results that nothing reads; names, interface and bindings stay. In time linear in its length.
-// Throws std::logic_error where the module is no such one.
+// out, as are results and inputs that nothing reads; other names, interface and bindings stay. In time linear
+// in its length. Throws std::logic_error where the module is no such one.
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
                                        const SpecializationValue& value);
+
+// Locations of the inputs that a module declares, scalars, vectors and matrices: each column has its own.
+std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module);
 
 }  // namespace diptych

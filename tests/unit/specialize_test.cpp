@@ -178,6 +178,31 @@ TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
         }
 }
 
+TEST(Specialize, LeavesOutInputsThatNothingReads) {
+    const SpirvWords words = fragmentShader(R"(
+%either = OpSelect %float %is0 %y %one
+OpSelectionMerge %after None
+OpBranchConditional %is0 %then %after
+%then = OpLabel
+OpStore %out %either
+OpBranch %after
+%after = OpLabel
+OpReturn
+)");
+    EXPECT_EQ(countOf(specializedText(words, 0, 0), "Input"), 2u);  // the pointer's type and the variable
+    EXPECT_EQ(countOf(specializedText(words, 1, 0), "Input"), 1u);
+    EXPECT_EQ(inputLocations(specializedBy(words, {0, 0})), std::set<std::uint32_t>{0});
+    EXPECT_EQ(inputLocations(specializedBy(words, {1, 0})), std::set<std::uint32_t>{});
+}
+
+// Each column of a matrix has a location of its own.
+TEST(Specialize, InputsOfMatricesHaveALocationAColumn) {
+    const ShaderModule& module = plainModule(Shader::surface_vert);
+    const std::set<std::uint32_t> all = inputLocations(module.words);
+    for (std::uint32_t location = 0; location <= 15; ++location)
+        EXPECT_TRUE(all.contains(location)) << location;
+}
+
 TEST(Specialize, TakesOneSideOfABranch) {
     const SpirvWords words = fragmentShader(R"(
 OpSelectionMerge %after None
