@@ -43,7 +43,10 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
 }  // namespace
 
 int runCompare(const Options& given) {
-    if (given.pixel) return runPixel(given);
+    if (given.pixel) {
+        checkAgainstDevice(given, {});
+        return runPixel(given);
+    }
     Options options = given;
     options.scenes = scenesOf(given.scenes);
     const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));

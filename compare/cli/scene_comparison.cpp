@@ -155,6 +155,7 @@ void checkAgainstDevice(const Options& options, const std::vector<Settings>& set
     if (againstReference(options) || !options.baseline_file.empty())
         refuse(
             "compares each path with itself on another device; leave out --baseline reference or FILE.exr");
+    if (options.pixel) refuse("compares whole pictures; leave out --pixel");
     if (!options.renderers.empty()) refuse("compares two devices; leave out --renderer");
     for (const Settings& of : settings)
         if (of.msaa > 1)
