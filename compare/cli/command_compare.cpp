@@ -43,7 +43,10 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
 }  // namespace
 
 int runCompare(const Options& given) {
-    if (given.pixel) return runPixel(given);
+    if (given.pixel) {
+        checkAgainstDevice(given, {});
+        return runPixel(given);
+    }
     Options options = given;
     options.scenes = scenesOf(given.scenes);
     const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));
@@ -59,6 +62,7 @@ int runCompare(const Options& given) {
             baseline = frameFromExr(options.baseline_file);
     }
     checkSamples(options, settings, baseline);
+    checkAgainstDevice(options, settings);
     checkSince(options);
     if (options.scenes.size() > 1 || !options.shard.empty()) return compareMany(options, settings, folder);
 
@@ -66,10 +70,11 @@ int runCompare(const Options& given) {
     const CompareOptions compare = compareOptions(options);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    const std::unique_ptr<Device> other = againstDevice(options);
+    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     KeptReferences kept(folder, true);
-    RenderOptions render =
-        judgedOptions(renderOptions(options), options.settings, isTraced(settings, baseline));
+    RenderOptions render = judgedOptions(renderOptions(options), options.settings,
+                                         isTraced(settings, baseline), other != nullptr);
     render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
         return kept.open(key, floats);
     };
@@ -80,8 +85,11 @@ int runCompare(const Options& given) {
     const double ours = loading + ourShare(options) * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);
     TextureProbe probe;
-    DrawnScene drawn = drawScene(scene, options, settings, device, render, probe, drawn_stage.part(ours, 1));
+    AgainstDevice against{other ? *other : device, nullptr, precisionsOf(device, other ? *other : device)};
+    DrawnScene drawn = drawScene(scene, options, settings, device, render, probe, drawn_stage.part(ours, 1),
+                                 nullptr, other ? &against : nullptr);
     checkValidation(device);
+    if (other) checkValidation(*other);
     const ReportDevice here = reportDevice(device);
     std::string updated;
     if (options.update_baseline)
@@ -90,7 +98,8 @@ int runCompare(const Options& given) {
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = sharesOf(render);
     Report report = reportOf(options, compare, std::move(drawn), std::move(baseline), here,
-                             againFolder(folder), stage.part(drawing, comparing));
+                             other ? reportDevice(*other) : ReportDevice(), againFolder(folder),
+                             stage.part(drawing, comparing));
     double explained = comparing;
     if (isExplained(options, report)) {
         explained = 0.5 * (1 + comparing);

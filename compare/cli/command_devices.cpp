@@ -81,6 +81,11 @@ int runDevices(const Options& options) {
             if (const auto found = probes.find(device.index); found != probes.end())
                 printColored(options, "\n" + probe::tableOf(found->second, options.verbose));
         }
+    // Drivers install their files where the loader finds them, but for those that come with a program.
+    if (!options.json && !options.quiet && options.device.empty())
+        fmt::print(
+            "Devices of several drivers in one process, as for compare --against-device: "
+            "VK_DRIVER_FILES=FILE.json:FILE.json\n");
     return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/explanations.h"
+#include "compare/cli/scene_comparison.h"
+#include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
+#include "compare/explain/two_devices.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"
 #include "compare/external/external_frame.h"
@@ -99,14 +102,23 @@ int explainScene(const Options& options) {
     if (external && (options.renderers.size() > 1 || !options.test.empty()))
         throw std::runtime_error(
             "--renderer: an explanation is of two pictures; give one renderer, and no --test");
-    const Settings test = external ? baseline : testOf(options, of.test);
+    const bool across = !options.against_device.empty();
+    if (across && (external || !options.test.empty()))
+        throw std::runtime_error(fmt::format(
+            "--against-device {}: an explanation is of two pictures; give no --renderer and no --test",
+            options.against_device));
+    if (across) checkAgainstDevice(options, {baseline});
+    const Settings test = external || across ? baseline : testOf(options, of.test);
     if (external) of.test = options.renderers.front().name;
-    of.commands = {
-        {"Explain it again",
-         shellLine(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
-                             options.renderer_words))},
-        {"The baseline by itself", commandOf("render", of.scene, baseline)}};
-    if (!external) of.commands.push_back({"The test by itself", commandOf("render", of.scene, test)});
+    std::vector<std::string> again = withWords(
+        explainWords(of.scene, options.settings, options.baseline, options.test), options.renderer_words);
+    if (across)
+        again = withOption(withOption(std::move(again), "--against-device", options.against_device),
+                           "--device", options.device.empty() ? "0" : options.device);
+    of.commands = {{"Explain it again", shellLine(again)},
+                   {"The baseline by itself", commandOf("render", of.scene, baseline)}};
+    if (!external && !across)
+        of.commands.push_back({"The test by itself", commandOf("render", of.scene, test)});
     if (options.test.empty() && !external)
         of.commands.push_back({"Every channel of both", commandOf("compare", of.scene, baseline)});
     const PictureChoice picture = pictureChoice(options);
@@ -114,18 +126,33 @@ int explainScene(const Options& options) {
     const Stage stage(progress, of.scene);
     const Scene scene = loadShown(of.scene, options.settings, stage.part(0, 0.1));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    const std::unique_ptr<Device> other = againstDevice(options);
+    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     SceneViews views(scene);
     Renderer renderer(device, views);
     RenderOptions drawing = renderOptions(options);
     drawing.channels = explainedChannels();
+    if (other)
+        for (const int mode : deviceShareChannels())
+            if (std::ranges::count(drawing.channels, mode) == 0) drawing.channels.push_back(mode);
     drawing.runs = 0;
     drawing.progress = stage.part(0.1, 0.25);
     const Frame a = renderer.draw(baseline, drawing);
     drawing.progress = stage.part(0.25, 0.4);
-    const Frame b =
-        external ? drawnByOther(options, views, a, renderer, drawing) : renderer.draw(test, drawing);
-    const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
+    const Frame b = external ? drawnByOther(options, views, a, renderer, drawing)
+                    : other  ? Renderer(*other, views).draw(test, drawing)
+                             : renderer.draw(test, drawing);
+    if (other)
+        of.baseline += " on " + device.info().name,
+            of.test = fmt::format("{} on {}", nameOf(test.path), other->info().name);
+    Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
+    if (other) {
+        explanation.devices = deviceShares(
+            explanation, a, b,
+            acrossDevices(scene, views.at(viewRequest(a.settings)),
+                          precisionsOf(device, *other, !scene.textures.empty(), test.textures), a));
+        checkValidation(*other);
+    }
     checkValidation(device);
     leave(options, picture, device, explanation, of, a, b);
     return 0;

@@ -477,6 +477,14 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     addDevice(app, options);
     app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
 
+    if (command == "compare" || command == "explain")
+        app.add_option("--against-device", options.against_device,
+                       command == "compare"
+                           ? "draw each path on this device too, and compare it with itself on --device"
+                           : "draw the baseline's path on this device, and explain what differs")
+            ->type_name("INDEX|NAME")
+            ->group(device_group);
+
     // view understands the options of every compare, so that one line can be given to either.
     if (command == "compare" || command == "view") {
         app.add_option("--times", parsed.times, "several animation times in one report, seconds (--time)")

@@ -102,6 +102,11 @@ DeviceOptions deviceOptions(const Options& options) {
     return {options.device, options.validate};
 }
 
+std::unique_ptr<Device> againstDevice(const Options& options) {
+    if (options.against_device.empty()) return nullptr;
+    return std::make_unique<Device>(DeviceOptions{options.against_device, options.validate});
+}
+
 void refuseOut(const Options& options) {
     if (!options.out.empty())
         throw std::runtime_error(fmt::format("-o {}: {} writes no file; {} --json > FILE keeps what it says",

@@ -61,6 +61,8 @@ PictureChoice pictureChoice(const Options& options);
 
 RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);
+// The device of --against-device; nullptr where none is asked for.
+std::unique_ptr<Device> againstDevice(const Options& options);
 
 // Throws where -o was given to a command that writes no file.
 void refuseOut(const Options& options);

@@ -53,13 +53,17 @@ public:
           compare_(compareOptions(options)),
           items_(itemsOf(options, settings)),
           kept_(folder, "scenes", resumeKey(options, settings)),
-          render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}))),
+          render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}),
+                                !options.against_device.empty())),
           progress_(progressOutput(options)),
           device_(deviceOptions(options)),
-          pipelines_(makePipelineSet(device_)) {}
+          pipelines_(makePipelineSet(device_)),
+          other_(againstDevice(options)),
+          against_{other_ ? *other_ : device_, other_ ? makePipelineSet(*other_) : nullptr,
+                   precisionsOf(device_, other_ ? *other_ : device_)} {}
 
     int run() {
-        say(options_, "on " + device_.info().name);
+        say(options_, "on " + device_.info().name + (other_ ? " and " + other_->info().name : ""));
         checkDevice();
         findKept();
         checkHeaders();
@@ -71,10 +75,13 @@ public:
     }
 
 private:
-    // Parts of one report are of one device.
+    // Parts of one report are of one device, or of the same two.
     void checkDevice() {
-        const ReportDevice here = reportDevice(device_);
-        const Json device{here.name, here.driver, here.type};
+        Json device = Json::array();
+        for (const Device* of : {&device_, other_.get()})
+            if (of)
+                for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
+                    device.push_back(word);
         const Json there = kept_.find("device");
         if (there.is_object() && there.value("device", Json()) != device)
             throw std::runtime_error(fmt::format(
@@ -157,10 +164,12 @@ private:
         const double ours = ourShare(options_) * drawing;
         render.progress = stage.part(0, ours);
         DrawnScene drawn = drawScene(scene, options_, settings_, device_, render, probe_,
-                                     stage.part(ours, drawing), pipelines_);
+                                     stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
         checkValidation(device_);
+        if (other_) checkValidation(*other_);
         Report report = reportOf(options_, compare_, std::move(drawn), {}, reportDevice(device_),
-                                 againBeside(folder_), stage.part(drawing, comparing));
+                                 other_ ? reportDevice(*other_) : ReportDevice(), againBeside(folder_),
+                                 stage.part(drawing, comparing));
         double explained = comparing;
         if (isExplained(options_, report)) {
             explained = 0.5 * (1 + comparing);
@@ -216,6 +225,8 @@ private:
     Progress progress_;
     Device device_;
     const std::shared_ptr<PipelineSet> pipelines_;
+    const std::unique_ptr<Device> other_;  // of --against-device
+    AgainstDevice against_;
     TextureProbe probe_;
     std::map<const shards::Item*, ReportPart> parts_;
     std::multimap<const shards::Item*, SceneError> errors_;  // of the scene, or of other renderers

@@ -81,6 +81,7 @@ struct Options {
     PictureChoice picture;
     std::filesystem::path match_exposure;  // a picture whose exposure is taken over; empty: none
     std::string device;                    // index or part of a name
+    std::string against_device;            // compare, explain: likewise, of the other device; empty: none
     bool validate = false;
     std::filesystem::path out;  // empty: the command's own default
     bool force = false, json = false, quiet = false, verbose = false;

@@ -2,6 +2,7 @@
 #include "compare/cli/scene_comparison.h"
 
 #include "compare/cli/commands.h"
+#include "compare/explain/two_devices.h"
 #include "compare/external/external_frame.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
@@ -16,6 +17,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <stdexcept>
 #include <utility>
 
@@ -45,6 +48,43 @@ std::size_t leftPanel(const Options& options, std::size_t first) {
     if (againstReference(options)) return first;
     const auto path = std::ranges::find(drawn_paths, options.baseline);
     return first + static_cast<std::size_t>(path - drawn_paths.begin());
+}
+
+// A short name for a device in those of Frames and files: "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
+std::string shortName(const std::string& device) {
+    const auto end =
+        std::ranges::find_if(device, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+    return std::string(device.begin(), end);
+}
+
+// Puts the Frames of another device behind those of each view, and gathers what they are judged with.
+void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, AgainstDevice& against,
+                    std::vector<Frame> there, const std::shared_ptr<PipelineSet>& pipelines,
+                    DrawnScene& drawn) {
+    Renderer renderer(device, views, pipelines);
+    if (!scene.textures.empty() && !against.precision[0].texels)
+        against.precision = precisionsOf(device, against.device, true, there.front().settings.textures);
+    const auto note = [](Frame& frame, const Device& on) {
+        frame.origin.device = on.info().name;
+        frame.origin.driver = on.info().driver;
+    };
+    std::vector<Frame> frames;
+    for (std::size_t i = 0; i + 1 < there.size(); i += 2) {
+        const std::size_t forward = drawn.frames[i].settings.path == Path::forward_plus ? i : i + 1;
+        AcrossDevices across = acrossDevices(scene, views.at(viewRequest(drawn.frames[forward].settings)),
+                                             against.precision, drawn.frames[forward]);
+        for (const std::size_t k : {i, i + 1}) {
+            Frame &a = drawn.frames[k], &b = there[k];
+            note(a, device);
+            note(b, against.device);
+            b.name += "-on-" + shortName(against.device.info().name);
+            across.relit = relit(device, renderer, scene, a, b);
+            drawn.across.push_back(across);
+        }
+        for (std::vector<Frame>* of : {&drawn.frames, &there})
+            for (const std::size_t k : {i, i + 1}) frames.push_back(std::move((*of)[k]));
+    }
+    drawn.frames = std::move(frames);
 }
 
 // One view by every renderer that is not ours. One that fails is an error of the report, and nothing is
@@ -107,6 +147,24 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
     }
 }
 
+void checkAgainstDevice(const Options& options, const std::vector<Settings>& settings) {
+    if (options.against_device.empty()) return;
+    const auto refuse = [&](const std::string& why) {
+        throw std::runtime_error(fmt::format("--against-device {}: {}", options.against_device, why));
+    };
+    if (againstReference(options) || !options.baseline_file.empty())
+        refuse(
+            "compares each path with itself on another device; leave out --baseline reference or FILE.exr");
+    if (options.pixel) refuse("compares whole pictures; leave out --pixel");
+    if (!options.renderers.empty()) refuse("compares two devices; leave out --renderer");
+    for (const Settings& of : settings)
+        if (of.msaa > 1)
+            refuse(
+                fmt::format("--msaa {}: lit is of several samples and its surfaces are those of the first; "
+                            "give --msaa 1",
+                            of.msaa));
+}
+
 Shares sharesOf(const RenderOptions& render) {
     const double frames = framesIn(render);
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
@@ -118,11 +176,16 @@ double ourShare(const Options& options) {
 
 DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
                      Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
-                     const std::shared_ptr<PipelineSet>& pipelines) {
+                     const std::shared_ptr<PipelineSet>& pipelines, AgainstDevice* against) {
     DrawnScene drawn;
     SceneViews views(scene);
     for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
-    drawn.frames = renderAll(device, views, settings, render, pipelines);
+    RenderOptions first = render, second = render;
+    if (against) {
+        first.progress = render.progress.part(0, 0.5);
+        second.progress = render.progress.part(0.5, 1);
+    }
+    drawn.frames = renderAll(device, views, settings, first, pipelines);
     const std::size_t together = comparedPaths(options).size();
     for (std::size_t k = 0; k < drawn.frames.size(); k += together) {
         const Frame& shown = drawn.frames[k + together - 2];
@@ -132,6 +195,10 @@ DrawnScene drawScene(const Scene& scene, const Options& options, const std::vect
                       leftPanel(options, k), outside, drawn);
         letGo(shown);
     }
+    if (against)
+        addOtherDevice(scene, views, device, *against,
+                       renderAll(against->device, views, settings, second, against->pipelines), pipelines,
+                       drawn);
     drawn.texels = texelsFor(options, settings, device, !scene.textures.empty(), probe);
     return drawn;
 }
@@ -139,7 +206,10 @@ DrawnScene drawScene(const Scene& scene, const Options& options, const std::vect
 namespace {
 
 Report comparisonsOf(const Options& options, const CompareOptions& compare, DrawnScene drawn,
-                     std::optional<Frame> baseline, const ReportDevice& device) {
+                     std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against) {
+    if (!drawn.across.empty())
+        return makeDeviceReport(std::move(drawn.frames), drawn.needs, device, against, compare,
+                                std::move(drawn.across), std::move(drawn.visual_checks));
     if (againstReference(options))
         return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
                                    std::move(drawn.visual_checks), drawn.materials);
@@ -154,14 +224,14 @@ Report comparisonsOf(const Options& options, const CompareOptions& compare, Draw
 }  // namespace
 
 Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn,
-                std::optional<Frame> baseline, const ReportDevice& device, const std::string& again,
-                const Stage& progress) {
+                std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
+                const std::string& again, const Stage& progress) {
     compare.progress = progress;
     compare.rules = rulesOfScene(compare.rules, drawn.frames.front().scene);
     compare.texels = drawn.texels;
     std::vector<ExternalPicture> external = std::move(drawn.external);
     std::vector<SceneError> errors = std::move(drawn.errors);
-    Report report = comparisonsOf(options, compare, std::move(drawn), std::move(baseline), device);
+    Report report = comparisonsOf(options, compare, std::move(drawn), std::move(baseline), device, against);
     addExternalPictures(report, std::move(external), compare);
     report.errors = std::move(errors);
     for (Comparison& comparison : report.comparisons)

@@ -76,6 +76,8 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
         return words.words;
     }
     words.add("--baseline", options.baseline_file.string(), std::string());
+    words.add("--against-device", options.against_device, std::string());
+    if (!options.against_device.empty()) words.add("--device", options.device, std::string());
     addSelection(words, options.selection);
     if (options.allow_noise) words.words.emplace_back("--allow-noise");
     addFlags(words, options);

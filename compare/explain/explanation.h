@@ -51,6 +51,12 @@ struct CausePair {
     double interaction = 0;             // Shares::interaction, W/(sr m^2)
 };
 
+// Of two pictures of one path on two devices: a part of the distance by where it comes from.
+struct DeviceShare {
+    std::string name, shows;  // "textures"; what it is, in words
+    double share = 0;         // W/(sr m^2), as Cause::share
+};
+
 struct Explanation {
     // The mean over the picture's pixels and components of |test - baseline| of lit, W/(sr m^2): as it is,
     // and as it is left when all causes are swapped.
@@ -58,6 +64,7 @@ struct Explanation {
     double flip = 0, flip_unexplained = 0;  // likewise the mean of HDR-FLIP
     std::vector<Cause> causes;              // descending by share
     std::vector<CausePair> pairs;           // those of over 5 % of the distance, the largest first
+    std::vector<DeviceShare> devices;       // of two devices (device_shares.h), descending; else none
     // How far the lighting of a side's own channels is from that side's lit: the mean difference, as a share
     // of the mean of lit: baseline, test. That is the rest.
     std::array<double, 2> reproduction{};

@@ -84,8 +84,13 @@ std::string inShort(const Explanation& e) {
     for (const Cause& cause : e.causes)
         causes += fmt::format("{} {} {:.1f} %", causes.empty() ? " because of" : ",", cause.name,
                               100 * e.shareOf(cause.share));
-    return fmt::format("lit differs{}; unexplained {:.1f} %",
-                       causes.empty() ? " by nothing that is known" : causes, 100 * e.shareOf(e.unexplained));
+    std::string devices;
+    for (const DeviceShare& part : e.devices)
+        devices += fmt::format("{} {} {:.1f} %", devices.empty() ? "; on two devices by" : ",", part.name,
+                               100 * e.shareOf(part.share));
+    return fmt::format("lit differs{}; unexplained {:.1f} %{}",
+                       causes.empty() ? " by nothing that is known" : causes, 100 * e.shareOf(e.unexplained),
+                       devices);
 }
 
 std::string inWords(const Explanation& e, const ExplainedPictures& of) {
@@ -97,6 +102,10 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
         text += fmt::format("{} pixels are NaN or infinite in one of them and left out\n", e.nonfinite);
     if (e.distance == 0) return text + "no cause: lit is the same\n";
     if (e.causes.empty()) text += "no cause: nothing that differs makes lit\n";
+    if (!e.devices.empty()) text += "on two devices it comes from\n";
+    for (const DeviceShare& part : e.devices)
+        text += fmt::format("{:>8.2f} %  {:<18}  {}\n", 100 * e.shareOf(part.share), part.name, part.shows);
+    if (!e.devices.empty()) text += "and by channel\n";
     for (std::size_t i = 0; i < e.causes.size(); ++i) text += causeLine(e, i);
     const double left = e.shareOf(e.unexplained);
     text +=
@@ -114,7 +123,9 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {
     using Json = nlohmann::ordered_json;
-    Json causes = Json::array(), pairs = Json::array();
+    Json causes = Json::array(), pairs = Json::array(), devices = Json::array();
+    for (const DeviceShare& part : e.devices)
+        devices.push_back({{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}});
     for (std::size_t i = 0; i < e.causes.size(); ++i) {
         const Cause& cause = e.causes[i];
         Json materials = Json::array(), lights = Json::array();
@@ -153,6 +164,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"unexplained", e.shareOf(e.unexplained)},
             {"flip_unexplained", e.flip_unexplained},
             {"pairs", std::move(pairs)},
+            {"devices", std::move(devices)},
             {"inert", e.inert},
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},

@@ -34,7 +34,8 @@ public:
         for (std::size_t i = 0; i < report_.frames.size(); ++i)
             if (!layout_.exr[i].empty())
                 tasks.push_back([this, i] {
-                    writeFrameExr(folder_ / layout_.exr[i], report_.frames[i], report_.device);
+                    writeFrameExr(folder_ / layout_.exr[i], report_.frames[i],
+                                  deviceOf(report_, report_.frames[i]));
                 });
         for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)

@@ -53,6 +53,9 @@ std::string header(const Report& report, const ReportLayout& layout, const Repor
         if (!one.device.name.empty())
             devices += fmt::format("{}{} ({}), {}", devices.empty() ? "" : "; ", one.device.name,
                                    one.device.type, one.device.driver);
+    if (!report.against.name.empty())
+        devices +=
+            fmt::format("; and {} ({}), {}", report.against.name, report.against.type, report.against.driver);
     drawn += devices;
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"

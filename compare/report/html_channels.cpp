@@ -147,7 +147,7 @@ private:
     std::string because() const {
         const std::string decides =
             !channel_.rule.empty() ? fmt::format("Rule of {}", markup(channel_.rule))
-            : channel_.encoding_use
+            : channel_.encoding_use || channel_.device_use
                 ? fmt::format("Tolerance of each pixel's own, {} at most", number(channel_.tolerance.max))
                 : fmt::format("Tolerance {}", number(channel_.tolerance.max));
         if (channel_.tolerance.because.empty())
@@ -171,7 +171,8 @@ private:
         if (view.front() != "compare") return text;
         view.front() = "view";
         // The folder of the report that draws it again is none of the window's.
-        if (const auto out = std::ranges::find(view, "-o"); out != view.end()) view.erase(out, out + 2);
+        for (const char* option : {"-o", "--against-device"})  // of a report
+            if (const auto out = std::ranges::find(view, option); out != view.end()) view.erase(out, out + 2);
         return text + line("in a window", view);
     }
 
@@ -262,7 +263,7 @@ private:
         if (channel_.certain_p999) row("p99.9 of the excess", number(*channel_.certain_p999));
         if (channel_.flip) row("FLIP, mean", number(*channel_.flip));
         if (hasTolerance())
-            row(channel_.encoding_use ? "tolerance, at most" : "tolerance",
+            row(channel_.encoding_use || channel_.device_use ? "tolerance, at most" : "tolerance",
                 number(channel_.tolerance.max) + unit);
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
@@ -276,6 +277,9 @@ private:
         }
         if (const auto& use = channel_.encoding_use; use && use->x >= 0)
             row("of what the bits allow there",
+                fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
+        if (const auto& use = channel_.device_use; use && use->x >= 0)
+            row("of what both devices' precision allows there",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));

@@ -136,21 +136,25 @@ std::string grantsOf(const FrameOrigin& origin) {
                : fmt::format("external renderer, granted {}", fmt::join(origin.granted, "; "));
 }
 
-// The files of pictures that were not drawn by this program in this run.
+// The files of pictures that were not drawn by this program in this run, and the devices of two.
 std::string origins(const Frame& a, const Frame& b) {
     std::string rows;
     for (const Frame* frame : {&a, &b}) {
         const FrameOrigin& origin = frame->origin;
-        if (origin.file.empty()) continue;
+        if (origin.file.empty() && origin.device.empty()) continue;
         rows += fmt::format("<tr><td>{}</td><td class=\"mono wide\">{}</td><td class=\"wide\">{}</td></tr>",
                             markup(frame->name), markup(origin.file),
                             markup(origin.external         ? grantsOf(origin)
                                    : origin.device.empty() ? ""
-                                                           : fmt::format("{}, {}, commit {}", origin.device,
-                                                                         origin.driver, origin.commit)));
+                                   : origin.file.empty() ? fmt::format("{}, {}", origin.device, origin.driver)
+                                                         : fmt::format("{}, {}, commit {}", origin.device,
+                                                                       origin.driver, origin.commit)));
     }
     if (rows.empty()) return {};
-    return "<div class=\"box scroll\"><h4>Files</h4><table>" + rows + "</table></div>\n";
+    return (a.origin.file.empty() && b.origin.file.empty()
+                ? "<div class=\"box scroll\"><h4>Devices</h4><table>"
+                : "<div class=\"box scroll\"><h4>Files</h4><table>") +
+           rows + "</table></div>\n";
 }
 
 }  // namespace

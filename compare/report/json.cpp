@@ -63,6 +63,12 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
                             {"most", finiteOrNull(channel.encoding_use->most)},
                             {"mean", finiteOrNull(channel.encoding_use->mean)},
                             {"pixel", {channel.encoding_use->x, channel.encoding_use->y}}};
+    if (channel.device_use)
+        json["across_devices"] = {{"used", finiteOrNull(channel.device_use->used)},
+                                  {"beyond_pixels", channel.device_use->beyond},
+                                  {"most", finiteOrNull(channel.device_use->most)},
+                                  {"mean", finiteOrNull(channel.device_use->mean)},
+                                  {"pixel", {channel.device_use->x, channel.device_use->y}}};
     if (anywhere)
         json["worst_values"] = {{"baseline", valuesAt(report.baseline(comparison), channel)},
                                 {"test", valuesAt(report.test(comparison), channel)}};
@@ -159,11 +165,11 @@ std::string textOf(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+}  // namespace
+
 Json jsonOf(const ReportDevice& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
 }
-
-}  // namespace
 
 std::string innerJson(const Json& array) {
     if (array.empty()) return {};
@@ -180,8 +186,9 @@ Json framesJson(const Report& report, const ReportLayout* layout) {
     Json frames = Json::array();
     for (std::size_t i = 0; i < report.frames.size(); ++i) {
         frames.push_back(jsonOf(report.frames[i]));
-        if (report.frames[i].origin.file.empty() && !report.device.name.empty())
-            frames.back()["drawn_on"] = report.device.name + ", " + report.device.driver;
+        const ReportDevice& device = deviceOf(report, report.frames[i]);
+        if (report.frames[i].origin.file.empty() && !device.name.empty())
+            frames.back()["drawn_on"] = device.name + ", " + device.driver;
         if (layout) frames.back()["exr"] = layout->exr[i];
     }
     return frames;
@@ -214,6 +221,7 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
               {"device", jsonOf(report.device)},
               {"devices", times},
               {"said_first", report.first_notes}};
+    if (!report.against.name.empty()) head["against_device"] = jsonOf(report.against);
     // Times of several devices are no one's.
     const auto only = [&](double DrawnOn::*ms) {
         return devices.size() == 1 ? Json(devices.front().*ms) : Json(nullptr);

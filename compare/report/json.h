@@ -27,6 +27,8 @@ nlohmann::ordered_json comparisonsJson(const Report& report);
 nlohmann::ordered_json truthJson(const Report& report);
 std::string innerJson(const nlohmann::ordered_json& array);
 
+nlohmann::ordered_json jsonOf(const ReportDevice& device);
+
 // The same from pieces: each function gives all that there is of its array, element by element or several at
 // once, to a sink that it is given.
 using JsonSink = std::function<void(std::string_view)>;

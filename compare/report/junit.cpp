@@ -106,8 +106,13 @@ private:
         if (left_.origin.file.empty()) add("gbuffer", left_.settings.valueOf("gbuffer"));
         add("baseline", left_.name);
         add("test", right_.name);
-        add("device", report_.device.name);
-        add("driver", report_.device.driver);
+        const ReportDevice &drew = deviceOf(report_, left_), &drew_test = deviceOf(report_, right_);
+        add("device", drew.name);
+        add("driver", drew.driver);
+        if (!left_.origin.device.empty() && left_.origin.file.empty()) {
+            add("test_device", drew_test.name);
+            add("test_driver", drew_test.driver);
+        }
         if (!comparison_.command.empty()) add("command", shellLine(comparison_.command));
         return out + "    </properties>\n";
     }

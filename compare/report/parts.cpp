@@ -49,11 +49,8 @@ Json summaryOf(const Frame& frame) {
     Json settings = Json::object();
     for (const char* option : {"camera", "time", "size", "gbuffer"})
         settings[option] = frame.settings.valueOf(option);
-    return {{"name", frame.name},
-            {"scene", frame.scene},
-            {"camera", frame.camera.name},
-            {"settings", settings},
-            {"notes", frame.notes}};
+    return {{"name", frame.name},   {"scene", frame.scene},          {"camera", frame.camera.name},
+            {"settings", settings}, {"device", frame.origin.device}, {"notes", frame.notes}};
 }
 
 Frame frameFrom(const nlohmann::json& json) {
@@ -61,6 +58,7 @@ Frame frameFrom(const nlohmann::json& json) {
     frame.name = json.at("name");
     frame.scene = json.at("scene");
     frame.camera.name = json.at("camera");
+    frame.origin.device = json.at("device");
     for (const auto& [option, value] : json.at("settings").items())
         frame.settings.set(option, value.get<std::string>());
     frame.notes = json.at("notes").get<std::vector<std::string>>();
@@ -103,6 +101,10 @@ Comparison comparisonFrom(const nlohmann::json& json) {
     return comparison;
 }
 
+ReportDevice deviceFrom(const nlohmann::json& json) {
+    return {json.at("name"), json.at("driver"), json.at("type")};
+}
+
 Json jsonOf(const ReportPart& part) {
     const Report& report = part.report;
     Json frames = Json::array(), comparisons = Json::array(), closer = Json::array();
@@ -115,8 +117,8 @@ Json jsonOf(const ReportPart& part) {
     for (const Exposure& exposure : part.exposures) exposures.push_back({exposure.factor, exposure.because});
     return {{"schema", 1},
             {"software", softwareName},
-            {"device",
-             {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
+            {"device", jsonOf(report.device)},
+            {"against", jsonOf(report.against)},
             {"frames", frames},
             {"comparisons", comparisons},
             {"closer", closer},
@@ -135,8 +137,8 @@ Json jsonOf(const ReportPart& part) {
 ReportPart partFrom(const nlohmann::json& json) {
     ReportPart part;
     Report& report = part.report;
-    const auto& device = json.at("device");
-    report.device = {device.at("name"), device.at("driver"), device.at("type")};
+    report.device = deviceFrom(json.at("device"));
+    report.against = deviceFrom(json.at("against"));
     for (const auto& frame : json.at("frames")) report.frames.push_back(frameFrom(frame));
     for (const auto& comparison : json.at("comparisons"))
         report.comparisons.push_back(comparisonFrom(comparison));
@@ -263,6 +265,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const ReportTexts texts = textsOf(report, layout);
     part.report.device = report.device;
+    part.report.against = report.against;
     part.report.diff_ms = report.diff_ms;
     part.rows = texts.rows;
     part.closer_boxes = texts.closer_boxes;
@@ -333,6 +336,7 @@ Report summaryOf(const WholeReport& whole) {
     for (const PlacedPart& placed : whole.parts) {
         const Report& report = placed.part.report;
         if (all.device.name.empty()) all.device = report.device;
+        if (all.against.name.empty()) all.against = report.against;
         const std::size_t first = all.frames.size();
         all.frames.insert(all.frames.end(), report.frames.begin(), report.frames.end());
         for (Comparison comparison : report.comparisons) {

@@ -55,6 +55,8 @@ std::string frameLine(const Frame& frame) {
                             frame.time.max, frame.time.runs);
     if (frame.time.object_lists > 0)
         line += fmt::format(", {:.3g} ms on the host for each object's lights", frame.time.object_lists);
+    if (!frame.origin.device.empty())
+        line += fmt::format(", on {}, {}", frame.origin.device, frame.origin.driver);
     return line + fmt::format(", {} bytes a pixel of {}\n", frame.bytes.gbuffer_per_pixel,
                               frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }

@@ -10,8 +10,9 @@
 
 namespace diptych {
 bool hasSeveralPairs(const Report& report) {
-    return !report.closer_paths.empty() ||
-           std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
+    return !report.closer_paths.empty() || std::ranges::any_of(report.frames, [](const Frame& f) {
+        return !f.origin.file.empty() || !f.origin.device.empty();
+    });
 }
 
 std::string pairTitle(const Report& report, const Comparison& comparison) {

@@ -11,7 +11,8 @@
 
 namespace diptych {
 
-// Whether one scene, camera and time have several comparisons: with an earlier Frame or the reference.
+// Whether one scene, camera and time have several comparisons: with an earlier Frame, the reference or
+// another device.
 bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/channel_diff.h"
 
+#include "compare/verdict/across_devices.h"
 #include "compare/verdict/domain.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
@@ -30,6 +31,8 @@ Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const M
             std::max(*channel.unexplained_pixels, channel.encoding_use ? channel.encoding_use->beyond : 0);
         return {.figure = "pixels unexplained", .measured = static_cast<double>(pixels), .pixels = pixels};
     }
+    if (const auto& use = channel.device_use)
+        return {.figure = "times the bounds", .measured = use->used, .limit = 1, .pixels = use->beyond};
     if (const auto& f = channel.footprints) {
         if (f->used >= f->flip / detailFlip)
             return {.figure = "times the bounds", .measured = f->used, .limit = 1, .pixels = f->beyond};
@@ -61,6 +64,13 @@ std::string faultOf(const ChannelDiff& channel) {
             "{},{}, and more than they can at {} pixel(s) ({})",
             channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
             channel.encoding_use->beyond, share);
+    if (const auto& use = channel.device_use)
+        return use->beyond == 0
+                   ? std::string()
+                   : fmt::format(
+                         "{} pixel(s) ({}) of the same surface are further apart than the two devices' "
+                         "precision allows, {:.3g} times that at {},{}",
+                         use->beyond, share, use->used, use->x, use->y);
     if (const auto& f = channel.footprints) {
         if (!(f->used <= 1))
             return fmt::format(
@@ -131,8 +141,8 @@ void setShare(Criterion& criterion, const Coverage& coverage) {
     criterion.share = all > 0 ? std::min(1.0, static_cast<double>(criterion.pixels) / all) : 0;
 }
 
-// Judges by the derived tolerance.
-void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
+// Finds what two paths, or a path and a reference, may differ by, and how much of it a channel uses.
+void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
     if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
@@ -145,6 +155,17 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
     if (!channel.footprints) showExcess(channel, pair);
+}
+
+// Judges by the derived tolerance.
+void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
+    const DebugMode& mode = *channel.mode;
+    if (pair.across) {
+        channel.device_use = deviceUse(mode, pair);
+        channel.tolerance = deviceTolerance(mode, pair, *channel.device_use);
+    } else {
+        judgePaths(channel, pair, allowNoise);
+    }
     channel.criterion = criterionOf(channel, pair, measurement);
     setShare(*channel.criterion, pair.coverage);
     channel.reason = faultOf(channel);

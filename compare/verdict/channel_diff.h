@@ -38,6 +38,7 @@ struct ChannelDiff {
         unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
     std::optional<Footprints> footprints;     // of a reference in mode scene
     std::optional<EncodingUse> encoding_use;  // of what the G-buffer's bits allow a lit channel
+    std::optional<EncodingUse> device_use;    // of one path on two devices: of what their precision allows
     std::optional<double>
         certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
     Verdict verdict = Verdict::pass;

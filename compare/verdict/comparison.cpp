@@ -3,6 +3,7 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
+#include "compare/verdict/across_devices.h"
 #include "compare/verdict/one_sided.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/made_channels.h"
@@ -117,6 +118,18 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
     return nullptr;
 }
 
+// Of one path on two devices: pixels that show another surface are counted, and not compared.
+void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
+    const SurfacePixels surfaces = surfacePixels(pair);
+    if (std::string fault = surfaces.fault(); !fault.empty())
+        comparison.failures.push_back(std::move(fault));
+    else
+        comparison.notes.push_back(surfaces.inWords());
+    for (std::size_t i = 0; i < surfaces.others.size(); ++i)
+        if (surfaces.others[i] != 0) comparison.coverage.covered[i] = 0;
+    comparison.coverage.count -= surfaces.count();
+}
+
 // Why two pictures that agree say little: nothing is in view, hardly anything, or no light. Empty otherwise.
 // `shown`: the share of the pixels that show a surface, before any were left out by the command line.
 std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
@@ -171,6 +184,12 @@ std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
 
 }  // namespace
 
+const ReportDevice& deviceOf(const Report& report, const Frame& frame) {
+    const bool other = frame.origin.file.empty() && !report.against.name.empty() &&
+                       frame.origin.device == report.against.name;
+    return other ? report.against : report.device;
+}
+
 bool Comparison::passed() const {
     return failures.empty() &&
            std::ranges::none_of(channels, [](const ChannelDiff& c) { return c.verdict == Verdict::fail; });
@@ -196,19 +215,26 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         return frame->origin.file.empty() ||
                (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
     });
-    const bool cpu = report.device.bitExact() && here;
+    const auto drawnExactly = [&](const Frame& frame) { return deviceOf(report, frame).bitExact(); };
+    const bool cpu = here && drawnExactly(left) && drawnExactly(right);
     comparison.coverage = coverage(left, right);
     const double shown = static_cast<double>(comparison.coverage.count) /
                          static_cast<double>(std::max<std::size_t>(comparison.coverage.covered.size(), 1));
     applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
                    options.selection, objectsOf(left, right), comparison.notes);
-    const FramePair pair{left,
-                         right,
-                         needs,
-                         comparison.coverage,
-                         cpu,
-                         explaining(report, left, right),
-                         options.texels ? &*options.texels : nullptr};
+    FramePair pair{left,
+                   right,
+                   needs,
+                   comparison.coverage,
+                   cpu,
+                   explaining(report, left, right),
+                   options.texels ? &*options.texels : nullptr,
+                   options.across};
+    std::optional<SurfaceGrid> grid;
+    if (options.across) {
+        pair.grid = &grid.emplace(pair);
+        leaveOutOtherSurfaces(pair, comparison);
+    }
 
     const bool lit_alone = comparesLitAlone(left, right);
     if (lit_alone)
@@ -282,10 +308,11 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                             "compare " + std::string(channel.mode->name));
     });
 
-    readBlending(pair, options.rules, comparison);
+    // Two devices blend surfaces that they have sampled and placed each in its own way.
+    if (!options.across) readBlending(pair, options.rules, comparison);
     for (const Frame* frame : {&left, &right}) {
         readCounters(*frame, comparison);
-        readNoise(*frame, cpu, options.allow_noise, comparison);
+        readNoise(*frame, drawnExactly(*frame), options.allow_noise, comparison);
     }
     if (const std::string ways = waysOfJudging(comparison.channels); !ways.empty())
         comparison.notes.push_back(ways);

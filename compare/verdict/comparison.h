@@ -49,6 +49,7 @@ struct SceneError {
 
 struct Report {
     ReportDevice device;
+    ReportDevice against;  // of --against-device; no name: there is none
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
     std::vector<std::string> first_notes;  // what a reader must know before any number
@@ -61,6 +62,9 @@ struct Report {
     const Frame& baseline(const Comparison& comparison) const { return frames[comparison.baseline]; }
     const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
 };
+
+// The device that a Frame of the report was drawn on in this run.
+const ReportDevice& deviceOf(const Report& report, const Frame& frame);
 
 struct CompareOptions {
     Path baseline = Path::deferred;  // the left panel
@@ -75,6 +79,8 @@ struct CompareOptions {
     bool allow_empty = false;  // pictures that show nothing, or hardly anything, are what is wanted
     // What the device makes of texels of 8 bits, which a reference in mode scene grants it.
     std::optional<TextureSampling> texels{};
+    // Of one path on two devices; which outlives the comparison.
+    const AcrossDevices* across = nullptr;
     Stage progress{};  // of comparing
 };
 

@@ -6,6 +6,7 @@
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/environment_cost.h"
+#include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -14,13 +15,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace diptych {
 namespace {
-
-constexpr double degreesPerRadian = 180 / std::numbers::pi;
 
 // The rasterizer snaps corners to 1/256 of a pixel, so that a pixel shows what is up to 1/128 of the way to a
 // neighbour.
@@ -48,29 +46,6 @@ bool isGeometry(const DebugMode& mode) {
 // Channels of what a surface is made of, whose light may differ where they do.
 bool isSurface(const DebugMode& mode) {
     return mode.maker == MadeBy::both && !isLit(mode.number) && !isGeometry(mode);
-}
-
-const Image* find(const Frame& frame, gpu::uint mode) {
-    const auto found = frame.channels.find(static_cast<int>(mode));
-    return found == frame.channels.end() ? nullptr : &found->second;
-}
-
-// Visits the pixels around (x, y), itself left out.
-template <class Visit>
-void around(const Image& image, int x, int y, const Visit& visit, int radius = 1) {
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
-        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
-            if (u != x || v != y) visit(u, v);
-}
-
-std::size_t indexOf(const Image& image, int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
-}
-
-// The distance of two values in what a range is measured in: degrees of unit vectors, else the largest
-// component's difference.
-double apart(const DebugMode& mode, const float* a, const float* b) {
-    return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
 }
 
 // How far the value changes within so many pixels around (x, y).
@@ -146,8 +121,8 @@ private:
     // Whether each picture shows one material, or the background, all around. Not that it is the same: where
     // it is another, that is a fault.
     bool isInside(int x, int y) const {
-        const Image *a = find(pair_.baseline, gpu::DEBUG_material_id),
-                    *b = find(pair_.test, gpu::DEBUG_material_id);
+        const Image *a = findChannel(pair_.baseline, gpu::DEBUG_material_id),
+                    *b = findChannel(pair_.test, gpu::DEBUG_material_id);
         if (!a || !b) return true;
         const std::size_t here = indexOf(*a, x, y);
         bool inside = true;
@@ -163,8 +138,8 @@ private:
     bool isSameSurface(std::size_t i) const {
         for (const DebugMode& mode : debugModes()) {
             if (!isSurface(mode)) continue;
-            const Image *a = find(pair_.baseline, static_cast<gpu::uint>(mode.number)),
-                        *b = find(pair_.test, static_cast<gpu::uint>(mode.number));
+            const Image *a = findChannel(pair_.baseline, static_cast<gpu::uint>(mode.number)),
+                        *b = findChannel(pair_.test, static_cast<gpu::uint>(mode.number));
             if (!a && !b) continue;
             if (!a || !b) return false;
             const double size =
@@ -216,7 +191,7 @@ private:
         double share = 0;
         for (const gpu::uint number : {gpu::DEBUG_albedo, gpu::DEBUG_emission, gpu::DEBUG_lightmap}) {
             const DebugMode& mode = debugMode(static_cast<int>(number));
-            const Image* const image = find(pair_.baseline, number);
+            const Image* const image = findChannel(pair_.baseline, number);
             const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
             if (value > 0) share = std::max(share, texels(mode, image->pixel(i)) / value);
         }

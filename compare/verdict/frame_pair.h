@@ -9,6 +9,9 @@
 
 namespace diptych {
 
+struct AcrossDevices;  // across_devices.h
+class SurfaceGrid;
+
 // Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
 struct FramePair {
     const Frame& baseline;
@@ -23,6 +26,10 @@ struct FramePair {
     // Against a reference in mode scene: what the device makes of texels of 8 bits, where the scene has
     // textures.
     const TextureSampling* texels = nullptr;
+
+    // Of one path on two devices: what tells their differences from faults; else nullptr.
+    const AcrossDevices* across = nullptr;
+    const SurfaceGrid* grid = nullptr;
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/pair_reports.h"
 
+#include "compare/render/channel_shading.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
 #include "compare/verdict/footprint.h"
+#include "compare/verdict/neighbours.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 
@@ -16,7 +18,7 @@
 
 namespace diptych {
 
-RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced) {
+RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across) {
     render.through_gbuffer = true;
     render.twice = true;
     render.environment_errors = true;
@@ -24,7 +26,15 @@ RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool
     // which light is judged.
     std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
     if (traced) helpers = footprintChannels();
+    if (across) {
+        helpers = surfacePixelChannels();
+        helpers.insert(helpers.end(), surfaceChannels().begin(), surfaceChannels().end());
+        helpers.push_back(static_cast<int>(gpu::DEBUG_texcoords));
+    }
     // How far the shadow filter reaches at a pixel follows from these.
+    if (across)
+        for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
+            helpers.push_back(static_cast<int>(mode));
     if (settings.shadows != Shadows::off)
         for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
             helpers.push_back(static_cast<int>(mode));
@@ -84,6 +94,51 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
         if (!checks.empty()) between.visual_checks = std::move(checks.at(i / 3));
         report.closer_paths.push_back(
             closerPathOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
+    }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
+                        ReportDevice device, ReportDevice against, const CompareOptions& options,
+                        std::vector<AcrossDevices> across, std::vector<std::vector<FeatureChecks>> checks) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.against = std::move(against);
+    report.frames = std::move(frames);
+    const auto all = static_cast<double>(report.frames.size());
+    double done = 0;
+    for (std::size_t i = 0; i + 3 < report.frames.size(); i += 4) {
+        const std::size_t view = i / 4;
+        const std::size_t left = options.baseline == Path::forward_plus ? 1 : 0;
+        for (std::size_t path = 0; path < 2; ++path)
+            across.at(2 * view + path).texcoords = {findChannel(report.frames[i + 1], gpu::DEBUG_texcoords),
+                                                    findChannel(report.frames[i + 3], gpu::DEBUG_texcoords)};
+        struct Pair {
+            std::size_t baseline, test;
+            const AcrossDevices* across;
+        };
+        for (const Pair& pair : {Pair{i + left, i + 1 - left, nullptr},
+                                 {i, i + 2, &across.at(2 * view)},
+                                 {i + 1, i + 3, &across.at(2 * view + 1)},
+                                 {i + 2 + left, i + 3 - left, nullptr}}) {
+            CompareOptions here = options;
+            here.across = pair.across;
+            here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
+            ++done;
+            report.comparisons.push_back(
+                compareFrames(report, pair.baseline, pair.test, needs.at(2 * view), here));
+            const Frame& of = report.frames[i];
+            report.comparisons.back().command =
+                withWords(commandWords("compare", of.scene, of.settings), options.words);
+            if (options.baseline != Path::deferred)
+                report.comparisons.back().command = withOption(
+                    report.comparisons.back().command, "--baseline", std::string(nameOf(options.baseline)));
+        }
+        if (!checks.empty())
+            report.comparisons.at(report.comparisons.size() - 4).visual_checks = std::move(checks.at(view));
     }
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/render/render_options.h"
+#include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 
 #include <string>
@@ -12,8 +13,8 @@ namespace diptych {
 
 // What must be drawn of a path for a verdict on the channels of `render`: with what its G-buffer's encoding
 // makes of them, drawn twice, and with channels that nobody asked for but that tell which pixels count.
-// `traced`: some comparison is with a reference in mode scene.
-RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced);
+// `traced`: some comparison is with a reference in mode scene; `across`: of two devices.
+RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across = false);
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
 // drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `checks`: one per pair,
@@ -28,6 +29,14 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
                            ReportDevice device, const CompareOptions& options,
                            std::vector<std::vector<FeatureChecks>> checks,
                            const std::vector<std::vector<std::string>>& materials);
+
+// Both paths on two devices: frames come four by four, both paths of one scene and camera on `device` and on
+// `against`. Compares both paths on each device, and each path on both. `across`: one per scene, camera and
+// path; `needs`: one per frame of `device`; `checks`: one per scene and camera, or none.
+Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
+                        ReportDevice device, ReportDevice against, const CompareOptions& options,
+                        std::vector<AcrossDevices> across,
+                        std::vector<std::vector<FeatureChecks>> checks = {});
 
 // An earlier Frame as the left panel: both paths against it, then against each other. `mismatches` are
 // printed first.

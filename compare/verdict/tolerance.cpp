@@ -49,16 +49,16 @@ Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
                 : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
 }
 
-Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair) {
+Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_emission)
+    if (gbufferLayout(encoding, pair.needs).wide_emission)
         return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
     return radianceTolerance(mode, pair);
 }
 
-Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair) {
+Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
-    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_lightmap)
+    if (gbufferLayout(encoding, pair.needs).wide_lightmap)
         return {0, "float32: the scene's lightmaps leave the range of 9.9.9.e5"};
     return radianceTolerance(mode, pair);
 }
@@ -125,9 +125,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_occlusion:
             return unormTolerance(gpu::OCCLUSION_BITS);
         case gpu::DEBUG_emission:
-            return emissionTolerance(mode, pair);
+            return emissionTolerance(mode, pair, encoding);
         case gpu::DEBUG_lightmap:
-            return lightmapTolerance(mode, pair);
+            return lightmapTolerance(mode, pair, encoding);
         case gpu::DEBUG_specular:
             return specularTolerance(pair, bits);
         case gpu::DEBUG_dielectric_f90:

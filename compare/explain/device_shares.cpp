@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/device_shares.h"
+
+#include "compare/explain/lighting_stages.h"
+#include "compare/metrics/channel.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace diptych {
+namespace {
+
+enum Part { edges, textures, vertices, shadows, lists, rounding, partCount };
+
+Part partOf(const std::string& cause, bool textured) {
+    static const std::set<std::string> places{"position", "geometric_normal"},
+        seen{"shadow_visibility", "local_visibility"},
+        surface{"albedo",    "normals",  "metallic",      "roughness",     "emission",
+                "occlusion", "lightmap", "dielectric_f0", "dielectric_f90"};
+    if (places.contains(cause)) return vertices;
+    if (seen.contains(cause)) return shadows;
+    if (cause == "light_count") return lists;
+    if (surface.contains(cause)) return textured ? textures : vertices;
+    return rounding;
+}
+
+// What was measured of both devices' textures, in words; empty without.
+std::string measured(const AcrossDevices& across) {
+    const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
+    if (!a || !b) return {};
+    double decoding = 0;
+    for (std::size_t code = 1; code < 256; ++code)
+        decoding =
+            std::max(decoding, std::abs(double{a->srgb[code]} - double{b->srgb[code]}) / exactSrgb(code));
+    return fmt::format(
+        "; measured: they decode sRGB up to {:.2g} % apart, and round filtered texels of 8 bits by "
+        "up to {:.2g} and {:.2g} of a code",
+        100 * decoding, 255 * a->linear_filter.rounding, 255 * b->linear_filter.rounding);
+}
+
+}  // namespace
+
+std::vector<int> deviceShareChannels() {
+    std::vector<int> modes = surfacePixelChannels();
+    for (const int term : termChannels()) modes.push_back(term);
+    for (const gpu::uint mode :
+         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
+        modes.push_back(static_cast<int>(mode));
+    return modes;
+}
+
+std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Frame& baseline,
+                                      const Frame& test, const AcrossDevices& across) {
+    const Coverage covered = coverage(baseline, test);
+    const Requirements needs;
+    FramePair pair{baseline, test, needs, covered, true, nullptr, nullptr, &across};
+    const SurfaceGrid grid(pair);
+    pair.grid = &grid;
+    const SurfacePixels surfaces = surfacePixels(pair);
+    std::vector<double> sums(partCount);
+    const auto add = [&](const std::string& cause, const Image& map) {
+        const DebugMode* const mode = findDebugMode(cause);
+        const auto texels = mode ? across.texels.find(mode->number) : across.texels.end();
+        for (std::size_t i = 0; i < map.pixels(); ++i) {
+            const bool textured = texels != across.texels.end() && *texels->second.pixel(i) > 0;
+            sums[surfaces.others[i] != 0 ? edges : partOf(cause, textured)] +=
+                double{*map.pixel(i)} / static_cast<double>(map.pixels());
+        }
+    };
+    for (const Cause& cause : explanation.causes) add(cause.name, cause.map);
+    add("", explanation.unexplained_map);
+    std::vector<DeviceShare> shares{
+        {"edges",
+         fmt::format("{} pixels show another triangle, and {} another shadow beside its edge",
+                     surfaces.triangles.count + surfaces.tied, surfaces.shadows.count),
+         sums[edges]},
+        {"textures", "decoding and filtering" + measured(across), sums[textures]},
+        {"vertices",
+         fmt::format("placed to 1/{} and 1/{} of a pixel", 1u << across.devices[0].sub_pixel_bits,
+                     1u << across.devices[1].sub_pixel_bits),
+         sums[vertices]},
+        {"shadow maps", "what is seen of the lights that cast", sums[shadows]},
+        {"light lists", "other lights are evaluated", sums[lists]},
+        {"rounding", "lighting of the same surfaces, what is blended over them, and all else",
+         sums[rounding]}};
+    std::ranges::stable_sort(shares, std::ranges::greater(), &DeviceShare::share);
+    return shares;
+}
+
+}  // namespace diptych

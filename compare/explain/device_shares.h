@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Which part of two devices' difference is whose: edges, textures, vertices, shadow maps, light lists, or
+// rounding.
+#pragma once
+
+#include "compare/explain/explanation.h"
+#include "compare/verdict/across_devices.h"
+#include "shared/frame/frame.h"
+
+#include <vector>
+
+namespace diptych {
+
+// The channels by which they are told apart, beside explainedChannels().
+std::vector<int> deviceShareChannels();
+
+// Sums the maps of an explanation's causes; together they are its distance. Descending. `baseline`, `test`:
+// the Frames that it is of.
+std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Frame& baseline,
+                                      const Frame& test, const AcrossDevices& across);
+
+}  // namespace diptych

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What the pictures of one path on two devices are judged with: the devices' precision, and one device's
+// lighting of the other's surfaces.
+#pragma once
+
+#include "compare/render/renderer.h"
+#include "compare/verdict/across_devices.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/scene_view.h"
+
+#include <array>
+#include <map>
+
+namespace diptych {
+
+// Without AcrossDevices::relit and texcoords. `here`: a Frame of forward+ on the first device, of `view`. The
+// scene must outlive it.
+AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
+                            const std::array<DevicePrecision, 2>& devices, const Frame& here);
+
+// AcrossDevices::relit: what `device` makes of the surfaces of `there`, a Frame of another device; `here`:
+// its own Frame. With one sample a pixel. Throws std::runtime_error, one line, where a channel is missing.
+std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& here,
+                           const Frame& there);
+
+}  // namespace diptych

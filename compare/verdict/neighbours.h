@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Pixels around a pixel, and how far apart two pixels are in a channel's own unit.
+#pragma once
+
+#include "compare/metrics/pixel.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/frame.h"
+#include "shared/image/image.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+
+namespace diptych {
+
+inline constexpr double degreesPerRadian = 180 / std::numbers::pi;
+
+// nullptr: the Frame has no such channel.
+inline const Image* findChannel(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    return found == frame.channels.end() ? nullptr : &found->second;
+}
+
+inline std::size_t indexOf(const Image& image, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+}
+
+// Visits the pixels around (x, y), itself left out.
+template <class Visit>
+void around(const Image& image, int x, int y, const Visit& visit, int radius = 1) {
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
+            if (u != x || v != y) visit(u, v);
+}
+
+// The distance of two values in what a range is measured in: degrees of unit vectors, else the largest
+// component's difference.
+inline double apart(const DebugMode& mode, const float* a, const float* b) {
+    return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
+}
+
+// Which pixels around one show the same surface, by material, place and normal; without these all do.
+class SurfaceAround {
+public:
+    explicit SurfaceAround(const Frame& frame)
+        : ids_(findChannel(frame, gpu::DEBUG_material_id)),
+          normals_(findChannel(frame, gpu::DEBUG_geometric_normal)),
+          positions_(findChannel(frame, gpu::DEBUG_position)) {}
+
+    bool sameMaterial(std::size_t i, std::size_t j) const {
+        return !ids_ || *ids_->pixel(i) == *ids_->pixel(j);
+    }
+    // Whether the neighbour `j` lies within 30 degrees of the plane of pixel `i`.
+    bool same(std::size_t i, std::size_t j) const {
+        if (!sameMaterial(i, j)) return false;
+        if (!positions_ || !normals_) return true;
+        const float *n = normals_->pixel(i), *p = positions_->pixel(i), *q = positions_->pixel(j);
+        double across = 0, length = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double between = double{q[c]} - double{p[c]};
+            across += double{n[c]} * between;
+            length += between * between;
+        }
+        return across * across <= 0.25 * length;
+    }
+    // The angle between their triangles, degrees.
+    double turned(std::size_t i, std::size_t j) const {
+        return normals_ ? metrics::angle(normals_->pixel(i), normals_->pixel(j)) : 0;
+    }
+
+private:
+    const Image *ids_, *normals_, *positions_;
+};
+
+}  // namespace diptych

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/texel_ranges.h"
+
+#include "compare/verdict/neighbours.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/material/texture_probe.h"
+#include "shared/scene/image/mipmap.h"
+#include "shared/scene/model/material_slots.h"
+
+#include <tbb/parallel_for.h>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// Vulkan 1.3, 16.5.7: a device may take a derivative's length anywhere from its largest component to sqrt(2)
+// times the sum of its components: half a level below the exact one and a level above it.
+constexpr double levelBelow = 0.5, levelAbove = 1;
+// A linear filter mixes texels whose middles are less than one away, so that these on each side may be seen,
+// also from half a texel beside: more than the steps by which two devices place a vertex.
+constexpr int texelsSeen = 1;
+
+// What a texel's components are in a channel: `factor` x the component's range.
+struct Use {
+    gpu::uint mode;
+    std::array<double, 4> factor;  // of each component
+};
+
+// A unit vector 2 t - 1 of three components, in degrees.
+constexpr double turned = 2 * 1.7320508 * degreesPerRadian;
+
+std::vector<Use> usesOf(const Material& m, std::size_t slot) {
+    const auto color = [](gpu::uint mode, double f) { return Use{mode, {f, f, f, 0}}; };
+    const auto one = [](gpu::uint mode, int component, double f) {
+        Use use{mode, {}};
+        use.factor[static_cast<std::size_t>(component)] = f;
+        return use;
+    };
+    const auto most = [](const auto& v) { return double{std::max({v.x, v.y, v.z})}; };
+    switch (slot) {
+        case gpu::SLOT_base_color:
+            if (m.unlit) return {color(gpu::DEBUG_emission, most(m.base_color))};
+            return {color(gpu::DEBUG_albedo, most(m.base_color)),
+                    color(gpu::DEBUG_specular, most(m.base_color))};
+        case gpu::SLOT_metallic_roughness:
+            return {one(gpu::DEBUG_roughness, 1, m.roughness), one(gpu::DEBUG_metallic, 2, m.metallic),
+                    one(gpu::DEBUG_specular, 2, m.metallic)};
+        case gpu::SLOT_normal: {
+            const double scale = std::max(1.0, std::abs(double{m.normal_scale}));
+            return {color(gpu::DEBUG_normals, turned * scale),
+                    color(gpu::DEBUG_tangent_normal, turned / degreesPerRadian * scale)};
+        }
+        case gpu::SLOT_occlusion:
+            return {one(gpu::DEBUG_occlusion, 0, m.occlusion_strength)};
+        case gpu::SLOT_emissive:
+            return {color(gpu::DEBUG_emission, most(m.emissive))};
+        case gpu::SLOT_specular:
+            return {one(gpu::DEBUG_dielectric_f90, 3, m.specular),
+                    one(gpu::DEBUG_dielectric_f0, 3, m.specular), one(gpu::DEBUG_specular, 3, m.specular)};
+        case gpu::SLOT_specular_color:
+            return {color(gpu::DEBUG_dielectric_f0, most(m.specular_color)),
+                    color(gpu::DEBUG_specular, most(m.specular_color))};
+        case gpu::SLOT_lightmap:
+            return {color(gpu::DEBUG_lightmap, m.lightmap_intensity)};
+        default:
+            return {};
+    }
+}
+
+// By how many texels of level 0 a place moves to the next pixel.
+struct PixelTexels {
+    double least = 0, most = 0;
+};
+
+// A texture's mip levels, of which texels are read in linear light.
+class Levels {
+public:
+    Levels(const TextureImage& image, bool srgb, const Sampler& sampler)
+        : sampler_(sampler),
+          chain_(image, srgb,
+                 image.deep() ? Texels::float32
+                 : srgb       ? Texels::srgb8
+                              : Texels::linear8),
+          floats_(image.deep()),
+          count_(sampler.mipmaps ? chain_.count() : 1) {
+        for (std::size_t code = 0; code < 256; ++code) {
+            linear_[code] = static_cast<double>(code) / 255;
+            color_[code] = srgb ? exactSrgb(code) : linear_[code];
+        }
+    }
+
+    // The range of each component among the texels that may be seen at a place.
+    std::array<double, 4> rangeAt(const glm::dvec2& uv, const PixelTexels& texels) const {
+        const auto levelOf = [&](double level) {
+            return static_cast<std::size_t>(
+                std::clamp(std::floor(level), 0.0, static_cast<double>(count_ - 1)));
+        };
+        Range range;
+        const std::size_t first = levelOf(std::log2(std::max(texels.least, 1e-9)) - levelBelow),
+                          last = levelOf(std::log2(std::max(texels.most, 1e-9)) + levelAbove + 1);
+        for (std::size_t k = first; k <= last; ++k) {
+            const int width = chain_.width(k), height = chain_.height(k);
+            const auto x = static_cast<long long>(std::floor(uv.x * width)),
+                       y = static_cast<long long>(std::floor(uv.y * height));
+            for (long long v = y - texelsSeen; v <= y + texelsSeen; ++v)
+                for (long long u = x - texelsSeen; u <= x + texelsSeen; ++u) add(range, k, u, v);
+        }
+        return range.size();
+    }
+    std::array<double, 4> wholeRange() const {
+        Range range;
+        for (int y = 0; y < chain_.height(); ++y)
+            for (int x = 0; x < chain_.width(); ++x) add(range, 0, x, y);
+        return range.size();
+    }
+
+private:
+    struct Range {
+        glm::dvec4 least{std::numeric_limits<double>::infinity()},
+            most{-std::numeric_limits<double>::infinity()};
+        std::array<double, 4> size() const {
+            const glm::dvec4 s = most - least;
+            return {s.x, s.y, s.z, s.w};
+        }
+    };
+
+    static std::size_t wrapped(long long i, long long size, Wrap wrap) {
+        if (wrap == Wrap::clamp_to_edge) return static_cast<std::size_t>(std::clamp(i, 0LL, size - 1));
+        const long long period = wrap == Wrap::mirrored_repeat ? 2 * size : size;
+        const long long at = (i % period + period) % period;
+        return static_cast<std::size_t>(at < size ? at : period - 1 - at);
+    }
+
+    void add(Range& range, std::size_t level, long long x, long long y) const {
+        const int width = chain_.width(level), height = chain_.height(level);
+        const std::size_t u = wrapped(x, width, sampler_.wrap_s), v = wrapped(y, height, sampler_.wrap_t);
+        const std::size_t at = v * static_cast<std::size_t>(width) + u;
+        const std::span<const std::byte> bytes = chain_.level(level);
+        for (int c = 0; c < 4; ++c) {
+            const std::size_t i = 4 * at + static_cast<std::size_t>(c);
+            double value = 0;
+            if (floats_) {
+                float f = 0;
+                std::memcpy(&f, &bytes[4 * i], sizeof f);
+                value = f;
+            } else {
+                const auto code = std::to_integer<std::size_t>(bytes[i]);
+                value = c == 3 ? linear_[code] : color_[code];
+            }
+            range.least[c] = std::min(range.least[c], value);
+            range.most[c] = std::max(range.most[c], value);
+        }
+    }
+
+    Sampler sampler_;
+    MipChain chain_;
+    bool floats_;
+    std::size_t count_;
+    std::array<double, 256> linear_{}, color_{};
+};
+
+// How far a slot's texture coordinates move to the next pixel, in texels of level 0: the larger of across and
+// down, each by the side that moves them least and by the one that does most. Nothing where neither side
+// shows the same surface.
+std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& surface,
+                                         const TextureSlot& slot, const TextureImage& image, int x, int y) {
+    const std::size_t here = indexOf(uv, x, y);
+    PixelTexels texels;
+    for (const int axis : {0, 1}) {
+        double least = std::numeric_limits<double>::infinity(), most = 0;
+        for (const int side : {-1, 1}) {
+            const int u = x + (axis == 0 ? side : 0), v = y + (axis == 1 ? side : 0);
+            if (u < 0 || v < 0 || u >= uv.width || v >= uv.height) continue;
+            const std::size_t there = indexOf(uv, u, v);
+            if (!surface.same(here, there)) continue;
+            const double du = double{uv.pixel(there)[0]} - uv.pixel(here)[0],
+                         dv = double{uv.pixel(there)[1]} - uv.pixel(here)[1];
+            const double apart = std::hypot((slot.u.x * du + slot.u.y * dv) * image.width,
+                                            (slot.v.x * du + slot.v.y * dv) * image.height);
+            const double other = surface.turned(here, there) > 6 ? 2 : 1;
+            least = std::min(least, apart / other);
+            most = std::max(most, apart * other);
+        }
+        if (std::isinf(least)) return {};
+        texels = {std::max(texels.least, least), std::max(texels.most, most)};
+    }
+    return texels;
+}
+
+}  // namespace
+
+std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
+                                 const std::array<DevicePrecision, 2>& devices) {
+    std::map<int, Image> ranges;
+    const Image *ids = findChannel(frame, gpu::DEBUG_material_id),
+                *uv = findChannel(frame, gpu::DEBUG_texcoords);
+    if (!ids) return ranges;
+    std::vector<std::vector<std::size_t>> pixels(scene.materials.size());
+    for (std::size_t i = 0; i < ids->pixels(); ++i)
+        if (const float id = *ids->pixel(i); id >= 0 && static_cast<std::size_t>(id) < pixels.size())
+            pixels[static_cast<std::size_t>(id)].push_back(i);
+    const auto steps = [&](unsigned DevicePrecision::*bits) {
+        return std::ldexp(1.0, -static_cast<int>(devices[0].*bits)) +
+               std::ldexp(1.0, -static_cast<int>(devices[1].*bits));
+    };
+    const SurfaceAround surface(frame);
+    const double placed = steps(&DevicePrecision::sub_pixel_bits),
+                 weighed = steps(&DevicePrecision::sub_texel_bits);
+    for (std::size_t id = 0; id < scene.materials.size(); ++id)
+        for (std::size_t s = 0; s < materialSlots.size() && !pixels[id].empty(); ++s) {
+            const Material& material = scene.materials[id];
+            if (!readsSlot(material, s)) continue;
+            const TextureSlot& slot = material.*materialSlots[s].texture;
+            const Texture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
+            const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
+            const Levels levels(image, materialSlots[s].srgb, texture.sampler);
+            const std::vector<Use> uses = usesOf(material, s);
+            for (const Use& use : uses)
+                ranges.try_emplace(static_cast<int>(use.mode), ids->width, ids->height, 1);
+            // An animation may move a texture.
+            const bool known =
+                uv && slot.texcoord == 0 && !scene.material_parts.contains(static_cast<int>(id));
+            const std::array<double, 4> all = levels.wholeRange();
+            tbb::parallel_for(std::size_t{0}, pixels[id].size(), [&](std::size_t k) {
+                const std::size_t i = pixels[id][k];
+                const auto width = static_cast<std::size_t>(ids->width);
+                const std::optional<PixelTexels> texels =
+                    known ? texelsOfPixel(*uv, surface, slot, image, static_cast<int>(i % width),
+                                          static_cast<int>(i / width))
+                          : std::nullopt;
+                std::array<double, 4> range = all;
+                if (texels) {
+                    const glm::dvec3 at(uv->pixel(i)[0], uv->pixel(i)[1], 1);
+                    const glm::dvec2 place(slot.u.x * at.x + slot.u.y * at.y + slot.u.z,
+                                           slot.v.x * at.x + slot.v.y * at.y + slot.v.z);
+                    range = levels.rangeAt(place, *texels);
+                    // Magnified: two weights' steps, and what a vertex moves the place by.
+                    if (texture.sampler.magnify_linear && std::log2(texels->most) + levelAbove < 0)
+                        for (double& component : range)
+                            component *= std::min(1.0, 2 * (weighed + placed * texels->most));
+                }
+                for (const Use& use : uses) {
+                    double most = 0;
+                    for (std::size_t c = 0; c < 4; ++c) most = std::max(most, use.factor[c] * range[c]);
+                    *ranges.at(static_cast<int>(use.mode)).pixel(i) += static_cast<float>(most);
+                }
+            });
+        }
+    return ranges;
+}
+
+}  // namespace diptych

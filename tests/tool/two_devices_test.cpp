@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// compare and explain --against-device: lavapipe against itself everywhere, and against SwiftShader, which
+// Debian's chromium-common brings, where that is installed.
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+const fs::path otherDriver = "/usr/lib/chromium/vk_swiftshader_icd.json",
+               ownDriver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+
+// Both drivers in one process.
+Ran runOnBoth(const Folder& folder, const std::string& arguments) {
+    return runShell(folder,
+                    "env VK_DRIVER_FILES=" + ownDriver.string() + ":" + otherDriver.string() +
+                        " '" DIPTYCH_PROGRAM "' " + arguments,
+                    folder.path());
+}
+
+Json reportIn(const Folder& folder) {
+    return Json::parse(contentsOf(folder / "r/report.json"));
+}
+
+TEST(AgainstDevice, ADeviceDoesNotDifferFromItself) {
+    const Folder folder;
+    const Ran ran = runTool(
+        folder, "compare builtin:triangle -q --device 0 --against-device 0 --size 48x27 --runs 0 -o r");
+    ASSERT_EQ(ran.code, 0) << ran.out << ran.err;
+    const Json report = reportIn(folder);
+    EXPECT_EQ(report["against_device"]["name"], report["device"]["name"]);
+    ASSERT_EQ(report["comparisons"].size(), 4u);
+    for (const std::size_t pair : {1, 2})
+        for (const Json& channel : report["comparisons"][pair]["channels"])
+            EXPECT_EQ(channel["max"], 0) << channel["name"];
+    EXPECT_EQ(report["comparisons"][1]["baseline"], "deferred");
+    EXPECT_EQ(report["comparisons"][2]["baseline"], "forward_plus");
+    for (const char* file : {"r/deferred.exr", "r/forward_plus.exr", "r/index.html", "r/junit.xml"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
+}
+
+TEST(AgainstDevice, WhatItIsNotComparedWithIsRefused) {
+    const Folder folder;
+    for (const char* more : {"--baseline reference", "--msaa 4", "--pixel 3,3"})
+        EXPECT_TRUE(runTool(folder, std::string("compare builtin:triangle --against-device 0 ") + more)
+                        .failedOver("--against-device 0"))
+            << more;
+    EXPECT_TRUE(runTool(folder, "compare builtin:triangle --against-device nothing").failedOver("nothing"));
+}
+
+TEST(AgainstDevice, SwiftShaderDrawsWhatItMay) {
+    if (!fs::exists(otherDriver) || !fs::exists(ownDriver))
+        GTEST_SKIP() << otherDriver << " is not there: install chromium to compare two devices";
+    const Folder folder;
+    const Ran ran =
+        runOnBoth(folder,
+                  "compare builtin:gallery builtin:coplanar builtin:glass builtin:motion -q --device "
+                  "llvmpipe --against-device SwiftShader --size 96x54 --runs 0 -o r");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    const Json report = reportIn(folder);
+    EXPECT_NE(report["device"]["name"].get<std::string>().find("llvmpipe"), std::string::npos);
+    EXPECT_NE(report["against_device"]["name"].get<std::string>().find("SwiftShader"), std::string::npos);
+    std::size_t there = 0;
+    for (const Json& frame : report["frames"])
+        there += frame["drawn_on"].get<std::string>().find("SwiftShader") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(there, report["frames"].size() / 2);
+    // Bounds that nothing comes near to would prove little.
+    double most = 0;
+    for (const Json& comparison : report["comparisons"])
+        for (const Json& channel : comparison["channels"])
+            if (channel.contains("across_devices") && channel["name"] == "depth")
+                most = std::max(most, channel["across_devices"]["used"].get<double>());
+    EXPECT_GT(most, 0.1);
+    EXPECT_NE(contentsOf(folder / "r/index.html").find("SwiftShader"), std::string::npos);
+    EXPECT_NE(contentsOf(folder / "r/junit.xml").find("test_device"), std::string::npos);
+}
+
+TEST(AgainstDevice, AnExplanationSaysWhereItComesFrom) {
+    if (!fs::exists(otherDriver) || !fs::exists(ownDriver))
+        GTEST_SKIP() << otherDriver << " is not there: install chromium to compare two devices";
+    const Folder folder;
+    const Ran ran = runOnBoth(folder,
+                              "explain builtin:cutout --json --device llvmpipe --against-device SwiftShader "
+                              "--baseline forward_plus --size 64x36");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    double all = Json::parse(ran.out)["unexplained"];
+    double sum = 0;
+    for (const Json& part : Json::parse(ran.out)["devices"]) sum += part["share"].get<double>();
+    EXPECT_NEAR(sum, 1, 1e-3);
+    EXPECT_LT(all, 1e-3);
+}
+
+}  // namespace
+}  // namespace diptych

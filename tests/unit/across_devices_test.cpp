@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+// One path on two devices: Frames made by hand, of which each differs in one way that precision allows or in
+// one that it does not.
+#include "compare/verdict/across_devices.h"
+#include "compare/verdict/comparison.h"
+#include "compare/verdict/texel_ranges.h"
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace diptych {
+namespace {
+
+constexpr int side = 32;
+
+// A plane that is tilted away from a camera at the origin, material 0 left of the middle and 1 right of it,
+// and textures whose texels are all alike. Two devices have a step of 1/16 of a pixel together.
+class AcrossDevicesPair : public testing::Test {
+protected:
+    AcrossDevicesPair() {
+        report_.frames.resize(2);
+        for (Frame& frame : report_.frames) {
+            frame.settings.path = Path::forward_plus;
+            frame.settings.gbuffer = GBufferEncoding::full;
+            frame.settings.size = {side, side};
+            frame.camera.target[2] = -1;
+            frame.camera.up[1] = 1;
+            frame.camera.fov_degrees = 60;
+            for (const gpu::uint mode :
+                 {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_albedo, gpu::DEBUG_roughness,
+                  gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_shadow_visibility})
+                frame.requested.push_back(static_cast<int>(mode));
+        }
+        report_.frames[0].name = "here";
+        report_.frames[1].name = "there";
+        report_.device = {"a", "driver", "cpu"};
+        for (const DebugMode& mode : debugModes())
+            if (mode.maker != MadeBy::deferred_only)
+                for (Frame& frame : report_.frames)
+                    frame.channels[mode.number] = Image(side, side, mode.width, 0.5f);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) place(x, y);
+        for (std::size_t device = 0; device < 2; ++device) {
+            DevicePrecision& precision = across_.devices[device];
+            precision.name = device == 0 ? "a" : "b";
+            precision.sub_pixel_bits = 5;
+            precision.texels.emplace();
+            for (std::size_t code = 0; code < 256; ++code) {
+                precision.texels->linear[code] = static_cast<float>(code) / 255;
+                precision.texels->srgb[code] = static_cast<float>(exactSrgb(code));
+            }
+        }
+        across_.texels[gpu::DEBUG_albedo] = Image(side, side, 1);
+        across_.texcoords = {&at(0, gpu::DEBUG_texcoords), &at(1, gpu::DEBUG_texcoords)};
+        for (const int mode : litModes) across_.relit[mode] = at(1, static_cast<gpu::uint>(mode));
+    }
+
+    // n.p = -5 with n = (0, 0.6, 0.8).
+    void place(int x, int y) {
+        const double half = std::tan(30 * 3.14159265358979 / 180), px = 2 * half / side;
+        const double u = (x + 0.5) * px - half, v = half - (y + 0.5) * px;
+        const double z = 5 / (0.8 - 0.6 * v);
+        for (const std::size_t frame : {0, 1}) {
+            const auto set = [&](gpu::uint mode, std::initializer_list<double> values) {
+                float* to = at(frame, mode).pixel(index(x, y));
+                for (const double value : values) *to++ = static_cast<float>(value);
+            };
+            set(gpu::DEBUG_material_id, {x < side / 2 ? 0.0 : 1.0});
+            set(gpu::DEBUG_depth, {z});
+            set(gpu::DEBUG_position, {u * z, v * z, -z});
+            set(gpu::DEBUG_geometric_normal, {0, 0.6, 0.8});
+            set(gpu::DEBUG_normals, {0, 0.6, 0.8});
+            set(gpu::DEBUG_texcoords, {u * z / 8, v * z / 8});
+        }
+    }
+
+    static std::size_t index(int x, int y) {
+        return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
+    }
+    Image& at(std::size_t frame, gpu::uint mode) {
+        return report_.frames[frame].channels.at(static_cast<int>(mode));
+    }
+    float* there(gpu::uint mode, int x, int y) { return at(1, mode).pixel(index(x, y)); }
+    void fill(std::size_t frame, gpu::uint mode, double value) {
+        std::ranges::fill(at(frame, mode).data, static_cast<float>(value));
+    }
+
+    Comparison compared() {
+        CompareOptions options;
+        options.across = &across_;
+        return compareFrames(report_, 0, 1, {}, options);
+    }
+    // Names of the channels that fail, and failures of the pair.
+    std::string faults() {
+        const Comparison comparison = compared();
+        std::string text;
+        for (const std::string& failure : comparison.failures) text += failure + "; ";
+        for (const ChannelDiff& channel : comparison.channels)
+            if (channel.verdict == Verdict::fail) text += std::string(channel.mode->name) + " ";
+        return text;
+    }
+    // Shows another surface at a pixel there, one far behind.
+    void showAnother(int x, int y, float material) {
+        *there(gpu::DEBUG_material_id, x, y) = material;
+        *there(gpu::DEBUG_depth, x, y) = 50;
+    }
+
+    Report report_;
+    AcrossDevices across_;
+};
+
+TEST_F(AcrossDevicesPair, TheSamePicturesPassAndUseNothing) {
+    for (Frame& frame : report_.frames) frame.requested.clear();
+    EXPECT_EQ(faults(), "");
+    for (const ChannelDiff& channel : compared().channels) {
+        EXPECT_EQ(channel.stats.max, 0) << channel.mode->name;
+        EXPECT_FALSE(channel.tolerance.because.empty()) << channel.mode->name;
+    }
+}
+
+TEST_F(AcrossDevicesPair, APixelBesideAnEdgeMayShowWhatIsBeyondIt) {
+    showAnother(side / 2, 7, 0);
+    EXPECT_EQ(faults(), "");
+    EXPECT_EQ(compared().coverage.count, std::size_t{side * side - 1});
+}
+
+TEST_F(AcrossDevicesPair, APixelAwayFromAnyEdgeMayNot) {
+    showAnother(side / 4, 7, 1);
+    // It is an edge of its own in the picture that shows it; its neighbours are not, so that a whole patch
+    // tells.
+    for (int y = 5; y < 10; ++y)
+        for (int x = 5; x < 10; ++x) showAnother(x, y, 1);
+    EXPECT_NE(faults().find("show another triangle on the other device and are not beside an edge"),
+              std::string::npos);
+}
+
+TEST_F(AcrossDevicesPair, AWholeEdgeAPixelElsewhereIsTooMuch) {
+    for (int y = 0; y < side; ++y) showAnother(side / 2, y, 0);
+    EXPECT_NE(faults().find("32 pixel(s) show another triangle on the other device: of"), std::string::npos);
+}
+
+TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
+    for (int y = 5; y < 10; ++y)
+        for (int x = 5; x < 10; ++x) *there(gpu::DEBUG_material_id, x, y) = 1;
+    EXPECT_NE(faults().find("show another triangle"), std::string::npos);
+    across_.surface_at = [](int, const float* p, double, bool) { return p[1] > 0; };
+    EXPECT_EQ(faults(), "");
+    across_.surface_at = [](int material, const float*, double, bool) { return material == 0; };
+    EXPECT_NE(faults().find("show another triangle"), std::string::npos);
+}
+
+TEST_F(AcrossDevicesPair, DepthMayMoveByTheStepsOfBothDevicesAndNotFurther) {
+    const auto moveBy = [&](double pixels) {
+        for (int y = 1; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const float here = *at(0, gpu::DEBUG_depth).pixel(index(x, y)),
+                            above = *at(0, gpu::DEBUG_depth).pixel(index(x, y - 1));
+                *there(gpu::DEBUG_depth, x, y) = here + static_cast<float>(pixels) * (above - here);
+            }
+    };
+    moveBy(1.0 / 16);
+    EXPECT_EQ(faults(), "");
+    moveBy(0.2);
+    EXPECT_NE(faults(), "");
+}
+
+TEST_F(AcrossDevicesPair, OneCodeOfATexelIsFound) {
+    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
+    fill(1, gpu::DEBUG_albedo, exactSrgb(128));
+    EXPECT_EQ(faults(), "");
+    *there(gpu::DEBUG_albedo, 3, 3) = static_cast<float>(exactSrgb(129));
+    EXPECT_EQ(faults(), "albedo ");
+    // Unless other texels may be seen there.
+    across_.texels.at(gpu::DEBUG_albedo).at(3, 3, 0) = 0.02f;
+    EXPECT_EQ(faults(), "");
+}
+
+TEST_F(AcrossDevicesPair, AWrongCurveIsFound) {
+    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
+    fill(1, gpu::DEBUG_albedo, std::pow(128.0 / 255, 2.2));
+    EXPECT_EQ(faults(), "albedo ");
+}
+
+TEST_F(AcrossDevicesPair, WhatWasMeasuredOfDecodingIsGrantedAndNoMoreThanVulkanAllows) {
+    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
+    fill(1, gpu::DEBUG_albedo, 1.01 * exactSrgb(128));
+    EXPECT_EQ(faults(), "albedo ");
+    for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
+    EXPECT_EQ(faults(), "");
+    // Half a code each is 1.7 % here.
+    fill(1, gpu::DEBUG_albedo, 1.1 * exactSrgb(128));
+    for (float& value : across_.devices[1].texels->srgb) value *= 1.1f;
+    EXPECT_EQ(faults(), "albedo ");
+}
+
+TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces) {
+    // Surfaces that differ as they may have other light.
+    fill(1, gpu::DEBUG_lit, 0.6);
+    EXPECT_EQ(faults(), "lit ");
+    across_.relit[gpu::DEBUG_lit] = at(1, gpu::DEBUG_lit);
+    EXPECT_EQ(faults(), "");
+    fill(1, gpu::DEBUG_lit, 0.6 * 1.0001);
+    EXPECT_EQ(faults(), "");
+    // A light is missing on one device.
+    fill(1, gpu::DEBUG_lit_diffuse, 0.4);
+    EXPECT_EQ(faults(), "lit_diffuse ");
+}
+
+TEST_F(AcrossDevicesPair, ShadowsMayDifferBesideTheirEdgesAlone) {
+    for (const std::size_t frame : {0, 1})
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x)
+                *at(frame, gpu::DEBUG_shadow_visibility).pixel(index(x, y)) = y < 8 ? 0.0f : 1.0f;
+    EXPECT_EQ(faults(), "");
+    *there(gpu::DEBUG_shadow_visibility, 4, 8) = 0.75f;
+    *there(gpu::DEBUG_lit, 4, 8) = 0.1f;
+    EXPECT_EQ(faults(), "");
+    for (int x = 10; x < 20; ++x)
+        for (int y = 20; y < 24; ++y) *there(gpu::DEBUG_shadow_visibility, x, y) = 0;
+    EXPECT_NE(faults().find("lie in another shadow on the other device and are not beside"),
+              std::string::npos);
+}
+
+TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {
+    *there(gpu::DEBUG_roughness, 3, 3) = std::nanf("");
+    EXPECT_NE(faults().find("roughness"), std::string::npos);
+}
+
+// A square of a material whose base colour is of 64 x 64 texels.
+struct TexturedPlane {
+    Scene scene;
+    Frame frame;
+
+    explicit TexturedPlane(double texels_a_pixel, const std::function<int(int, int)>& code) {
+        TextureImage image{"image", 64, 64, {}};
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const auto value = static_cast<std::uint8_t>(code(x, y));
+                image.rgba.insert(image.rgba.end(), {value, value, value, 255});
+            }
+        scene.images.push_back(std::move(image));
+        scene.textures.push_back({0, {}});
+        scene.materials.emplace_back().base_color_texture.texture = 0;
+        frame.settings.size = {side, side};
+        for (const gpu::uint mode : {gpu::DEBUG_material_id, gpu::DEBUG_texcoords})
+            frame.channels[static_cast<int>(mode)] =
+                Image(side, side, debugMode(static_cast<int>(mode)).width);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                Image& uv = frame.channels.at(gpu::DEBUG_texcoords);
+                uv.at(x, y, 0) = static_cast<float>((x * texels_a_pixel + 0.3) / 64);
+                uv.at(x, y, 1) = static_cast<float>((y * texels_a_pixel + 0.3) / 64);
+            }
+    }
+    float range() const {
+        return texelRanges(scene, frame, {}).at(gpu::DEBUG_albedo).at(side / 2, side / 2, 0);
+    }
+};
+
+TEST(TexelRanges, AreNoneOfOneColour) {
+    EXPECT_EQ(TexturedPlane(1, [](int, int) { return 100; }).range(), 0);
+}
+
+TEST(TexelRanges, AreThoseOfTheTexelsThatMayBeSeen) {
+    const auto checker = [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; };
+    EXPECT_NEAR(TexturedPlane(1, checker).range(), 1, 1e-6);
+    // A level of detail of 3 and more is grey.
+    EXPECT_NEAR(TexturedPlane(16, checker).range(), 0, 1e-6);
+    // A dark square far away is not seen.
+    EXPECT_EQ(TexturedPlane(1, [](int x, int y) { return x < 4 && y < 4 ? 0 : 200; }).range(), 0);
+}
+
+TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {
+    const auto checker = [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; };
+    // Least bits of Vulkan: 4 and 4 of both devices.
+    const double texels = 1.0 / 32, steps = 2 * (2.0 / 16 + 2.0 / 16 * texels);
+    EXPECT_NEAR(TexturedPlane(texels, checker).range(), steps, 1e-6);
+}
+
+}  // namespace
+}  // namespace diptych
