@@ -9,12 +9,13 @@
 namespace diptych::tests {
 
 inline Device& byCompute() {
-    static Device theDevice{{.choice = "", .validate = true, .choices = ProfileChoices::culling_by_compute}};
+    static Device& theDevice =
+        *new Device({.choice = "", .validate = true, .choices = ProfileChoices::culling_by_compute});
     return theDevice;
 }
 
 inline std::shared_ptr<PipelineSet> computePipelines() {
-    static const std::shared_ptr<PipelineSet> set = makePipelineSet(byCompute());
+    static const auto& set = *new std::shared_ptr<PipelineSet>(makePipelineSet(byCompute()));
     return set;
 }
 

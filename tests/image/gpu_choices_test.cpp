@@ -17,12 +17,12 @@ namespace diptych::tests {
 namespace {
 
 Device& asGpu() {
-    static Device theDevice{{.choice = "", .validate = true, .choices = ProfileChoices::gpu}};
+    static Device& theDevice = *new Device({.choice = "", .validate = true, .choices = ProfileChoices::gpu});
     return theDevice;
 }
 
 std::shared_ptr<PipelineSet> gpuPipelines() {
-    static const std::shared_ptr<PipelineSet> set = makePipelineSet(asGpu());
+    static const auto& set = *new std::shared_ptr<PipelineSet>(makePipelineSet(asGpu()));
     return set;
 }
 

@@ -72,7 +72,7 @@ std::vector<int> channelsAt(const CellCamera& camera) {
 
 std::vector<Frame> materialFrames(const CellCamera& camera) {
     pipelines();
-    static std::map<const Scene*, Renderer> renderers;
+    static auto& renderers = *new std::map<const Scene*, Renderer>;
     const Scene& scene = sceneOf(camera);
     Renderer& renderer = renderers.try_emplace(&scene, device(), scene, pipelines()).first->second;
     RenderOptions options;

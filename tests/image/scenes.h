@@ -37,14 +37,15 @@ inline constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
 inline Device& device() {
     const char* const asked = std::getenv("DIPTYCH_VALIDATE");
     const bool validate = isCampaign() || asked == nullptr || std::string_view(asked) != "0";
-    static Device theDevice{DeviceOptions{.choice = "", .validate = validate}};
+    // Never destroyed: at exit the validation layers' own statics may be gone.
+    static Device& theDevice = *new Device(DeviceOptions{.choice = "", .validate = validate});
     return theDevice;
 }
 
 // Compiled once for everything that is drawn on device(): on lavapipe compiling takes far longer than a small
 // picture.
 inline std::shared_ptr<PipelineSet> pipelines() {
-    static const std::shared_ptr<PipelineSet> set = makePipelineSet(device());
+    static const auto& set = *new std::shared_ptr<PipelineSet>(makePipelineSet(device()));
     return set;
 }
 
@@ -162,7 +163,8 @@ private:
 inline UploadedScene& uploaded(const std::string& name) {
     constexpr std::size_t most = 12;
     pipelines();  // created first, with the device, because they must outlive the scenes
-    static std::list<std::pair<std::string, UploadedScene>> scenes;  // the one asked for last is first
+    static auto& scenes =
+        *new std::list<std::pair<std::string, UploadedScene>>;  // the one asked for last is first
     const auto found = std::ranges::find(scenes, name, [](const auto& entry) { return entry.first; });
     if (found != scenes.end()) {
         scenes.splice(scenes.begin(), scenes, found);
