@@ -21,8 +21,13 @@ constexpr std::string_view carried[] = {
     "alpha-to-coverage", "spp", "reference-mode"};
 // clang-format on
 
-// Pixels whose material has a lightmap.
-std::vector<std::uint8_t> lightmapped(const Frame& frame, const Scene& scene) {
+}  // namespace
+
+std::span<const std::string_view> settingsInChannels() {
+    return carried;
+}
+
+std::vector<std::uint8_t> lightmappedPixels(const Frame& frame, const Scene& scene) {
     const Image& ids = channelOf(frame, gpu::DEBUG_material_id);
     std::vector<std::uint8_t> has(ids.pixels());
     for (std::size_t i = 0; i < has.size(); ++i) {
@@ -30,12 +35,6 @@ std::vector<std::uint8_t> lightmapped(const Frame& frame, const Scene& scene) {
         has[i] = id >= 0 && scene.materials[static_cast<std::size_t>(id)].lightmap_texture.texture >= 0;
     }
     return has;
-}
-
-}  // namespace
-
-std::span<const std::string_view> settingsInChannels() {
-    return carried;
 }
 
 ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Scene& scene,
@@ -46,9 +45,9 @@ ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Scene
         const Image &a = channelOf(baseline, mode), &b = channelOf(test, mode);
         const bool same = sameBits(a, b);
         for (std::size_t side = 0; side < (same ? 1u : 2u); ++side)
-            images_.set(
-                side, c, side == 0 ? a : b,
-                mode == lightmapMode ? lightmapped(*frames_.at(side), scene) : std::vector<std::uint8_t>{});
+            images_.set(side, c, side == 0 ? a : b,
+                        mode == lightmapMode ? lightmappedPixels(*frames_.at(side), scene)
+                                             : std::vector<std::uint8_t>{});
         if (!same) differing_.push_back(c);
     }
 }

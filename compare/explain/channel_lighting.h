@@ -29,6 +29,9 @@ constexpr std::uint32_t allChannelsOf(std::size_t side) {
     return side == 0 ? 0u : ~0u;
 }
 
+// 1 per pixel whose material has a lightmap.
+std::vector<std::uint8_t> lightmappedPixels(const Frame& frame, const Scene& scene);
+
 // What it is made of must outlive it.
 class ChannelLighting {
 public:

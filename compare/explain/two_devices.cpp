@@ -2,6 +2,7 @@
 #include "compare/explain/two_devices.h"
 
 #include "compare/explain/channel_lighting.h"
+#include "compare/explain/frame_images.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/motion/posed.h"
@@ -83,12 +84,21 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
     return across;
 }
 
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& here,
-                           const Frame& there) {
-    ChannelLighting lighting(device, renderer, scene, here, there);
+std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& there) {
+    SurfaceImages surfaces(device, there.settings.size);
+    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
+        const int mode = surfaceChannels()[c];
+        surfaces.set(0, c, channelOf(there, mode),
+                     mode == static_cast<int>(gpu::DEBUG_lightmap) ? lightmappedPixels(there, scene)
+                                                                   : std::vector<std::uint8_t>{});
+    }
+    Settings settings = there.settings;
+    settings.transparency = Transparency::off;
+    settings.assign = Assignment::every;
+    ChannelShading shading = renderer.shadeChannels(settings, surfaces);
     std::map<int, Image> images;
-    images[gpu::DEBUG_lit] = lighting.lit(here.settings, allChannelsOf(1));
-    ChannelTerms terms = lighting.under(here.settings).terms(allChannelsOf(1));
+    images[gpu::DEBUG_lit] = shading.shade(0);
+    ChannelTerms terms = shading.terms(0);
     images[gpu::DEBUG_lit_diffuse] = std::move(terms.diffuse);
     images[gpu::DEBUG_lit_specular] = std::move(terms.specular);
     images[gpu::DEBUG_lit_ambient] = std::move(terms.ambient);

@@ -19,9 +19,9 @@ namespace diptych {
 AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
                             const std::array<DevicePrecision, 2>& devices, const Frame& here);
 
-// AcrossDevices::relit: what `device` makes of the surfaces of `there`, a Frame of another device; `here`:
-// its own Frame. With one sample a pixel. Throws std::runtime_error, one line, where a channel is missing.
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& here,
-                           const Frame& there);
+// AcrossDevices::relit: what `device` makes of the surfaces of `there`, a Frame of another device with one
+// sample a pixel: by every light, since a list is of a cell, and places may lie in its neighbour; and without
+// what is blended. Throws std::runtime_error, one line, where a channel is missing.
+std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& there);
 
 }  // namespace diptych

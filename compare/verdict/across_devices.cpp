@@ -259,6 +259,43 @@ private:
     double step_;
 };
 
+// Whether a pixel shows the same share of a light that casts in both pictures, and whether it lies beside the
+// edge of a shadow in either.
+class Shadowed {
+public:
+    explicit Shadowed(const FramePair& pair) {
+        for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
+            if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b)
+                images_.push_back({a, b});
+    }
+    bool differs(std::size_t i) const {
+        return std::ranges::any_of(images_, [i](const auto& of) { return apart(*of[0], i, *of[1], i); });
+    }
+    // By what share light may differ that is seen to shares that do not differ by more.
+    double relative(std::size_t i) const {
+        double share = 0;
+        for (const auto& [a, b] : images_)
+            if (const double least = std::min(*a->pixel(i), *b->pixel(i)); least > 0)
+                share += metrics::distance(*a->pixel(i), *b->pixel(i)) / least;
+        return share;
+    }
+    bool isBesideEdge(std::size_t i) const {
+        bool found = false;
+        for (const auto& of : images_)
+            for (const Image* image : of)
+                aroundPixel(*image, i,
+                            [&](std::size_t j, unsigned) { found = found || apart(*image, i, *image, j); });
+        return found;
+    }
+
+private:
+    static bool apart(const Image& a, std::size_t i, const Image& b, std::size_t j) {
+        const float p = *a.pixel(i), q = *b.pixel(j);
+        return metrics::distance(p, q) > 2 * shadingRounding || (p == 0) != (q == 0);
+    }
+    std::vector<std::array<const Image*, 2>> images_;
+};
+
 // The tolerance of each pixel.
 class DeviceBounds {
 public:
@@ -274,7 +311,11 @@ public:
           facet_(pair),
           bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
           texels_(imageOf(across_.texels, mode.number)),
-          expected_(imageOf(across_.relit, mode.number)) {
+          expected_(imageOf(across_.relit, mode.number)),
+          shadowed_(pair) {
+        if (mode.number == static_cast<int>(gpu::DEBUG_lit) && !pair.baseline.unblended.empty() &&
+            !pair.test.unblended.empty())
+            unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
         if (!texels_ || !isColor()) return;
         shares_ = decodeShares(across_);
         for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
@@ -297,7 +338,7 @@ public:
             case Kind::surface:
                 return (place_(i) + rounding + textures(i)) / unit + bits_;
             case Kind::light:
-                return 2 * shadingRounding;
+                return 2 * shadingRounding + shadowed_.relative(i);
             case Kind::seen:
                 return 2 * shadingRounding;
             case Kind::list:
@@ -309,8 +350,10 @@ public:
     // The difference that is held to it.
     double error(std::size_t i) const {
         if (kind_ != Kind::light) return error_(test_.pixel(i), baseline_.pixel(i));
+        const Image &lit = unblended_[1] ? *unblended_[1] : test_,
+                    &expected = expected_ ? *expected_ : baseline_;
         const double apart =
-            metrics::distance(test_.pixel(i), (expected_ ? expected_ : &baseline_)->pixel(i), mode_.width);
+            std::max(metrics::distance(lit.pixel(i), expected.pixel(i), mode_.width), blendedApart(i));
         return apart == 0 ? 0
                           : apart / std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width),
                                              error_.floor());
@@ -344,8 +387,11 @@ public:
                 return words;
             }
             case Kind::light:
-                return fmt::format("what {} makes of the surfaces that {} drew, both in float32: 1e-4 each",
-                                   a.name, b.name);
+                return fmt::format(
+                    "what {} makes of the surfaces that {} drew, both in float32: 1e-4 each, before anything "
+                    "is blended; and "
+                    "blended, no further apart than the next pixels",
+                    a.name, b.name);
             case Kind::seen:
                 return "float32 weights, 1e-4 each; at a shadow's edge texels of the map may show another "
                        "triangle";
@@ -368,6 +414,18 @@ private:
                         (*image->pixel(j) == *baseline_.pixel(i) && *image->pixel(j) != *test_.pixel(i));
             });
         return found;
+    }
+
+    // How much further apart lit is than before something was blended over it, beyond what it changes by to
+    // the next pixels: edges and textures of what is blended are in no channel.
+    double blendedApart(std::size_t i) const {
+        if (!unblended_[0] || !unblended_[1]) return 0;
+        double beside = metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width);
+        for (const Image* image : {&baseline_, &test_})
+            aroundPixel(*image, i, [&](std::size_t j, unsigned) {
+                beside = std::max(beside, metrics::distance(image->pixel(i), image->pixel(j), mode_.width));
+            });
+        return std::max(0.0, metrics::distance(baseline_.pixel(i), test_.pixel(i), mode_.width) - beside);
     }
 
     bool isColor() const {
@@ -429,6 +487,8 @@ private:
     FacetBound facet_;
     double bits_;
     const Image *texels_, *expected_;
+    Shadowed shadowed_;
+    std::array<const Image*, 2> unblended_{};     // of lit, where something may be blended
     std::array<double, 256> shares_{}, exact_{};  // decodeShares(), exactSrgb()
 };
 
@@ -486,34 +546,6 @@ void count(SurfacePixels::Differing& of, std::size_t i, int width, bool differs,
 std::uint64_t mostOf(double share, std::uint64_t edges) {
     return std::max(fewPixels, static_cast<std::uint64_t>(std::min(1.0, share) * static_cast<double>(edges)));
 }
-
-// Whether a pixel shows the same share of a light that casts in both pictures, and whether it lies beside the
-// edge of a shadow in either.
-class Shadowed {
-public:
-    explicit Shadowed(const FramePair& pair) {
-        for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
-            if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b)
-                images_.push_back({a, b});
-    }
-    bool differs(std::size_t i) const {
-        return std::ranges::any_of(images_, [i](const auto& of) { return apart(*of[0], i, *of[1], i); });
-    }
-    bool isBesideEdge(std::size_t i) const {
-        bool found = false;
-        for (const auto& of : images_)
-            for (const Image* image : of)
-                aroundPixel(*image, i,
-                            [&](std::size_t j, unsigned) { found = found || apart(*image, i, *image, j); });
-        return found;
-    }
-
-private:
-    static bool apart(const Image& a, std::size_t i, const Image& b, std::size_t j) {
-        return metrics::distance(*a.pixel(i), *b.pixel(j)) > 2 * shadingRounding;
-    }
-    std::vector<std::array<const Image*, 2>> images_;
-};
 
 }  // namespace
 
