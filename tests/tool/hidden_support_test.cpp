@@ -88,7 +88,8 @@ TEST(HiddenSupport, ACompareHasTheSameVerdictOrNamesWhatLacks) {
                 EXPECT_TRUE(ran.failedOver("")) << ran.err;
                 EXPECT_TRUE(std::regex_search(
                     ran.err,
-                    std::regex("lacks|cannot|needs|no such|reads up to|draws|stores|up to|there are no")))
+                    std::regex(
+                        "lacks|has no|cannot|needs|no such|reads up to|draws|stores|up to|there are no")))
                     << ran.err;
                 EXPECT_TRUE(std::regex_search(ran.err, std::regex("use --|another")))
                     << "what helps is not said: " << ran.err;
@@ -136,7 +137,8 @@ TEST(HiddenSupport, AProbeOfWhatADeviceLacksSaysNotSupported) {
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     bool found = false;
-    for (const auto& fact : nlohmann::json::parse(ran.out)["devices"][0]["facts"])
+    const auto facts = nlohmann::json::parse(ran.out)["devices"][0]["facts"];
+    for (const auto& fact : facts)
         if (fact["what"] == "rounds to nearest: R16G16_SNORM") {
             found = true;
             EXPECT_EQ(fact["there"], false);
@@ -152,10 +154,9 @@ TEST(HiddenSupport, LightsBeyondATexelBufferGiveTheSameBits) {
         std::string texels, arguments;
     };
     std::vector<Case> cases{{"65536", "--lights point:20000,spot:20500 --assign clustered --path deferred"}};
-    for (const char* assign : {"every", "tiled", "clustered"})
-        for (const char* path : {"forward_plus", "deferred"})
-            cases.push_back({"2048", std::string("--lights point:500,spot:500,area:60 --assign ") + assign +
-                                         " --path " + path});
+    for (const char* way :
+         {"every --path deferred", "tiled --path deferred", "clustered --path forward_plus"})
+        cases.push_back({"2048", std::string("--lights point:500,spot:500,area:60 --assign ") + way});
     for (const Case& c : cases) {
         SCOPED_TRACE(c.arguments);
         const Folder folder;
@@ -166,9 +167,7 @@ TEST(HiddenSupport, LightsBeyondATexelBufferGiveTheSameBits) {
                   hiding = runHiding(folder, "limit maxTexelBufferElements " + c.texels, render + "b.exr");
         ASSERT_EQ(usual.code, 0) << usual.err;
         ASSERT_EQ(hiding.code, 0) << hiding.err;
-        const Ran diff = runTool(folder, "diff a.exr b.exr --metric max --json");
-        ASSERT_EQ(diff.code, 0) << diff.err;
-        EXPECT_EQ(contentsOf(folder / "a.exr") == contentsOf(folder / "b.exr"), true);
+        EXPECT_TRUE(contentsOf(folder / "a.exr") == contentsOf(folder / "b.exr"));
     }
 }
 
