@@ -44,9 +44,9 @@ public:
         std::call_once(made_, [this] { make(); });
         const glm::dvec3 p = eye_ + glm::dvec3(place[0], place[1], place[2]);
         std::size_t count = 0;
-        if (material >= 0 && static_cast<std::size_t>(material) < triangles_.size())
-            for (const auto& triangle : triangles_[static_cast<std::size_t>(material)])
-                count += distanceTo(triangle, p) <= near;
+        for (std::size_t m = 0; m < triangles_.size(); ++m)
+            if (static_cast<int>(m) == material || (material < 0 && blends(scene_.materials[m])))
+                for (const auto& triangle : triangles_[m]) count += distanceTo(triangle, p) <= near;
         return count > (several ? 1 : 0);
     }
 

@@ -359,6 +359,18 @@ public:
                                              error_.floor());
     }
 
+    // How much further apart lit is than before something was blended over it, beyond what it changes by to
+    // the next pixels: edges and textures of what is blended are in no channel.
+    double blendedApart(std::size_t i) const {
+        if (!unblended_[0] || !unblended_[1]) return 0;
+        double beside = metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width);
+        for (const Image* image : {&baseline_, &test_})
+            aroundPixel(*image, i, [&](std::size_t j, unsigned) {
+                beside = std::max(beside, metrics::distance(image->pixel(i), image->pixel(j), mode_.width));
+            });
+        return std::max(0.0, metrics::distance(baseline_.pixel(i), test_.pixel(i), mode_.width) - beside);
+    }
+
     std::string because() const {
         const auto& [a, b] = across_.devices;
         const std::string placed = fmt::format(
@@ -414,18 +426,6 @@ private:
                         (*image->pixel(j) == *baseline_.pixel(i) && *image->pixel(j) != *test_.pixel(i));
             });
         return found;
-    }
-
-    // How much further apart lit is than before something was blended over it, beyond what it changes by to
-    // the next pixels: edges and textures of what is blended are in no channel.
-    double blendedApart(std::size_t i) const {
-        if (!unblended_[0] || !unblended_[1]) return 0;
-        double beside = metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width);
-        for (const Image* image : {&baseline_, &test_})
-            aroundPixel(*image, i, [&](std::size_t j, unsigned) {
-                beside = std::max(beside, metrics::distance(image->pixel(i), image->pixel(j), mode_.width));
-            });
-        return std::max(0.0, metrics::distance(baseline_.pixel(i), test_.pixel(i), mode_.width) - beside);
     }
 
     bool isColor() const {
@@ -569,7 +569,15 @@ SurfacePixels surfacePixels(const FramePair& pair) {
     const DebugMode& texcoords = debugMode(gpu::DEBUG_texcoords);
     if (u && v) coordinates.emplace(texcoords, pair, *u, *v);
     const Shadowed shadowed(pair);
+    std::optional<DeviceBounds> light;
+    if (findChannel(pair.baseline, gpu::DEBUG_lit) && findChannel(pair.test, gpu::DEBUG_lit) &&
+        pair.across->relit.contains(gpu::DEBUG_lit))
+        light.emplace(debugMode(gpu::DEBUG_lit), pair);
     const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
+    // How far from a place the other surface of its depth may lie, m.
+    const auto tieReach = [&](std::size_t i) {
+        return *z->pixel(i) * (step / pixelsPerRadian(pair.baseline, i) + relativeRounding());
+    };
     for (std::size_t i = 0; i < found.others.size(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const double facet = facetOf(i);
@@ -597,9 +605,19 @@ SurfacePixels surfacePixels(const FramePair& pair) {
                 continue;
             }
         }
+        if (!other && light && p && z && pair.across->surface_at && light->blendedApart(i) > 0 &&
+            pair.across->surface_at(-1, p->pixel(i), tieReach(i), false)) {
+            found.others[i] = 1;
+            ++found.tied;
+            continue;
+        }
         count(found.triangles, i, a->width, other, edge);
-        const bool shade = !other && shadowed.differs(i);
-        count(found.shadows, i, a->width, shade, shadowed.isBesideEdge(i));
+        // Light that is further apart beside a shadow's edge lies in another shadow, too, at the other's
+        // place.
+        const bool beside = shadowed.isBesideEdge(i),
+                   shade = !other &&
+                           (shadowed.differs(i) || (beside && light && !(light->error(i) <= (*light)(i))));
+        count(found.shadows, i, a->width, shade, beside);
         found.others[i] = other || shade ? 1 : 0;
     }
     found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges);

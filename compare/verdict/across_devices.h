@@ -28,8 +28,9 @@ struct AcrossDevices {
     // Of forward+ on both, which tells seams of texture coordinates that a deferred Frame does not show;
     // nullptr: unknown.
     std::array<const Image*, 2> texcoords{};
-    // Whether the scene has a surface of a material so near to a place, which is from the camera, world axes,
-    // m; or `several`. Empty: unknown, and no two surfaces are taken for being of one depth.
+    // Whether the scene has a surface of a material (-1: of any that is blended) so near to a place, which is
+    // from the camera, world axes, m; or `several`. Empty: unknown, and no two surfaces are taken for being
+    // of one depth.
     std::function<bool(int material, const float* place, double near, bool several)> surface_at{};
     // Lit channels of the test's surfaces as the baseline's device lights them, from their channels.
     std::map<int, Image> relit;
