@@ -14,7 +14,7 @@
 namespace diptych {
 namespace {
 
-constexpr int side = 32;
+constexpr int across_side = 32;
 
 // A plane that is tilted away from a camera at the origin, material 0 left of the middle and 1 right of it,
 // and textures whose texels are all alike. Two devices have a step of 1/16 of a pixel together.
@@ -25,7 +25,7 @@ protected:
         for (Frame& frame : report_.frames) {
             frame.settings.path = Path::forward_plus;
             frame.settings.gbuffer = GBufferEncoding::full;
-            frame.settings.size = {side, side};
+            frame.settings.size = {across_side, across_side};
             frame.camera.target[2] = -1;
             frame.camera.up[1] = 1;
             frame.camera.fov_degrees = 60;
@@ -40,9 +40,9 @@ protected:
         for (const DebugMode& mode : debugModes())
             if (mode.maker != MadeBy::deferred_only)
                 for (Frame& frame : report_.frames)
-                    frame.channels[mode.number] = Image(side, side, mode.width, 0.5f);
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) place(x, y);
+                    frame.channels[mode.number] = Image(across_side, across_side, mode.width, 0.5f);
+        for (int y = 0; y < across_side; ++y)
+            for (int x = 0; x < across_side; ++x) place(x, y);
         for (std::size_t device = 0; device < 2; ++device) {
             DevicePrecision& precision = across_.devices[device];
             precision.name = device == 0 ? "a" : "b";
@@ -53,14 +53,14 @@ protected:
                 precision.texels->srgb[code] = static_cast<float>(exactSrgb(code));
             }
         }
-        across_.texels[gpu::DEBUG_albedo] = Image(side, side, 1);
+        across_.texels[gpu::DEBUG_albedo] = Image(across_side, across_side, 1);
         across_.texcoords = {&at(0, gpu::DEBUG_texcoords), &at(1, gpu::DEBUG_texcoords)};
         for (const int mode : litModes) across_.relit[mode] = at(1, static_cast<gpu::uint>(mode));
     }
 
     // n.p = -5 with n = (0, 0.6, 0.8).
     void place(int x, int y) {
-        const double half = std::tan(30 * 3.14159265358979 / 180), px = 2 * half / side;
+        const double half = std::tan(30 * 3.14159265358979 / 180), px = 2 * half / across_side;
         const double u = (x + 0.5) * px - half, v = half - (y + 0.5) * px;
         const double z = 5 / (0.8 - 0.6 * v);
         for (const std::size_t frame : {0, 1}) {
@@ -68,7 +68,7 @@ protected:
                 float* to = at(frame, mode).pixel(index(x, y));
                 for (const double value : values) *to++ = static_cast<float>(value);
             };
-            set(gpu::DEBUG_material_id, {x < side / 2 ? 0.0 : 1.0});
+            set(gpu::DEBUG_material_id, {x < across_side / 2 ? 0.0 : 1.0});
             set(gpu::DEBUG_depth, {z});
             set(gpu::DEBUG_position, {u * z, v * z, -z});
             set(gpu::DEBUG_geometric_normal, {0, 0.6, 0.8});
@@ -78,7 +78,7 @@ protected:
     }
 
     static std::size_t index(int x, int y) {
-        return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * across_side + static_cast<std::size_t>(x);
     }
     Image& at(std::size_t frame, gpu::uint mode) {
         return report_.frames[frame].channels.at(static_cast<int>(mode));
@@ -122,13 +122,13 @@ TEST_F(AcrossDevicesPair, TheSamePicturesPassAndUseNothing) {
 }
 
 TEST_F(AcrossDevicesPair, APixelBesideAnEdgeMayShowWhatIsBeyondIt) {
-    showAnother(side / 2, 7, 0);
+    showAnother(across_side / 2, 7, 0);
     EXPECT_EQ(faults(), "");
-    EXPECT_EQ(compared().coverage.count, std::size_t{side * side - 1});
+    EXPECT_EQ(compared().coverage.count, std::size_t{across_side * across_side - 1});
 }
 
 TEST_F(AcrossDevicesPair, APixelAwayFromAnyEdgeMayNot) {
-    showAnother(side / 4, 7, 1);
+    showAnother(across_side / 4, 7, 1);
     // It is an edge of its own in the picture that shows it; its neighbours are not, so that a whole patch
     // tells.
     for (int y = 5; y < 10; ++y)
@@ -138,7 +138,7 @@ TEST_F(AcrossDevicesPair, APixelAwayFromAnyEdgeMayNot) {
 }
 
 TEST_F(AcrossDevicesPair, AWholeEdgeAPixelElsewhereIsTooMuch) {
-    for (int y = 0; y < side; ++y) showAnother(side / 2, y, 0);
+    for (int y = 0; y < across_side; ++y) showAnother(across_side / 2, y, 0);
     EXPECT_NE(faults().find("32 pixel(s) show another triangle on the other device: of"), std::string::npos);
 }
 
@@ -154,8 +154,8 @@ TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
 
 TEST_F(AcrossDevicesPair, DepthMayMoveByTheStepsOfBothDevicesAndNotFurther) {
     const auto moveBy = [&](double pixels) {
-        for (int y = 1; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
+        for (int y = 1; y < across_side; ++y)
+            for (int x = 0; x < across_side; ++x) {
                 const float here = *at(0, gpu::DEBUG_depth).pixel(index(x, y)),
                             above = *at(0, gpu::DEBUG_depth).pixel(index(x, y - 1));
                 *there(gpu::DEBUG_depth, x, y) = here + static_cast<float>(pixels) * (above - here);
@@ -211,8 +211,8 @@ TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces)
 
 TEST_F(AcrossDevicesPair, ShadowsMayDifferBesideTheirEdgesAlone) {
     for (const std::size_t frame : {0, 1})
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x)
+        for (int y = 0; y < across_side; ++y)
+            for (int x = 0; x < across_side; ++x)
                 *at(frame, gpu::DEBUG_shadow_visibility).pixel(index(x, y)) = y < 8 ? 0.0f : 1.0f;
     EXPECT_EQ(faults(), "");
     *there(gpu::DEBUG_shadow_visibility, 4, 8) = 0.75f;
@@ -244,19 +244,19 @@ struct TexturedPlane {
         scene.images.push_back(std::move(image));
         scene.textures.push_back({0, {}});
         scene.materials.emplace_back().base_color_texture.texture = 0;
-        frame.settings.size = {side, side};
+        frame.settings.size = {across_side, across_side};
         for (const gpu::uint mode : {gpu::DEBUG_material_id, gpu::DEBUG_texcoords})
             frame.channels[static_cast<int>(mode)] =
-                Image(side, side, debugMode(static_cast<int>(mode)).width);
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
+                Image(across_side, across_side, debugMode(static_cast<int>(mode)).width);
+        for (int y = 0; y < across_side; ++y)
+            for (int x = 0; x < across_side; ++x) {
                 Image& uv = frame.channels.at(gpu::DEBUG_texcoords);
                 uv.at(x, y, 0) = static_cast<float>((x * texels_a_pixel + 0.3) / 64);
                 uv.at(x, y, 1) = static_cast<float>((y * texels_a_pixel + 0.3) / 64);
             }
     }
     float range() const {
-        return texelRanges(scene, frame, {}).at(gpu::DEBUG_albedo).at(side / 2, side / 2, 0);
+        return texelRanges(scene, frame, {}).at(gpu::DEBUG_albedo).at(across_side / 2, across_side / 2, 0);
     }
 };
 
