@@ -163,7 +163,7 @@ int runPlan(const Options& options) {
     if (paths.front() == Path::reference)
         throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");
     const std::vector<Settings> settings = settingsOf(options, paths);
-    std::optional<PipelineCompiler> compiler;
+    std::optional<DeviceCompiler> compiler;
     if (!options.compile_on.empty()) compiler.emplace(options.compile_on);
     DeviceOptions drawing = deviceOptions(options);
     if (compiler) drawing.compiler = &*compiler;
@@ -182,7 +182,7 @@ int runPlan(const Options& options) {
             describedFrame(scene, view, settings.front()).notes,
             planPaths(device, views, settings),
             options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{},
-            compiler ? compilePaths(device, views, settings) : std::vector<CompiledPath>{},
+            compiler ? compilePaths(device, *compiler, views, settings) : std::vector<CompiledPath>{},
             compiler ? &compiler->info() : nullptr};
         compiles &=
             std::ranges::all_of(result.compiled, [](const CompiledPath& p) { return p.errors.empty(); });

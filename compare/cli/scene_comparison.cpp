@@ -50,7 +50,7 @@ std::size_t leftPanel(const Options& options, std::size_t first) {
     return first + static_cast<std::size_t>(path - drawn_paths.begin());
 }
 
-// A short name for a device in those of Frames and files: "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
+// A short name for a device in those of Frames and files: "SwiftShader" of "SwiftShader Device (Subzero)".
 std::string shortName(const std::string& device) {
     const auto end =
         std::ranges::find_if(device, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });

@@ -66,7 +66,7 @@ bool isSame(const ShaderCost& a, const ShaderCost& b) {
                                [&](const ShaderCostRow& row) { return a.*row.value == b.*row.value; });
 }
 
-std::vector<FeatureCost> featureCosts(const PipelineCompiler& compiler,
+std::vector<FeatureCost> featureCosts(const DeviceCompiler& compiler,
                                       std::span<const PipelineRequest> requests,
                                       std::span<const PlannedPipeline> pipelines) {
     const std::vector<Ablation> all = ablations(requests, pipelines);
@@ -85,7 +85,7 @@ std::vector<FeatureCost> featureCosts(const PipelineCompiler& compiler,
 }
 
 // Those of a frame that evaluate lights are compiled without any, too.
-void addUnlitCycles(const PipelineCompiler& compiler, std::span<const PipelineRequest> requests,
+void addUnlitCycles(const DeviceCompiler& compiler, std::span<const PipelineRequest> requests,
                     std::span<PlannedPipeline> pipelines) {
     constexpr gpu::uint kinds[] = {gpu::FEATURE_directional_lights, gpu::FEATURE_point_lights,
                                    gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights};
@@ -105,7 +105,7 @@ void addUnlitCycles(const PipelineCompiler& compiler, std::span<const PipelineRe
             pipelines[of[i]].unlit_cycles = compiled[i].shaders.back().cost.cycles;
 }
 
-std::vector<PlannedPipeline> planned(const PipelineCompiler& compiler,
+std::vector<PlannedPipeline> planned(const DeviceCompiler& compiler,
                                      std::span<const PipelineRequest> requests, bool captures) {
     std::vector<CompiledPipeline> compiled = compiler.compile(requests);
     std::vector<PlannedPipeline> all;
@@ -115,9 +115,8 @@ std::vector<PlannedPipeline> planned(const PipelineCompiler& compiler,
     return all;
 }
 
-CompiledPath compilePath(Device& device, SharedResources& shared, const SceneView& scene,
-                         const Settings& settings) {
-    PipelineCompiler& compiler = *device.compiler();
+CompiledPath compilePath(Device& device, DeviceCompiler& compiler, SharedResources& shared,
+                         const SceneView& scene, const Settings& settings) {
     compiler.takeRequests();
     PreparedFrame prepared(device, shared, scene, settings);
     const std::vector<PipelineRequest> frame = compiler.takeRequests();
@@ -164,13 +163,13 @@ void judge(CompiledPath& path) {
     }
 }
 
-std::vector<CompiledPath> compilePaths(Device& device, SceneViews& views,
+std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler, SceneViews& views,
                                        const std::vector<Settings>& settings) {
     SharedResources shared(device, views.scene());
     std::vector<CompiledPath> paths;
     for (const Settings& s : settings) {
         checkSize(device, s.size);
-        paths.push_back(compilePath(device, shared, views.at(viewRequest(s)), s));
+        paths.push_back(compilePath(device, compiler, shared, views.at(viewRequest(s)), s));
     }
     return paths;
 }

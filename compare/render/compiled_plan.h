@@ -4,7 +4,7 @@
 
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
-#include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/device_compiler.h"
 
 #include <optional>
 #include <span>
@@ -42,7 +42,7 @@ struct CompiledPath {
 };
 
 // Pipelines are compiled for the compiler of `device`; nothing is drawn.
-std::vector<CompiledPath> compilePaths(Device& device, SceneViews& views,
+std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler, SceneViews& views,
                                        const std::vector<Settings>& settings);
 
 // Fills errors and warnings.

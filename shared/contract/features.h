@@ -121,7 +121,7 @@
     X(66, smooth_cones,               frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
     X(67, squared_window,             frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* lights and lists are read by their addresses: more than a texel buffer of the device holds */        \
-    X(68, addressed_lights,           frame,   0, PASSES_SHADE | PASS_LISTS)
+    X(68, addressed_lights,           frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)
 // clang-format on
 
 CONTRACT_BEGIN

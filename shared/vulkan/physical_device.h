@@ -19,9 +19,9 @@ std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string
 
 // The one of this index, or the first with this in its name.
 std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
-std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: llvmpipe, 1: ..."; "none"
+std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: NAME, 1: ..."; "none"
 
-// The fact that a driver without hardware lacks, which compiles all the same (PipelineCompiler).
+// The fact that a driver without hardware lacks, which compiles all the same (DeviceCompiler).
 inline constexpr const char* memoryFact = "memory";
 
 // With exactly the features of DEVICE_FEATURES that are there, and the extensions. `statistics`: with those

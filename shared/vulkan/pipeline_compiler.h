@@ -1,74 +1,42 @@
 // SPDX-License-Identifier: MIT
-// What a GPU's compiler says of the pipelines that another device makes. Compiling needs instance, device,
-// layouts and modules alone: RADV without hardware has those, but no memory, image, fence or command buffer.
+// What a device that draws tells a compiler (DeviceCompiler) of layouts, passes and pipelines while it makes
+// its own.
 #pragma once
 
-#include "shared/vulkan/compiled_shader.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/device_info.h"
 
-#include <memory>
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace diptych {
 
-// A pipeline as a pass has asked for it.
-struct PipelineRequest {
-    std::string pass{};                        // declared last when it was asked for
-    VkPipelineLayout layout = VK_NULL_HANDLE;  // of the device that draws
-    PipelineKey key{};                         // of a draw
-    ChooseParts choose{};
-    const ShaderModule* kernel = nullptr;  // of a dispatch; nullptr: it is a draw
-    Variant kernel_variant{};
+struct PipelineKey;
+struct PipelineParts;
+struct ShaderModule;
+struct Variant;
 
-    const Variant& variant() const { return kernel != nullptr ? kernel_variant : key.variant; }
-    Variant& variant() { return kernel != nullptr ? kernel_variant : key.variant; }
-    // The file of the shader that it is called by: the kernel, the fragment shader, or of depth alone the
-    // vertex shader.
-    std::string name() const;
-    bool operator==(const PipelineRequest& other) const {
-        return pass == other.pass && layout == other.layout && key == other.key && kernel == other.kernel &&
-               kernel_variant == other.kernel_variant;
-    }
-};
-
-struct CompiledPipeline {
-    std::vector<CompiledShader> shaders;  // none: it did not compile
-    std::string error;                    // why not, or what it asks for that the device does not have
-};
-
-// `Device` with DeviceOptions::compiler makes the choices of this compiler's device and tells it of layouts,
-// passes and pipelines.
 class PipelineCompiler {
 public:
-    // An index of listDevices(), part of a device's name, or a family of AMD GPUs as RADV calls it
-    // ("navi31"), which RADV of Mesa compiles for without one. Throws std::runtime_error naming --compile-on
-    // and what lacks.
-    explicit PipelineCompiler(const std::string& choice);
-    ~PipelineCompiler();
+    PipelineCompiler() = default;
     PipelineCompiler(const PipelineCompiler&) = delete;
     PipelineCompiler& operator=(const PipelineCompiler&) = delete;
+    virtual ~PipelineCompiler() = default;
 
-    const DeviceInfo& info() const;
-    const VkPhysicalDeviceLimits& limits() const;
+    virtual const DeviceInfo& info() const = 0;
+    virtual const VkPhysicalDeviceLimits& limits() const = 0;
 
-    // Called while a device that draws makes its own.
-    void addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types);
-    void addLayout(VkPipelineLayout of, std::span<const VkDescriptorSetLayout> sets,
-                   const std::optional<VkPushConstantRange>& constants);
-    void beginPass(const std::string& name);
-    void ask(PipelineRequest request);
-
-    // Those asked for since the last call, each once, in order.
-    std::vector<PipelineRequest> takeRequests();
-    // On all cores.
-    std::vector<CompiledPipeline> compile(std::span<const PipelineRequest> requests) const;
-
-private:
-    struct State;
-    std::unique_ptr<State> state_;
+    virtual void addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types) = 0;
+    virtual void addLayout(VkPipelineLayout of, std::span<const VkDescriptorSetLayout> sets,
+                           const std::optional<VkPushConstantRange>& constants) = 0;
+    virtual void beginPass(const std::string& name) = 0;
+    virtual void ask(VkPipelineLayout layout, const PipelineKey& key,
+                     const std::function<PipelineParts(const PipelineKey&)>& choose) = 0;
+    virtual void ask(VkPipelineLayout layout, const ShaderModule& kernel, const Variant& variant) = 0;
 };
 
 }  // namespace diptych

@@ -252,7 +252,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     std::vector<Missing> missing;
     const PipelineSite site = siteOf(device_, layout_);
     if (PipelineCompiler* const compiler = device_.compiler())
-        for (const PipelineKey& key : keys) compiler->ask({.layout = layout_, .key = key, .choose = choose_});
+        for (const PipelineKey& key : keys) compiler->ask(layout_, key, choose_);
     try {
         for (const PipelineKey& key : keys) {
             const auto [entry, isNew] = pipelines_.try_emplace(key);
@@ -274,8 +274,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
 }
 
 VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
-    if (PipelineCompiler* const compiler = device_.compiler())
-        compiler->ask({.layout = layout, .kernel = &module, .kernel_variant = variant});
+    if (PipelineCompiler* const compiler = device_.compiler()) compiler->ask(layout, module, variant);
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
     if (isNew) entry->second = makePipeline(siteOf(device_, layout), module, variant);
     return entry->second;

@@ -121,7 +121,8 @@ constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},       {gpu::PASS_F
 bool unreadOutput(gpu::uint pass, std::string_view module, gpu::uint feature) {
     return pass == gpu::PASS_DEPTH && module.starts_with("surface.vert") &&
            (feature == gpu::FEATURE_object_lights || feature == gpu::FEATURE_double_sided ||
-            feature == gpu::FEATURE_smooth_cones || feature == gpu::FEATURE_squared_window);
+            feature == gpu::FEATURE_smooth_cones || feature == gpu::FEATURE_squared_window ||
+            feature == gpu::FEATURE_addressed_lights);
 }
 
 // Features that a module of a pass uses but the table lacks, and features that the table assigns to a pass

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The compiler of a GPU that is not there: what it says of pipelines that are light, that spill, and that ask
 // for more than it has.
-#include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/device_compiler.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/driver_trial.h"
 #include "shared/vulkan/pass_list.h"
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> wordsOf(const std::string& shader) {
     return words;
 }
 
-class PipelineCompilerTest : public testing::Test {
+class DeviceCompilerTest : public testing::Test {
 protected:
     // A compiler is opened once for all.
     static void SetUpTestSuite() {
@@ -59,20 +59,20 @@ protected:
         return compiler_->compile(requests).front();
     }
 
-    static std::optional<PipelineCompiler> compiler_;
+    static std::optional<DeviceCompiler> compiler_;
     static std::optional<Device> device_;
 };
-std::optional<PipelineCompiler> PipelineCompilerTest::compiler_;
-std::optional<Device> PipelineCompilerTest::device_;
+std::optional<DeviceCompiler> DeviceCompilerTest::compiler_;
+std::optional<Device> DeviceCompilerTest::device_;
 
-TEST_F(PipelineCompilerTest, LetsADeviceThatDrawsChooseAsAGpu) {
+TEST_F(DeviceCompilerTest, LetsADeviceThatDrawsChooseAsAGpu) {
     EXPECT_NE(compiler_->info().name.find("VEGA10"), std::string::npos) << compiler_->info().name;
     EXPECT_TRUE(device_->profile().wide_groups);
     EXPECT_EQ(device_->profile().input_sets, 1);
     EXPECT_FALSE(device_->info().name.starts_with("Null")) << "what cannot run is not chosen to draw";
 }
 
-TEST_F(PipelineCompilerTest, SaysWhatAKernelTakes) {
+TEST_F(DeviceCompilerTest, SaysWhatAKernelTakes) {
     Pipelines pipelines(*device_, VK_NULL_HANDLE);
     const OwnedPipelineLayout layout =
         makePipelineLayout(*device_, {}, VkPushConstantRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, 128});
@@ -102,18 +102,18 @@ TEST_F(PipelineCompilerTest, SaysWhatAKernelTakes) {
     EXPECT_EQ(compiled.shaders[0].subgroup_size, 64u);
 }
 
-TEST_F(PipelineCompilerTest, NamesWhatLiesInMemory) {
+TEST_F(DeviceCompilerTest, NamesWhatLiesInMemory) {
     const CompiledPipeline compiled = this->compiled("large_array.comp");
     ASSERT_EQ(compiled.shaders.size(), 1u) << compiled.error;
     EXPECT_GE(*compiled.shaders[0].cost.scratch_bytes, 64 * 2048 * 4) << "2048 words of each of 64 threads";
 }
 
-TEST_F(PipelineCompilerTest, RefusesMoreSharedMemoryThanThereIs) {
+TEST_F(DeviceCompilerTest, RefusesMoreSharedMemoryThanThereIs) {
     const CompiledPipeline compiled = this->compiled("large_shared.comp");
     EXPECT_NE(compiled.error.find("131072 bytes of shared memory"), std::string::npos) << compiled.error;
 }
 
-TEST_F(PipelineCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
+TEST_F(DeviceCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
     // No AMD GPU since GCN 3 has a depth format of 24 bits.
     const PipelineKey key{.vertex = Shader::full_screen_vert, .depth = VK_FORMAT_X8_D24_UNORM_PACK32};
     const OwnedPipelineLayout layout = makePipelineLayout(*device_, {});
@@ -125,13 +125,13 @@ TEST_F(PipelineCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
 }
 
 // Debian 12's Mesa 22.3 knows no RDNA 3 and 4 by these names, Debian 13's Mesa 25 all.
-TEST_F(PipelineCompilerTest, RecentFamiliesCompileOrAreNamed) {
+TEST_F(DeviceCompilerTest, RecentFamiliesCompileOrAreNamed) {
     const std::string driver = compiler_->info().driver, mesa = "Mesa ";
     ASSERT_NE(driver.find(mesa), std::string::npos) << driver;
     const int version = std::stoi(driver.substr(driver.find(mesa) + mesa.size()));
     for (const char* recent : {"navi21", "NAVI31", "gfx1201"}) {
         try {
-            EXPECT_NE(PipelineCompiler(recent).info().name.find("Null hardware"), std::string::npos);
+            EXPECT_NE(DeviceCompiler(recent).info().name.find("Null hardware"), std::string::npos);
         } catch (const std::runtime_error& error) {
             EXPECT_LT(version, 25) << error.what();
             EXPECT_NE(std::string(error.what()).find(driver), std::string::npos) << error.what();
@@ -143,7 +143,7 @@ TEST_F(PipelineCompilerTest, RecentFamiliesCompileOrAreNamed) {
 TEST(DriverTrial, AFamilyThatRadvDoesNotKnowIsAnError) {
     if (radvFiles().empty()) GTEST_SKIP() << "RADV (mesa-vulkan-drivers) is not installed";
     try {
-        PipelineCompiler("navi999");
+        DeviceCompiler("navi999");
         FAIL() << "it compiles for what does not exist";
     } catch (const std::runtime_error& error) {
         const std::string said = error.what();

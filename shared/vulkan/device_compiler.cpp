@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/device_compiler.h"
 
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/descriptors.h"
@@ -61,7 +61,7 @@ std::string PipelineRequest::name() const {
     return fileOf(*shaderModules(key.fragment != Shader::none ? key.fragment : key.vertex).data());
 }
 
-struct PipelineCompiler::State {
+struct DeviceCompiler::State {
     std::optional<VulkanInstance> instance;
     std::vector<DeviceSupport> devices;
     DeviceSupport support;
@@ -98,7 +98,7 @@ struct PipelineCompiler::State {
     std::string lackedFormats(const PipelineKey& key) const;
 };
 
-void PipelineCompiler::State::open(const DeviceInfo& chosen, const std::string& choice) {
+void DeviceCompiler::State::open(const DeviceInfo& chosen, const std::string& choice) {
     info = chosen;
     support = devices.at(static_cast<std::size_t>(chosen.index));
     for (const DeviceFact& fact : info.facts)
@@ -117,7 +117,7 @@ void PipelineCompiler::State::open(const DeviceInfo& chosen, const std::string& 
         load("vkGetPipelineExecutableStatisticsKHR"));
 }
 
-void PipelineCompiler::State::tryPipelines() const {
+void DeviceCompiler::State::tryPipelines() const {
     const OwnedPipelineLayout layout =
         makePipelineLayout(device.get(), {}, VkPushConstantRange{VK_SHADER_STAGE_ALL, 0, 128});
     const PipelineSite site = this->site(layout);
@@ -128,7 +128,7 @@ void PipelineCompiler::State::tryPipelines() const {
     makePipeline(site, plainModule(Shader::cull_clusters_comp), {});
 }
 
-PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
+DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
     State& s = *state_;
     const std::vector<DeviceInfo> infos = s.list();
     if (const auto found = findDevice(infos, choice)) {
@@ -177,42 +177,49 @@ PipelineCompiler::PipelineCompiler(const std::string& choice) : state_(std::make
     openFamily();
 }
 
-PipelineCompiler::~PipelineCompiler() = default;
+DeviceCompiler::~DeviceCompiler() = default;
 
-const DeviceInfo& PipelineCompiler::info() const {
+const DeviceInfo& DeviceCompiler::info() const {
     return state_->info;
 }
-const VkPhysicalDeviceLimits& PipelineCompiler::limits() const {
+const VkPhysicalDeviceLimits& DeviceCompiler::limits() const {
     return state_->support.limits();
 }
 
-void PipelineCompiler::addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types) {
+void DeviceCompiler::addLayout(VkDescriptorSetLayout of, std::span<const VkDescriptorType> types) {
     state_->sets.insert_or_assign(of, makeSetLayout(state_->device.get(), types));
 }
 
-void PipelineCompiler::addLayout(VkPipelineLayout of, std::span<const VkDescriptorSetLayout> sets,
-                                 const std::optional<VkPushConstantRange>& constants) {
+void DeviceCompiler::addLayout(VkPipelineLayout of, std::span<const VkDescriptorSetLayout> sets,
+                               const std::optional<VkPushConstantRange>& constants) {
     std::vector<VkDescriptorSetLayout> own;
     for (const VkDescriptorSetLayout set : sets) own.push_back(state_->sets.at(set));
     state_->layouts.insert_or_assign(of, makePipelineLayout(state_->device.get(), own, constants));
 }
 
-void PipelineCompiler::beginPass(const std::string& name) {
+void DeviceCompiler::beginPass(const std::string& name) {
     state_->pass = name;
 }
 
-void PipelineCompiler::ask(PipelineRequest request) {
+void DeviceCompiler::ask(VkPipelineLayout layout, const PipelineKey& key, const ChooseParts& choose) {
+    add({.layout = layout, .key = key, .choose = choose});
+}
+void DeviceCompiler::ask(VkPipelineLayout layout, const ShaderModule& kernel, const Variant& variant) {
+    add({.layout = layout, .kernel = &kernel, .kernel_variant = variant});
+}
+
+void DeviceCompiler::add(PipelineRequest request) {
     request.pass = state_->pass;
     if (std::ranges::find(state_->requests, request) == state_->requests.end())
         state_->requests.push_back(std::move(request));
 }
 
-std::vector<PipelineRequest> PipelineCompiler::takeRequests() {
+std::vector<PipelineRequest> DeviceCompiler::takeRequests() {
     state_->pass.clear();
     return std::exchange(state_->requests, {});
 }
 
-std::vector<CompiledPipeline> PipelineCompiler::compile(std::span<const PipelineRequest> requests) const {
+std::vector<CompiledPipeline> DeviceCompiler::compile(std::span<const PipelineRequest> requests) const {
     std::vector<CompiledPipeline> compiled(requests.size());
     tbb::parallel_for(std::size_t{0}, requests.size(),
                       [&](std::size_t i) { compiled[i] = state_->compile(requests[i]); });
@@ -220,7 +227,7 @@ std::vector<CompiledPipeline> PipelineCompiler::compile(std::span<const Pipeline
 }
 
 // What it cannot draw to; empty: nothing.
-std::string PipelineCompiler::State::lackedFormats(const PipelineKey& key) const {
+std::string DeviceCompiler::State::lackedFormats(const PipelineKey& key) const {
     const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
         return (support.sampleCounts(format, usage) & key.samples) != 0;
     };
@@ -235,7 +242,7 @@ std::string PipelineCompiler::State::lackedFormats(const PipelineKey& key) const
     return {};
 }
 
-std::vector<CompiledShader> PipelineCompiler::State::shadersOf(
+std::vector<CompiledShader> DeviceCompiler::State::shadersOf(
     VkPipeline pipeline, std::span<const ShaderModule* const> modules) const {
     const VkPipelineInfoKHR of{VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, nullptr, pipeline};
     std::uint32_t count = 0;
@@ -269,7 +276,7 @@ std::vector<CompiledShader> PipelineCompiler::State::shadersOf(
     return shaders;
 }
 
-CompiledPipeline PipelineCompiler::State::compile(const PipelineRequest& request) const {
+CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) const {
     CompiledPipeline compiled;
     const PipelineSite site = this->site(layouts.at(request.layout));
     try {
