@@ -11,7 +11,7 @@
 namespace diptych {
 namespace {
 
-const std::string small = " --size 64x64 ";
+const std::string smallSize = " --size 64x64 ";
 
 class CompileOn : public testing::Test {
 protected:
@@ -22,7 +22,7 @@ protected:
 };
 
 TEST_F(CompileOn, EveryPipelineOfBothPathsIsCompiled) {
-    const Ran ran = runTool(folder, "plan builtin:gallery --compile-on vega10 --json" + small);
+    const Ran ran = runTool(folder, "plan builtin:gallery --compile-on vega10 --json" + smallSize);
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "") << "the driver's remarks on missing hardware are none of the user's";
     const nlohmann::json scene = nlohmann::json::parse(ran.out)["scenes"][0];
@@ -55,7 +55,7 @@ TEST_F(CompileOn, EveryPipelineOfBothPathsIsCompiled) {
 }
 
 TEST_F(CompileOn, AnEstimateIsOfTheFamilysGpu) {
-    const Ran ran = runTool(folder, "plan builtin:triangle --compile-on vega10 --json --estimate" + small);
+    const Ran ran = runTool(folder, "plan builtin:triangle --compile-on vega10 --json --estimate" + smallSize);
     ASSERT_EQ(ran.code, 0) << ran.err;
     const nlohmann::json work = nlohmann::json::parse(ran.out)["scenes"][0]["work"];
     ASSERT_EQ(work.size(), 2u);
@@ -64,7 +64,7 @@ TEST_F(CompileOn, AnEstimateIsOfTheFamilysGpu) {
 }
 
 TEST_F(CompileOn, ATableAndWhatFeaturesAddAreText) {
-    const Ran ran = runTool(folder, "plan builtin:areas --compile-on vega10" + small);
+    const Ran ran = runTool(folder, "plan builtin:areas --compile-on vega10" + smallSize);
     ASSERT_EQ(ran.code, 0) << ran.err;
     for (const char* word :
          {"VGPRs", "occupancy", "forward_shade.frag", "deferred_shade.frag", "area_lights "})
@@ -72,10 +72,10 @@ TEST_F(CompileOn, ATableAndWhatFeaturesAddAreText) {
 }
 
 TEST_F(CompileOn, WhatCannotCompileIsOneLine) {
-    const Ran unknown = runTool(folder, "plan builtin:gallery --compile-on navi999" + small);
+    const Ran unknown = runTool(folder, "plan builtin:gallery --compile-on navi999" + smallSize);
     EXPECT_TRUE(unknown.failedOver("--compile-on navi999: no such device"));
     EXPECT_TRUE(unknown.failedOver("Mesa 25"));
-    const Ran silent = runTool(folder, "plan builtin:gallery --compile-on llvmpipe" + small);
+    const Ran silent = runTool(folder, "plan builtin:gallery --compile-on llvmpipe" + smallSize);
     EXPECT_TRUE(silent.failedOver("says nothing of what it compiles"));
 }
 
@@ -83,11 +83,11 @@ TEST_F(CompileOn, WhatCannotCompileIsOneLine) {
 TEST_F(CompileOn, HardwareThatIsNotThereDrawsNothing) {
     const std::string forced = "RADV_FORCE_FAMILY=vega10 '" DIPTYCH_PROGRAM "' ";
     const Ran listed =
-        runShell(folder, forced + "plan builtin:triangle -q --device VEGA10" + small, folder.path());
+        runShell(folder, forced + "plan builtin:triangle -q --device VEGA10" + smallSize, folder.path());
     EXPECT_EQ(listed.code, 2);
     EXPECT_NE(listed.err.find("lacks memory"), std::string::npos) << listed.err;
     const Ran compiles =
-        runShell(folder, forced + "plan builtin:triangle --compile-on VEGA10" + small, folder.path());
+        runShell(folder, forced + "plan builtin:triangle --compile-on VEGA10" + smallSize, folder.path());
     EXPECT_EQ(compiles.code, 0) << compiles.err;
 }
 
