@@ -56,8 +56,8 @@ void expectWithinTwo(double measured, double predicted, const char* what) {
     EXPECT_LT(measured, predicted * 2) << what;
 }
 
-const Quantity& quantityNamed(const std::string& name) {
-    return *audit::quantitiesOf(std::array{name}).front();
+const Quantity& quantityNamed(std::string_view name) {
+    return *audit::quantitiesOf(std::array{std::string(name)}).front();
 }
 
 // Many vertices at many depths, under the default sun, whose light does not depend on the place.

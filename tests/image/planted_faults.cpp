@@ -455,10 +455,10 @@ const std::vector<PlantedFault>& plantedFaults() {
     return faults;
 }
 
-const PlantedFault& plantedFault(const std::string& means) {
+const PlantedFault& plantedFault(std::string_view means) {
     for (const PlantedFault& fault : plantedFaults())
         if (fault.means == means) return fault;
-    throw std::out_of_range("no fault is called " + means);
+    throw std::out_of_range("no fault is called " + std::string(means));
 }
 
 bool differsVisibly(const Image& a, const Image& b) {

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,7 @@ struct PlantedFault {
 
 // At least 50 of them.
 const std::vector<PlantedFault>& plantedFaults();
-const PlantedFault& plantedFault(const std::string& means);  // throws std::out_of_range
+const PlantedFault& plantedFault(std::string_view means);  // throws std::out_of_range
 
 // One scene x camera x seed. The seed sets lights, materials, and what baked light and occlusion there is.
 class PlantedView {

@@ -33,15 +33,15 @@ TEST(DeviceProbesOnDevice, RoundingToATargetStaysWithinAStep) {
     }
 }
 
-const Probe& probeNamed(const std::string& name) {
+const Probe& probeNamed(std::string_view name) {
     const auto found = std::ranges::find(allProbes(), name, &Probe::name);
-    if (found == allProbes().end()) throw std::logic_error("no probe is called " + name);
+    if (found == allProbes().end()) throw std::logic_error("no probe is called " + std::string(name));
     return *found;
 }
 
 // Whether the probe fails where `fault` has changed each row's outputs.
 template <class Fault>
-bool isCaught(const std::string& name, Fault fault) {
+bool isCaught(std::string_view name, Fault fault) {
     const Probe& probe = probeNamed(name);
     DeviceRows rows(probeDevice());
     const std::vector<float> in =
