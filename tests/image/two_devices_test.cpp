@@ -8,6 +8,8 @@
 #include "compare/verdict/pair_reports.h"
 #include "tests/image/scenes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -160,9 +162,13 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
         acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)), here.precision, own));
     EXPECT_EQ(shares.front().name, "textures");
     double all = 0;
-    for (const DeviceShare& share : shares) all += share.share;
+    std::string words;
+    for (const DeviceShare& share : shares) {
+        all += share.share;
+        words += fmt::format("{}: {:.3g}; ", share.name, share.share);
+    }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
-    EXPECT_GT(shares.front().share, 0.99 * explanation.distance);
+    EXPECT_GT(shares.front().share, 0.99 * explanation.distance) << words;
 }
 
 }  // namespace
