@@ -168,7 +168,8 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
         words += fmt::format("{}: {:.3g}; ", share.name, share.share);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
-    EXPECT_GT(shares.front().share, 0.99 * explanation.distance) << words;
+    // What a vertex a sub-pixel step elsewhere may change is given to the vertices first.
+    EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << words;
 }
 
 }  // namespace
