@@ -55,7 +55,8 @@ TEST_F(CompileOn, EveryPipelineOfBothPathsIsCompiled) {
 }
 
 TEST_F(CompileOn, AnEstimateIsOfTheFamilysGpu) {
-    const Ran ran = runTool(folder, "plan builtin:triangle --compile-on vega10 --json --estimate" + smallSize);
+    const Ran ran =
+        runTool(folder, "plan builtin:triangle --compile-on vega10 --json --estimate" + smallSize);
     ASSERT_EQ(ran.code, 0) << ran.err;
     const nlohmann::json work = nlohmann::json::parse(ran.out)["scenes"][0]["work"];
     ASSERT_EQ(work.size(), 2u);
