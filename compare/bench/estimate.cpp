@@ -11,15 +11,15 @@ namespace diptych::bench {
 namespace {
 
 // NVIDIA Ampere GA102 and Ada AD102 white papers (2020, 2022), NVIDIA H100 white paper (2022), AMD's data
-// sheets (2017, 2020, 2022, 2023, 2025). Of an H100 two of 66 texture processing clusters, four
-// multiprocessors, run the shaders of draws: its draws are a small GPU's, its memory and compute shaders a
-// large one's.
+// sheets (2017, 2020, 2022, 2023, 2025). An H100 runs the shaders of draws on two of its 66
+// texture processing clusters (four multiprocessors): its draws are a small GPU's, its memory and compute
+// shaders a large one's.
 constexpr GpuFigures gpus[] = {
     {"NVIDIA GeForce RTX 3060", 360, 5.3, 85, 199, 12'740, 12'740},
     {"NVIDIA GeForce RTX 4090", 1008, 27.7, 443, 1290, 82'600, 82'600},
     {"AMD Radeon RX 7600", 288, 5.3, 170, 340, 21'750, 21'750, "navi33", 64 * 2.655},
     {"NVIDIA H100 SXM", 3350, 1.8, 43, 32, 2'030, 66'900},
-    // Of AMD SIMD units times the boost clock.
+    // AMD: SIMD units x boost clock.
     {"AMD Radeon RX Vega 64", 484, 6.2, 99, 396, 12'660, 12'660, "vega10", 256 * 1.546},
     {"AMD Radeon RX 6800 XT", 512, 9, 288, 648, 20'740, 20'740, "navi21", 144 * 2.25},
     {"AMD Radeon RX 7900 XTX", 960, 15, 480, 960, 61'400, 61'400, "navi31", 192 * 2.5},

@@ -37,8 +37,8 @@ struct PassEstimate {
     std::string_view
         bound;  // the demand that takes longest; "launch" where that is less than starting a pass
 };
-// What a compiler says of the pipelines of a pass, on average: cycles of a SIMD unit for a wave of 64
-// threads, without lights, and for a light at each of them.
+// The compiler's mean over the pipelines of a pass: a SIMD unit's cycles for a wave of 64 threads, without
+// lights and for each light.
 struct PassCycles {
     std::string pass;
     double vertex = 0, fragment = 0, compute = 0, light = 0;

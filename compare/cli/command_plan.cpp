@@ -28,7 +28,7 @@ struct ScenePlan {
     const DeviceInfo* compiler = nullptr;
 };
 
-// Of the GPUs of the compiler's family with what it says; without a compiler of all.
+// Estimates for the GPUs of the compiler's family; without a compiler for all GPUs.
 std::vector<bench::FrameEstimate> estimatesOf(const ScenePlan& plan, const FrameWork& work) {
     std::vector<bench::FrameEstimate> all;
     std::vector<bench::PassCycles> cycles;

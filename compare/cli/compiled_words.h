@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a compiler says of both paths' pipelines, as text and as JSON.
+// A compiler's statistics of both paths' pipelines, as text and as JSON.
 #pragma once
 
 #include "compare/render/compiled_plan.h"

@@ -3,6 +3,8 @@
 
 #include "compare/explain/lighting_stages.h"
 #include "compare/metrics/channel.h"
+#include "compare/verdict/surface_grid.h"
+#include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -29,7 +31,7 @@ Part partOf(const std::string& cause, bool textured) {
     return rounding;
 }
 
-// What was measured of both devices' textures, in words; empty without.
+// The measured precision of both devices' textures, in words; empty: not measured.
 std::string measured(const AcrossDevices& across) {
     const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
     if (!a || !b) return {};

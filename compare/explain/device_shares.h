@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which part of two devices' difference is whose: edges, textures, vertices, shadow maps, light lists, or
+// Attributes the difference of two devices to edges, textures, vertices, shadow maps, light lists and
 // rounding.
 #pragma once
 

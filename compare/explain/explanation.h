@@ -51,7 +51,7 @@ struct CausePair {
     double interaction = 0;             // Shares::interaction, W/(sr m^2)
 };
 
-// Of two pictures of one path on two devices: a part of the distance by where it comes from.
+// A part of the distance between one path on two devices, by where it comes from.
 struct DeviceShare {
     std::string name, shows;  // "textures"; what it is, in words
     double share = 0;         // W/(sr m^2), as Cause::share

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the pictures of one path on two devices are judged with: the devices' precision, and one device's
-// lighting of the other's surfaces.
+// Prepares the judgement of one path on two devices: probes both, and lights one device's surfaces on the
+// other.
 #pragma once
 
 #include "compare/render/renderer.h"

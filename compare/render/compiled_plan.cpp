@@ -18,8 +18,8 @@ namespace diptych {
 
 namespace {
 
-// Every channel that the path makes, lit ones also through the encoding. What bounds the encoding is drawn by
-// the same pipelines.
+// Every channel that the path makes, lit ones also through the encoding. The same pipelines draw the
+// encoding's bounds.
 CaptureRequest everyChannel(const Settings& settings) {
     CaptureRequest request;
     for (const DebugMode& mode : debugModes())

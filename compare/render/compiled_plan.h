@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a GPU's compiler says of the pipelines of both paths' frames and captures.
+// Compiles the pipelines of both paths' frames and captures for a GPU that is not there.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -21,13 +21,13 @@ struct PlannedPipeline {
     CompiledPipeline compiled;
     std::optional<double> unlit_cycles{};  // ShaderCost::cycles without lights, where it has some
 
-    // Of the shader that it is called by; nullptr: it did not compile.
+    // The last shader's, which names the pipeline; nullptr: it did not compile.
     const ShaderCost* cost() const {
         return compiled.shaders.empty() ? nullptr : &compiled.shaders.back().cost;
     }
 };
 
-// What a feature adds to the heaviest pipeline of a frame that has it.
+// The heaviest pipeline of a frame with a feature, and without it.
 struct FeatureCost {
     std::string feature, pass, shader;
     ShaderCost with, without;

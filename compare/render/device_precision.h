@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What decides how far a device's pictures may be from another device's: the precision that it promises, and
-// what was measured of it.
+// The precision that a device promises and that was measured of it, which bounds how far its pictures may be
+// from another device's.
 #pragma once
 
 #include "shared/frame/setting_values.h"

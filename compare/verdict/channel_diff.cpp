@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/channel_diff.h"
 
-#include "compare/verdict/across_devices.h"
+#include "compare/verdict/device_bounds.h"
 #include "compare/verdict/domain.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"

@@ -5,6 +5,8 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/one_sided.h"
+#include "compare/verdict/surface_grid.h"
+#include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/made_channels.h"
 
@@ -118,7 +120,7 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
     return nullptr;
 }
 
-// Of one path on two devices: pixels that show another surface are counted, and not compared.
+// Counts pixels that show another surface on the other device, and leaves them out of the comparison.
 void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
     const SurfacePixels surfaces = surfacePixels(pair);
     if (std::string fault = surfaces.fault(); !fault.empty())

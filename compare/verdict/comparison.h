@@ -79,7 +79,7 @@ struct CompareOptions {
     bool allow_empty = false;  // pictures that show nothing, or hardly anything, are what is wanted
     // What the device makes of texels of 8 bits, which a reference in mode scene grants it.
     std::optional<TextureSampling> texels{};
-    // Of one path on two devices; which outlives the comparison.
+    // One path on two devices; outlives the comparison.
     const AcrossDevices* across = nullptr;
     Stage progress{};  // of comparing
 };

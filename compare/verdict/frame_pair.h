@@ -10,7 +10,7 @@
 namespace diptych {
 
 struct AcrossDevices;  // across_devices.h
-class SurfaceGrid;
+class SurfaceGrid;     // surface_grid.h
 
 // Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
 struct FramePair {
@@ -27,7 +27,7 @@ struct FramePair {
     // textures.
     const TextureSampling* texels = nullptr;
 
-    // Of one path on two devices: what tells their differences from faults; else nullptr.
+    // One path on two devices, with its neighbours; else nullptr.
     const AcrossDevices* across = nullptr;
     const SurfaceGrid* grid = nullptr;
 

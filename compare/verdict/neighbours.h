@@ -40,7 +40,7 @@ inline double apart(const DebugMode& mode, const float* a, const float* b) {
     return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
 }
 
-// Which pixels around one show the same surface, by material, place and normal; without these all do.
+// Tells whether neighbours show the same surface, by material, place and normal; without these all do.
 class SurfaceAround {
 public:
     explicit SurfaceAround(const Frame& frame)
@@ -51,7 +51,7 @@ public:
     bool sameMaterial(std::size_t i, std::size_t j) const {
         return !ids_ || *ids_->pixel(i) == *ids_->pixel(j);
     }
-    // Whether the neighbour `j` lies within 30 degrees of the plane of pixel `i`.
+    // The neighbour `j` lies within 30 degrees of the plane of pixel `i`.
     bool same(std::size_t i, std::size_t j) const {
         if (!sameMaterial(i, j)) return false;
         if (!positions_ || !normals_) return true;

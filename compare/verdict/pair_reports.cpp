@@ -6,6 +6,7 @@
 #include "compare/run/command_text.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/neighbours.h"
+#include "compare/verdict/surface_pixels.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 

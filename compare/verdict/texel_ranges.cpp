@@ -29,7 +29,7 @@ constexpr double levelBelow = 0.5, levelAbove = 1;
 // also from half a texel beside: more than the steps by which two devices place a vertex.
 constexpr int texelsSeen = 1;
 
-// What a texel's components are in a channel: `factor` x the component's range.
+// A texel's components in a channel: `factor` x the component's range.
 struct Use {
     gpu::uint mode;
     std::array<double, 4> factor;  // of each component

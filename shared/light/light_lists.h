@@ -36,7 +36,7 @@ private:
     OwnedPipelineLayout pipeline_;
 };
 
-// Of a buffer that shaders read as texels or, where `addressed`, by its address.
+// For a buffer that shaders read as texels or, where `addressed`, by its address.
 constexpr VkBufferUsageFlags texelsOrAddress =
     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 OwnedBufferView texelsUnless(bool addressed, Device& device, const std::string& name, const GpuBuffer& buffer,

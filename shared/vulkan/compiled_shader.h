@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a driver's compiler says of one shader of a pipeline (VK_KHR_pipeline_executable_properties).
+// A driver's statistics of one compiled shader (VK_KHR_pipeline_executable_properties).
 #pragma once
 
 #include <cstdint>

@@ -52,7 +52,7 @@ public:
     Device& operator=(const Device&) = delete;
 
     const DeviceInfo& info() const;
-    // What the device has, asked once.
+    // Asked once.
     const DeviceSupport& support() const;
     const VkPhysicalDeviceLimits& limits() const { return support().limits(); }
     VkDevice handle() const;

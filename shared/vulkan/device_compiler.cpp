@@ -226,7 +226,7 @@ std::vector<CompiledPipeline> DeviceCompiler::compile(std::span<const PipelineRe
     return compiled;
 }
 
-// What it cannot draw to; empty: nothing.
+// The first attachment that the device cannot draw to; empty: it can draw to all.
 std::string DeviceCompiler::State::lackedFormats(const PipelineKey& key) const {
     const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
         return (support.sampleCounts(format, usage) & key.samples) != 0;

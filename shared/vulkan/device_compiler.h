@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a GPU's compiler says of the pipelines that another device makes. Compiling needs instance, device,
+// Compiles the pipelines that another device makes, by a GPU's own compiler. That needs instance, device,
 // layouts and modules alone: RADV without hardware has those, but no memory, image, fence or command buffer.
 #pragma once
 

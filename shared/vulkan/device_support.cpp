@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/device_support.h"
 
+#include "shared/vulkan/spirv_ops.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +36,7 @@ std::optional<std::size_t> rowOf(VkFormat format) {
     return static_cast<std::size_t>(found - rows.begin());
 }
 
-// What a format that lacks these uses cannot be.
+// In words: a format that lacks these uses cannot be ...
 std::string wordsOf(std::uint32_t uses) {
     std::string words;
     const auto add = [&](std::uint32_t use, const char* word) {
@@ -217,7 +219,6 @@ std::vector<VkDeviceSize> DeviceSupport::bytesLeft() const {
 }
 
 std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<const std::uint32_t> words) {
-    constexpr std::uint32_t header = 5, opCapability = 17;
     // SPIR-V 1.6, "Capability"; those without a feature are Vulkan 1.3's own, or asked of subgroups.
     struct Capability {
         std::uint32_t number;
@@ -242,8 +243,8 @@ std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<
         Capability{64, {}},  // GroupNonUniform, -Arithmetic, -Ballot
         Capability{5347, bufferDeviceAddress},
         Capability{5379, shaderDemoteToHelperInvocation}};
-    for (std::size_t at = header; at < words.size() && (words[at] & 0xffff) == opCapability;
-         at += words[at] >> 16) {
+    for (std::size_t at = spirv::headerWords; at < words.size(); at += 2) {
+        if (spirv::opOf(words.subspan(at)) != spirv::OpCapability) break;
         const auto found = std::ranges::find(known, words[at + 1], &Capability::number);
         if (found == known.end())
             throw std::logic_error(fmt::format(

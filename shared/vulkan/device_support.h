@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What Vulkan leaves to the device and this program uses: features, formats by their use, limits, extensions.
+// Everything optional in Vulkan that this program uses: features, formats by their use, limits, extensions.
 // Each is a row of a table here and is asked once, by DeviceSupport: nobody else asks Vulkan
 // (unit.Conventions). tool.HiddenSupport hides row by row from the program (tests/tool/layer).
 #pragma once
@@ -183,9 +183,9 @@ public:
     // Whether a format has all of these uses, a sum of format_use. Throws std::logic_error where
     // DEVICE_FORMATS does not list one of them: a use that is in no row would be hidden by no test.
     bool can(VkFormat format, std::uint32_t uses) const;
-    // What lacks and what helps, in words; nothing where the format has them all.
+    // In words, the lacking use and a remedy; nothing where the format has them all.
     std::optional<std::string> lacks(VkFormat format, std::uint32_t uses) const;
-    // What images of a format and usage may be: extent, levels, layers, samples; all 0: there are none.
+    // Limits of images of a format and usage: extent, levels, layers, samples; all 0: there are none.
     VkImageFormatProperties images(VkFormat format, VkImageUsageFlags usage) const;
     // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
     VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const {

@@ -22,7 +22,7 @@ private:
     std::vector<std::pair<std::string, std::optional<std::string>>> before_;
 };
 
-// What is written to standard error meanwhile goes nowhere.
+// Discards everything written to standard error while it lives.
 class QuietStandardError {
 public:
     QuietStandardError();

@@ -3,6 +3,8 @@
 // dependence", POPL 1983) of branches that are structured as SPIR-V has them.
 #include "shared/vulkan/flatten.h"
 
+#include "shared/vulkan/spirv_ops.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -12,37 +14,17 @@ namespace diptych {
 
 namespace {
 
-// Opcodes of the specification's section 3.49.
-enum Op : std::uint32_t {
-    OpUndef = 1,
-    OpExtInst = 12,
-    OpFunction = 54,
-    OpFunctionEnd = 56,
-    OpSelect = 169,
-    OpPhi = 245,
-    OpLoopMerge = 246,
-    OpSelectionMerge = 247,
-    OpLabel = 248,
-    OpBranch = 249,
-    OpBranchConditional = 250,
-    OpSwitch = 251,
-};
-// Of GLSL.std.450: what stores, and what interpolates, which is only for where a fragment's neighbours are.
-constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51, extendedInterpolates = 76;
+using namespace spirv;
 
-using Words = std::span<const std::uint32_t>;
-constexpr std::size_t none = ~std::size_t{0};
+constexpr std::size_t nowhere = ~std::size_t{0};
 
-std::uint32_t opOf(Words in) {
-    return in[0] & 0xffff;
-}
-
-// Whether an instruction computes from values alone, whatever these are. Integers divided by zero may trap.
+// An instruction that computes from values alone, whatever these are. Integers divided by zero may trap, and
+// what interpolates does so only where a fragment's neighbours are.
 bool computes(Words in) {
     const std::uint32_t op = opOf(in);
     if (op == OpExtInst)
         return in[4] != extendedModf && in[4] != extendedFrexp && in[4] < extendedInterpolates;
-    const bool divides = op == 134 || op == 135 || (op >= 137 && op <= 139);
+    const bool divides = op == OpUDiv || op == OpSDiv || (op >= OpUMod && op <= OpSMod);
     // Composites and vectors; conversions, arithmetic, comparisons and bits.
     return op == OpUndef || (op >= 77 && op <= 84) || (op >= 109 && op <= 124) ||
            (op >= 126 && op <= 205 && !divides);
@@ -57,7 +39,7 @@ struct Block {
 
 class Flattener {
 public:
-    explicit Flattener(Words words) : words_(words), block_of_(words[3], none) { read(); }
+    explicit Flattener(Words words) : words_(words), block_of_(words[3], nowhere) { read(); }
 
     std::vector<std::uint32_t> result() {
         // The innermost branches come last: once they are gone, those around them are such, too.
@@ -81,8 +63,8 @@ public:
 
 private:
     void read() {
-        std::size_t at = 5;
-        const auto next = [&] { return words_.subspan(at, words_[at] >> 16); };
+        std::size_t at = headerWords;
+        const auto next = [&] { return instructionAt(words_, at); };
         while (opOf(next()) != OpFunction) at += next().size();
         at += next().size();
         first_ = at;

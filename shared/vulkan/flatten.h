@@ -10,7 +10,7 @@
 namespace diptych {
 
 // `module` as specialized() leaves it. Where both ways of a branch do nothing but compute, from values alone,
-// both are computed and each result is selected, from the innermost branch outwards. What is computed does
+// both are computed and each result is selected, from the innermost branch outwards. A computation does
 // not change by a bit. Memory, images and derivatives stay behind their conditions.
 std::vector<std::uint32_t> flattened(std::span<const std::uint32_t> module);
 

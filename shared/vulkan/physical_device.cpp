@@ -66,7 +66,7 @@ constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kind
     return std::max(drawing, count(frame) + count(lists));
 }
 
-// Of SET_FRAME alone.
+// SET_FRAME alone.
 constexpr std::uint32_t frameDescriptors(VkDescriptorType kind) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     return static_cast<std::uint32_t>(std::ranges::count(frame, kind));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device that draws tells a compiler (DeviceCompiler) of layouts, passes and pipelines while it makes
-// its own.
+// The interface by which a drawing device passes its layouts, passes and pipelines to a compiler
+// (DeviceCompiler) while it makes its own.
 #pragma once
 
 #include "shared/vulkan/device_info.h"

@@ -4,6 +4,8 @@
 // changes counts as unknown. Then what the living code reads is marked from its effects on, and written.
 #include "shared/vulkan/specialize.h"
 
+#include "shared/vulkan/spirv_ops.h"
+
 #include <algorithm>
 #include <bit>
 #include <map>
@@ -14,80 +16,15 @@ namespace diptych {
 
 namespace {
 
-// Opcodes of the specification's section 3.49.
-enum Op : std::uint32_t {
-    OpName = 5,
-    OpEntryPoint = 15,
-    OpExtInst = 12,
-    OpTypeBool = 20,
-    OpTypeInt = 21,
-    OpTypeFloat = 22,
-    OpConstantTrue = 41,
-    OpConstantFalse = 42,
-    OpConstant = 43,
-    OpConstantNull = 46,
-    OpSpecConstantTrue = 48,
-    OpSpecConstantFalse = 49,
-    OpSpecConstant = 50,
-    OpSpecConstantComposite = 51,
-    OpConstantComposite = 44,
-    OpSpecConstantOp = 52,
-    OpFunction = 54,
-    OpFunctionEnd = 56,
-    OpVariable = 59,
-    OpLoad = 61,
-    OpDecorate = 71,
-    OpCopyObject = 83,
-    OpUndef = 1,
-    OpBitcast = 124,
-    OpIAdd = 128,
-    OpISub = 130,
-    OpIMul = 132,
-    OpUDiv = 134,
-    OpUMod = 137,
-    OpLogicalEqual = 164,
-    OpLogicalNotEqual = 165,
-    OpLogicalOr = 166,
-    OpLogicalAnd = 167,
-    OpLogicalNot = 168,
-    OpSelect = 169,
-    OpIEqual = 170,
-    OpINotEqual = 171,
-    OpUGreaterThan = 172,
-    OpSGreaterThan = 173,
-    OpUGreaterThanEqual = 174,
-    OpSGreaterThanEqual = 175,
-    OpULessThan = 176,
-    OpSLessThan = 177,
-    OpULessThanEqual = 178,
-    OpSLessThanEqual = 179,
-    OpShiftRightLogical = 194,
-    OpShiftLeftLogical = 196,
-    OpBitwiseOr = 197,
-    OpBitwiseXor = 198,
-    OpBitwiseAnd = 199,
-    OpNot = 200,
-    OpBitCount = 205,
-    OpPhi = 245,
-    OpLoopMerge = 246,
-    OpSelectionMerge = 247,
-    OpLabel = 248,
-    OpBranch = 249,
-    OpBranchConditional = 250,
-    OpSwitch = 251,
-    OpKill = 252,
-    OpReturn = 253,
-    OpUnreachable = 255,
-    OpTerminateInvocation = 4416,
-};
-constexpr std::uint32_t decorationSpecId = 1, memoryVolatile = 1, storageInput = 1;
-constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51;  // of GLSL.std.450: they store, too
+using namespace spirv;
+
+constexpr std::uint32_t decorationSpecId = 1, decorationLocation = 30, memoryVolatile = 1, storageInput = 1;
 
 constexpr std::uint32_t none = ~0u;
 
-// Whether an instruction does nothing but make its result, so that it may go where nothing reads that.
+// An instruction that does nothing but make its result may go where nothing reads that.
 bool isPure(std::span<const std::uint32_t> in) {
-    const std::uint32_t op = in[0] & 0xffff;
+    const std::uint32_t op = opOf(in);
     switch (op) {
         case OpExtInst:
             return in[4] != extendedModf && in[4] != extendedFrexp;
@@ -96,12 +33,12 @@ bool isPure(std::span<const std::uint32_t> in) {
         case OpUndef:
         case OpVariable:
         case OpPhi:
-        case 60:   // OpImageTexelPointer
-        case 65:   // OpAccessChain
-        case 66:   // OpInBoundsAccessChain
-        case 67:   // OpPtrAccessChain
-        case 68:   // OpArrayLength
-        case 400:  // OpCopyLogical
+        case OpImageTexelPointer:
+        case OpAccessChain:
+        case OpInBoundsAccessChain:
+        case OpPtrAccessChain:
+        case OpArrayLength:
+        case OpCopyLogical:
             return true;
         default:
             // Composites, conversions, arithmetic, comparisons, bits and derivatives; samples, fetches,
@@ -115,7 +52,8 @@ class Specializer {
 public:
     Specializer(std::span<const std::uint32_t> words, const SpecializationValue& value)
         : words_(words), value_(value) {
-        if (words.size() < 5 || words[0] != 0x07230203) throw std::logic_error("not a SPIR-V module");
+        if (words.size() < headerWords || words[0] != magicNumber)
+            throw std::logic_error("not a SPIR-V module");
         bound_ = words[3];
         bits_.resize(bound_);
         ids_.resize(bound_);
@@ -155,13 +93,11 @@ private:
         bool declares_merge = false;   // writes a merge instruction of its own: that of `merge`
     };
 
-    std::span<const std::uint32_t> instruction(std::uint32_t at) const {
-        return words_.subspan(at, words_[at] >> 16);
-    }
+    std::span<const std::uint32_t> instruction(std::uint32_t at) const { return instructionAt(words_, at); }
     std::uint32_t op(std::uint32_t at) const { return words_[at] & 0xffff; }
 
     void readModule() {
-        std::uint32_t at = 5;
+        std::uint32_t at = headerWords;
         for (; at < words_.size() && op(at) != OpFunction; at += words_[at] >> 16) {
             const auto in = instruction(at);
             switch (op(at)) {
@@ -257,7 +193,7 @@ private:
     // Of what stands in functions, instructions without a result: stores and copies of memory (62 to 64),
     // image writes (99), barriers (224, 225), atomic stores (228), merges, and demoting (5380).
     static bool hasResult(std::span<const std::uint32_t> in) {
-        const std::uint32_t op = in[0] & 0xffff;
+        const std::uint32_t op = opOf(in);
         return in.size() > 2 && !(op >= 62 && op <= 64) && op != 99 && op != 224 && op != 225 && op != 228 &&
                op != OpLoopMerge && op != OpSelectionMerge && op != 5380;
     }
@@ -558,7 +494,7 @@ private:
     std::vector<std::uint32_t> written() {
         out_.reserve(words_.size());
         put(words_.first(5));
-        for (std::uint32_t at = 5; at < function_; at += words_[at] >> 16) putGlobal(at);
+        for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) putGlobal(at);
         for (const std::uint32_t id : constants_) putConstant(id);
         putUndefined();
         put(instruction(function_));
@@ -695,20 +631,19 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
 }
 
 std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module) {
-    constexpr std::uint32_t decorationLocation = 30, typeMatrix = 24, typePointer = 32;
     std::map<std::uint32_t, std::uint32_t> columns, pointed, locations;  // by id
     std::set<std::uint32_t> found;
-    for (std::size_t at = 5; at < module.size() && (module[at] & 0xffff) != OpFunction;
-         at += module[at] >> 16) {
-        const auto in = module.subspan(at);
-        switch (module[at] & 0xffff) {
+    std::size_t at = headerWords;
+    for (Words in; at < module.size() && opOf(in = instructionAt(module, at)) != OpFunction;
+         at += in.size()) {
+        switch (opOf(in)) {
             case OpDecorate:
                 if (in[2] == decorationLocation) locations[in[1]] = in[3];
                 break;
-            case typeMatrix:
+            case OpTypeMatrix:
                 columns[in[1]] = in[3];
                 break;
-            case typePointer:
+            case OpTypePointer:
                 pointed[in[1]] = in[3];
                 break;
             case OpVariable:

@@ -78,7 +78,7 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
                             std::move(across));
 }
 
-// What fails of each path on both devices: deferred, forward+.
+// The failures of each path on both devices: deferred, forward+.
 std::array<std::string, 2> faults(const Report& report) {
     std::array<std::string, 2> text;
     for (const std::size_t path : {0, 1}) {
@@ -122,7 +122,7 @@ TEST(TwoDevices, TexelsThatAreOneCodeOffAreFound) {
 
 TEST(TwoDevices, AWrongCurveIsFound) {
     const Report report = against([](Scene& scene) {
-        // What a display's power of 2.2 makes of a code, as a code of sRGB's curve.
+        // A code that a display's power of 2.2 decodes, as a code of sRGB's curve.
         eachBaseColorTexel(scene, [](int c) {
             const double linear = std::pow(c / 255.0, 2.2);
             return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
@@ -168,7 +168,7 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
         words += fmt::format("{}: {:.3g}; ", share.name, share.share);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
-    // What a vertex a sub-pixel step elsewhere may change is given to the vertices first.
+    // Vertices are granted first what a sub-pixel step may change.
     EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << words;
 }
 

@@ -80,7 +80,7 @@ TEST_F(CompileOn, WhatCannotCompileIsOneLine) {
     EXPECT_TRUE(silent.failedOver("says nothing of what it compiles"));
 }
 
-// What RADV lists where its variable is set runs nothing, and is not chosen to draw.
+// RADV's null device runs nothing, and is not chosen to draw.
 TEST_F(CompileOn, HardwareThatIsNotThereDrawsNothing) {
     const std::string forced = "RADV_FORCE_FAMILY=vega10 '" DIPTYCH_PROGRAM "' ";
     const Ran listed =

@@ -16,7 +16,7 @@
 namespace diptych {
 namespace {
 
-// What uses the rows whose names contain one of `rows`; the last one of all others.
+// A command that uses the rows whose names contain one of `rows`; the last one uses all others.
 struct Use {
     std::vector<std::string> rows;
     std::string arguments;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace diptych {
 namespace {
@@ -21,7 +22,7 @@ json storyOf(const Folder& folder, const std::string& arguments) {
     return ran.code == 0 ? json::parse(ran.out) : json();
 }
 
-const json& named(const json& list, const std::string& key, const std::string& name) {
+const json& named(const json& list, const char* key, std::string_view name) {
     static const json none;
     const auto found = std::ranges::find_if(list, [&](const json& one) { return one[key] == name; });
     EXPECT_NE(found, list.end()) << name;

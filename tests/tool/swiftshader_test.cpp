@@ -41,7 +41,7 @@ TEST_F(SwiftShader, IsTheDeviceAndSaysWhatItLacks) {
     }
 }
 
-// Of scenes a seeded slice, and always those of area lights, skins and blended surfaces.
+// A seeded slice of the scenes, and always area lights, skins and blended surfaces.
 TEST_F(SwiftShader, BothPathsAgreeOnEveryBuiltinScene) {
     std::istringstream list(run("render --list-scenes").out);
     std::vector<std::string> names;

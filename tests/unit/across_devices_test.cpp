@@ -3,6 +3,8 @@
 // one that it does not.
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
+#include "compare/verdict/device_bounds.h"
+#include "compare/verdict/surface_pixels.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"
 

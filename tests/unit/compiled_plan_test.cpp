@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is made of a compiler's statistics, of made-up ones.
+// Made-up statistics of a compiler, and what the plan makes of them.
 #include "compare/render/compiled_plan.h"
 #include "compare/bench/estimate.h"
 #include "compare/cli/compiled_words.h"
@@ -47,7 +47,7 @@ TEST(CompiledPlan, AVariantIsTheFeaturesThatAreOn) {
     EXPECT_EQ(inWords(variant), "point_lights shadows=2");
 }
 
-// What is a number of another feature is none that could be absent, nor is how the G-buffer is encoded.
+// A switch is a feature that a view may lack: no number of another feature, and no encoding of the G-buffer.
 TEST(CompiledPlan, SwitchesAreWhatAViewMayLack) {
     std::vector<std::string> switches;
     for (const FeatureRow& row : featureRows)

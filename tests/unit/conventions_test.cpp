@@ -99,8 +99,8 @@ TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
               Faults{"compare/render/planted.cpp"});
 }
 
-// What a device has is asked in one place; the window's surface is the viewer's own, and instances list their
-// devices and layers. The functions' names, so that a wrapper of them is found too.
+// Vulkan is asked about a device in one place; the window's surface is the viewer's own, and instances list
+// their devices and layers. The functions' names, so that a wrapper of them is found too.
 Faults askersOfVulkan(const Files& files) {
     static const std::regex asks("\\bvkGetPhysicalDevice(\\w+)|\\bvkEnumerateDeviceExtensionProperties");
     Faults faults;

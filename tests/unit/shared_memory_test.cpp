@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the workgroups of a module share, of the shipped kernels and of a module made word by word.
+// Shared memory of the shipped kernels, and of a module made word by word.
 #include "shared/vulkan/shared_memory.h"
 #include "shared/vulkan/specialize.h"
 #include "shared/vulkan/spirv.h"

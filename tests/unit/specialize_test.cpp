@@ -389,7 +389,7 @@ std::map<std::uint32_t, int> instructionsOf(const SpirvWords& words) {
     return count;
 }
 
-// What is computed stays; of phis selections are made, one each, and branches are fewer.
+// Computations stay, each phi becomes a selection, and branches are fewer.
 TEST(Flatten, EveryModuleComputesTheSameWithFewerBranches) {
     constexpr std::uint32_t select = 169, phi = 245, selectionMerge = 247, label = 248, branch = 249,
                             conditional = 250;
@@ -409,7 +409,7 @@ TEST(Flatten, EveryModuleComputesTheSameWithFewerBranches) {
     EXPECT_LT(after, before / 2) << before;
 }
 
-// Which side is selected; what reads memory stays behind its condition, and what is around it.
+// The condition selects the right side; a branch that reads memory stays, and so do those around it.
 TEST(Flatten, SelectsTheSideOfTheConditionAndLeavesMemoryAlone) {
     const auto branches = [](const std::string& inner) {
         return flattened(specializedBy(fragmentShader(R"(%c = OpFOrdLessThan %bool %x %one

@@ -28,7 +28,7 @@ bool hides(const std::string& name) {
     return hidden() == name;
 }
 
-// What a limit is lowered to, of `there`: `least`, or the number that is named.
+// The lowered limit: the number that is named, or `least`.
 std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32_t least) {
     if (!hidden().starts_with(limit)) return there;
     const std::string number = hidden().substr(limit.size());

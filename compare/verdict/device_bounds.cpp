@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/device_bounds.h"
+
+#include "compare/metrics/pixel.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace diptych {
+namespace {
+
+// A triangle that ends half-way to the next pixel, beyond which nothing changes, changes by twice of what is
+// seen.
+constexpr double kink = 2;
+
+// The relative distance of the two devices' decoding of sRGB codes, by the least code of them (a factor may
+// have darkened a texel, never brightened it): what was measured, and no more than Vulkan allows, half a code
+// each.
+std::array<double, 256> decodeShares(const AcrossDevices& across) {
+    std::array<double, 256> shares{};
+    const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
+    double most = 0;
+    for (std::size_t code = 255; code > 0; --code) {
+        const double exact = exactSrgb(code), code_step = exact - exactSrgb(code - 1),
+                     allowed = code < 255 ? std::max(code_step, exactSrgb(code + 1) - exact) : code_step,
+                     measured = a && b ? std::abs(double{a->srgb[code]} - double{b->srgb[code]}) : allowed;
+        most = std::max(most, std::min(allowed, measured) / exact);
+        shares[code] = most;
+    }
+    shares[0] = most;
+    return shares;
+}
+
+// What both devices' filters round texels of 8 bits by: what was measured, and no more than a code each.
+double filterRounding(const AcrossDevices& across, bool srgb) {
+    double sum = 0;
+    for (const DevicePrecision& device : across.devices)
+        sum += !device.texels
+                   ? 1.0 / 255
+                   : std::min(1.0 / 255,
+                              (srgb ? device.texels->srgb_filter : device.texels->linear_filter).rounding);
+    return sum;
+}
+
+// Shares of a light that are not equal within their rounding.
+bool areApart(const Image& a, std::size_t i, const Image& b, std::size_t j) {
+    const float p = *a.pixel(i), q = *b.pixel(j);
+    return metrics::distance(p, q) > 2 * shadingRounding || (p == 0) != (q == 0);
+}
+
+const Image* imageOf(const std::map<int, Image>& images, int mode) {
+    const auto found = images.find(mode);
+    return found == images.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+PlaceBound::PlaceBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test)
+    : mode_(mode),
+      grid_(*pair.grid),
+      images_{&baseline, &test},
+      step_(kink * stepOf(*pair.across, &DevicePrecision::sub_pixel_bits)) {}
+
+double PlaceBound::operator()(std::size_t i) const {
+    if (grid_.narrow[i] != 0) {
+        const unsigned seen = grid_.material[i];
+        if ((seen & across_bits) == 0 || (seen & down_bits) == 0)
+            return std::numeric_limits<double>::infinity();
+        return std::max(change(*images_[0], i, seen), change(*images_[1], i, seen));
+    }
+    // The smaller of both pictures', so that what is wrong in one of them does not widen what it is held
+    // to.
+    const unsigned seen = grid_.surface[i];
+    const double changes = std::min(change(*images_[0], i, seen), change(*images_[1], i, seen));
+    return std::min(1.0, step_ * double{grid_.steeper[i]}) * changes;
+}
+
+double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) const {
+    double most = 0;
+    aroundPixel(image, i, [&](std::size_t j, unsigned bit) {
+        if ((seen & bit) == 0) return;
+        const double to = apart(mode_, image.pixel(i), image.pixel(j));
+        if (std::isfinite(to)) most = std::max(most, to);
+    });
+    return most;
+}
+
+Shadowed::Shadowed(const FramePair& pair) {
+    for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
+        if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b)
+            images_.push_back({a, b});
+}
+
+bool Shadowed::differs(std::size_t i) const {
+    return std::ranges::any_of(images_, [i](const auto& of) { return areApart(*of[0], i, *of[1], i); });
+}
+
+double Shadowed::relative(std::size_t i) const {
+    double share = 0;
+    for (const auto& [a, b] : images_)
+        if (const double least = std::min(*a->pixel(i), *b->pixel(i)); least > 0)
+            share += metrics::distance(*a->pixel(i), *b->pixel(i)) / least;
+    return share;
+}
+
+bool Shadowed::isBesideEdge(std::size_t i) const {
+    bool found = false;
+    for (const auto& of : images_)
+        for (const Image* image : of)
+            aroundPixel(*image, i,
+                        [&](std::size_t j, unsigned) { found = found || areApart(*image, i, *image, j); });
+    return found;
+}
+
+DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
+    switch (static_cast<gpu::uint>(mode.number)) {
+        case gpu::DEBUG_depth:
+        case gpu::DEBUG_position:
+        case gpu::DEBUG_texcoords:
+        case gpu::DEBUG_tangent:
+        case gpu::DEBUG_lit_haze:
+        case gpu::DEBUG_transmittance:
+            return Kind::place;
+        case gpu::DEBUG_geometric_normal:
+            return Kind::facet;
+        case gpu::DEBUG_shadow_visibility:
+        case gpu::DEBUG_local_visibility:
+            return Kind::seen;
+        case gpu::DEBUG_light_count:
+        case gpu::DEBUG_list_overflow:
+        case gpu::DEBUG_shaded_samples:
+            return Kind::list;
+        case gpu::DEBUG_material_id:
+            return Kind::id;
+        default:
+            return isLit(mode.number)             ? Kind::light
+                   : mode.metric == Metric::exact ? Kind::step
+                                                  : Kind::surface;
+    }
+}
+
+DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
+    : mode_(mode),
+      across_(*pair.across),
+      kind_(kindOf(mode)),
+      baseline_(pair.baseline.channels.at(mode.number)),
+      test_(pair.test.channels.at(mode.number)),
+      error_(mode.metric, mode.kind, baseline_, pair.coverage),
+      place_(mode, pair, baseline_, test_),
+      facet_(pair),
+      bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
+      texels_(imageOf(across_.texels, mode.number)),
+      expected_(imageOf(across_.relit, mode.number)),
+      shadowed_(pair) {
+    if (mode.number == static_cast<int>(gpu::DEBUG_lit) && !pair.baseline.unblended.empty() &&
+        !pair.test.unblended.empty())
+        unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
+    if (!texels_ || !isColor()) return;
+    shares_ = decodeShares(across_);
+    for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
+}
+
+double DeviceBounds::operator()(std::size_t i) const {
+    const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
+    const double unit = mode_.metric == Metric::relative ? size : 1;
+    const double rounding = relativeRounding() * (mode_.domain == Domain::unit ? degreesPerRadian : size);
+    switch (kind_) {
+        case Kind::id:
+            return 0;
+        case Kind::step:
+            return isBeside(i) ? 1 : 0;
+        case Kind::facet:
+            return facet_(i);
+        case Kind::place:
+            return (place_(i) + rounding) / unit;
+        case Kind::surface:
+            return (place_(i) + rounding + textures(i)) / unit + bits_;
+        case Kind::light:
+            return 2 * shadingRounding + shadowed_.relative(i);
+        case Kind::seen:
+            return 2 * shadingRounding;
+        case Kind::list:
+            return std::numeric_limits<double>::infinity();
+    }
+    return 0;
+}
+
+double DeviceBounds::error(std::size_t i) const {
+    if (kind_ != Kind::light) return error_(test_.pixel(i), baseline_.pixel(i));
+    const Image &lit = unblended_[1] ? *unblended_[1] : test_, &expected = expected_ ? *expected_ : baseline_;
+    const double apart =
+        std::max(metrics::distance(lit.pixel(i), expected.pixel(i), mode_.width), blendedApart(i));
+    return apart == 0
+               ? 0
+               : apart / std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
+}
+
+double DeviceBounds::blendedApart(std::size_t i) const {
+    if (!unblended_[0] || !unblended_[1]) return 0;
+    double beside = metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width);
+    for (const Image* image : {&baseline_, &test_})
+        aroundPixel(*image, i, [&](std::size_t j, unsigned) {
+            beside = std::max(beside, metrics::distance(image->pixel(i), image->pixel(j), mode_.width));
+        });
+    return std::max(0.0, metrics::distance(baseline_.pixel(i), test_.pixel(i), mode_.width) - beside);
+}
+
+std::string DeviceBounds::because() const {
+    const auto& [a, b] = across_.devices;
+    const std::string placed = fmt::format(
+        "vertices are placed to 1/{} and 1/{} of a pixel, so much of what changes to the next one",
+        1u << a.sub_pixel_bits, 1u << b.sub_pixel_bits);
+    switch (kind_) {
+        case Kind::id:
+            return "an index is carried whole";
+        case Kind::step:
+            return "an index, which may be its neighbour's where it changes";
+        case Kind::facet:
+            return "a triangle's normal, from places that are rounded to 2^-24 of their distance, and "
+                   "packed";
+        case Kind::place:
+            return placed + fmt::format("; and {:.2g} of it by rounding", relativeRounding());
+        case Kind::surface: {
+            std::string words = placed;
+            if (texels_)
+                words += "; filters mix texels of two levels with weights of " +
+                         fmt::format("{} and {} bits", a.sub_texel_bits, b.sub_texel_bits) +
+                         ", and Vulkan leaves open the level of detail, so that either may be any mean of "
+                         "the texels that it may see" +
+                         decoding();
+            if (bits_ > 0) words += fmt::format("; and both G-buffers' bits, {:.3g}", bits_);
+            return words;
+        }
+        case Kind::light:
+            return fmt::format(
+                "what {} makes of the surfaces that {} drew, both in float32: 1e-4 each, before anything "
+                "is blended; and "
+                "blended, no further apart than the next pixels",
+                a.name, b.name);
+        case Kind::seen:
+            return "float32 weights, 1e-4 each; at a shadow's edge texels of the map may show another "
+                   "triangle";
+        case Kind::list:
+            return "each device's lists have cells of the size that costs it least; what they leave out "
+                   "shows "
+                   "in lit";
+    }
+    return {};
+}
+
+bool DeviceBounds::isBeside(std::size_t i) const {
+    bool found = false;
+    for (const Image* image : {&baseline_, &test_})
+        aroundPixel(*image, i, [&](std::size_t j, unsigned) {
+            found = found ||
+                    (*image->pixel(j) == *test_.pixel(i) && *image->pixel(j) != *baseline_.pixel(i)) ||
+                    (*image->pixel(j) == *baseline_.pixel(i) && *image->pixel(j) != *test_.pixel(i));
+        });
+    return found;
+}
+
+bool DeviceBounds::isColor() const {
+    switch (static_cast<gpu::uint>(mode_.number)) {
+        case gpu::DEBUG_albedo:
+        case gpu::DEBUG_dielectric_f0:
+        case gpu::DEBUG_specular:
+        case gpu::DEBUG_emission:
+        case gpu::DEBUG_lightmap:
+            return true;
+        default:
+            return false;
+    }
+}
+
+double DeviceBounds::textures(std::size_t i) const {
+    if (!texels_) return 0;
+    double most = *texels_->pixel(i);
+    if (isColor()) {
+        const bool radiance = mode_.metric == Metric::relative;
+        for (int c = 0; c < mode_.width; ++c) {
+            const double value = std::abs(double{baseline_.pixel(i)[c]});
+            std::size_t code = radiance ? 1 : 0;  // which a factor may have brightened
+            while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
+            most = std::max(most, *texels_->pixel(i) + value * shares_[code]);
+        }
+        most += filterRounding(across_, true);
+    }
+    // Of linear texels; F0 is mixed by them.
+    if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
+        mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
+        most += filterRounding(across_, false) *
+                (mode_.number == static_cast<int>(gpu::DEBUG_normals) ? 2 * std::sqrt(3.0) * degreesPerRadian
+                 : mode_.number == static_cast<int>(gpu::DEBUG_tangent_normal) ? 2 * std::sqrt(3.0)
+                                                                               : 1);
+    return most;
+}
+
+std::string DeviceBounds::decoding() const {
+    if (!isColor())
+        return "; their filters round by up to " +
+               fmt::format("{:.2g} of a code", 255 * filterRounding(across_, false));
+    return fmt::format("; they decode sRGB up to {:.2g} % apart", 100 * shares_[1]);
+}
+
+EncodingUse deviceUse(const DebugMode& mode, const FramePair& pair) {
+    const DeviceBounds bounds(mode, pair);
+    EncodingUse use;
+    const Image& image = pair.baseline.channels.at(mode.number);
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        if (!pair.coverage.covered[i]) continue;
+        const double allowed = bounds(i), error = bounds.error(i);
+        if (std::isfinite(allowed)) {
+            use.most = std::max(use.most, allowed);
+            use.mean += allowed;
+        }
+        if (error == 0) continue;
+        const double used = error / allowed;
+        use.beyond += !(used <= 1);
+        if (!(used > use.used) && use.x >= 0) continue;
+        use.used = used;
+        use.x = static_cast<int>(i % static_cast<std::size_t>(image.width));
+        use.y = static_cast<int>(i / static_cast<std::size_t>(image.width));
+    }
+    if (pair.coverage.count > 0) use.mean /= static_cast<double>(pair.coverage.count);
+    return use;
+}
+
+Tolerance deviceTolerance(const DebugMode& mode, const FramePair& pair, const EncodingUse& use) {
+    return {use.most, DeviceBounds(mode, pair).because()};
+}
+
+}  // namespace diptych

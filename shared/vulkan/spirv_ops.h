@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPIR-V 1.6 as this program reads it: opcodes by their numbers in the specification's section 3.49.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace diptych::spirv {
+
+enum Op : std::uint32_t {
+    OpUndef = 1,
+    OpName = 5,
+    OpExtInst = 12,
+    OpEntryPoint = 15,
+    OpCapability = 17,
+    OpTypeBool = 20,
+    OpTypeInt = 21,
+    OpTypeFloat = 22,
+    OpTypeVector = 23,
+    OpTypeMatrix = 24,
+    OpTypeArray = 28,
+    OpTypeStruct = 30,
+    OpTypePointer = 32,
+    OpConstantTrue = 41,
+    OpConstantFalse = 42,
+    OpConstant = 43,
+    OpConstantComposite = 44,
+    OpConstantNull = 46,
+    OpSpecConstantTrue = 48,
+    OpSpecConstantFalse = 49,
+    OpSpecConstant = 50,
+    OpSpecConstantComposite = 51,
+    OpSpecConstantOp = 52,
+    OpFunction = 54,
+    OpFunctionEnd = 56,
+    OpVariable = 59,
+    OpImageTexelPointer = 60,
+    OpLoad = 61,
+    OpAccessChain = 65,
+    OpInBoundsAccessChain = 66,
+    OpPtrAccessChain = 67,
+    OpArrayLength = 68,
+    OpDecorate = 71,
+    OpCopyObject = 83,
+    OpBitcast = 124,
+    OpIAdd = 128,
+    OpISub = 130,
+    OpIMul = 132,
+    OpUDiv = 134,
+    OpSDiv = 135,
+    OpUMod = 137,
+    OpSRem = 138,
+    OpSMod = 139,
+    OpLogicalEqual = 164,
+    OpLogicalNotEqual = 165,
+    OpLogicalOr = 166,
+    OpLogicalAnd = 167,
+    OpLogicalNot = 168,
+    OpSelect = 169,
+    OpIEqual = 170,
+    OpINotEqual = 171,
+    OpUGreaterThan = 172,
+    OpSGreaterThan = 173,
+    OpUGreaterThanEqual = 174,
+    OpSGreaterThanEqual = 175,
+    OpULessThan = 176,
+    OpSLessThan = 177,
+    OpULessThanEqual = 178,
+    OpSLessThanEqual = 179,
+    OpShiftRightLogical = 194,
+    OpShiftLeftLogical = 196,
+    OpBitwiseOr = 197,
+    OpBitwiseXor = 198,
+    OpBitwiseAnd = 199,
+    OpNot = 200,
+    OpBitCount = 205,
+    OpPhi = 245,
+    OpLoopMerge = 246,
+    OpSelectionMerge = 247,
+    OpLabel = 248,
+    OpBranch = 249,
+    OpBranchConditional = 250,
+    OpSwitch = 251,
+    OpKill = 252,
+    OpReturn = 253,
+    OpUnreachable = 255,
+    OpCopyLogical = 400,
+    OpTerminateInvocation = 4416,
+};
+
+// Instructions of GLSL.std.450 that store, and the first one of those that interpolate.
+inline constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51, extendedInterpolates = 76;
+
+inline constexpr std::uint32_t magicNumber = 0x07230203, headerWords = 5;
+
+using Words = std::span<const std::uint32_t>;
+
+inline std::uint32_t opOf(Words instruction) {
+    return instruction[0] & 0xffff;
+}
+
+// The instruction that begins at word `at` of a module.
+inline Words instructionAt(Words module, std::size_t at) {
+    return module.subspan(at, module[at] >> 16);
+}
+
+}  // namespace diptych::spirv
