@@ -154,10 +154,19 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       error_(mode.metric, mode.kind, baseline_, pair.coverage),
       place_(mode, pair, baseline_, test_),
       facet_(pair),
+      rounded_as_(roundedFloors(pair.needs) * error_.floor()),
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
       texels_(imageOf(across_.texels, mode.number)),
       expected_(imageOf(across_.relit, mode.number)),
       shadowed_(pair) {
+    // Diffuse and specular light are rounded by the integrals of the same lights as lit.
+    if (const Image* lit = findChannel(pair.baseline, gpu::DEBUG_lit);
+        lit && kind_ == Kind::light && pair.needs.areaLights() > 0) {
+        const DebugMode& whole = debugMode(gpu::DEBUG_lit);
+        rounded_as_ =
+            std::max(rounded_as_, roundedFloors(pair.needs) *
+                                      PixelError(whole.metric, whole.kind, *lit, pair.coverage).floor());
+    }
     if (mode.number == static_cast<int>(gpu::DEBUG_lit) && !pair.baseline.unblended.empty() &&
         !pair.test.unblended.empty())
         unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
@@ -182,7 +191,7 @@ double DeviceBounds::operator()(std::size_t i) const {
         case Kind::surface:
             return (place_(i) + rounding + textures(i)) / unit + bits_;
         case Kind::light:
-            return 2 * shadingRounding + shadowed_.relative(i);
+            return 2 * shadingRounding * std::max(1.0, rounded_as_ / size) + shadowed_.relative(i);
         case Kind::seen:
             return 2 * shadingRounding;
         case Kind::list:
@@ -239,10 +248,13 @@ std::string DeviceBounds::because() const {
         }
         case Kind::light:
             return fmt::format(
-                "what {} makes of the surfaces that {} drew, both in float32: 1e-4 each, before anything "
-                "is blended; and "
-                "blended, no further apart than the next pixels",
-                a.name, b.name);
+                "what {} makes of the surfaces that {} drew, both in float32: 1e-4 each{}, before anything "
+                "is "
+                "blended; and blended, no further apart than the next pixels",
+                a.name, b.name,
+                rounded_as_ > error_.floor()
+                    ? " of no less than a tenth of the mean luminance, as integrals over area lights cancel"
+                    : "");
         case Kind::seen:
             return "float32 weights, 1e-4 each; at a shadow's edge texels of the map may show another "
                    "triangle";

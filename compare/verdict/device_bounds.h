@@ -72,6 +72,7 @@ private:
     PixelError error_;
     PlaceBound place_;
     FacetBound facet_;
+    double rounded_as_;  // what is darker is rounded as this, in the channel's unit
     double bits_;
     const Image *texels_, *expected_;
     Shadowed shadowed_;

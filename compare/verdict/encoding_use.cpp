@@ -12,15 +12,6 @@
 namespace diptych {
 namespace {
 
-// What is darker than this many floors of the metric is rounded as brighter light. Integrals over area lights
-// are sums of terms that cancel, so that in the lobe's tail float32's rounding is that of a tenth of the mean
-// luminance. (Ten times left two pixels of builtin:areas at 333x187 beyond, by 1.13.)
-constexpr double areaCancelling = 100;
-
-double cancelling(const Requirements& needs) {
-    return needs.areaLights() > 0 ? areaCancelling : 1;
-}
-
 const Image* boundOf(const Frame& forward, const DebugMode& mode) {
     const auto found = forward.encoding_bound.find(mode.number);
     return found == forward.encoding_bound.end() ? nullptr : &found->second;
@@ -122,7 +113,7 @@ private:
           own_settings_(&forward.settings),
           step_(mode.number == static_cast<int>(gpu::DEBUG_lit) ? stepOf(forward.settings.lit_format) : 0),
           half_(halfErrorOf(mode.number, forward.settings)),
-          dark_(cancelling(pair.needs)),
+          dark_(roundedFloors(pair.needs)),
           floor_(PixelError(mode.metric, mode.kind, *baseline_, pair.coverage).floor()) {}
 
     const Image *read_, *own_, *baseline_, *bound_, *unblended_;
@@ -131,6 +122,14 @@ private:
 };
 
 }  // namespace
+
+double roundedFloors(const Requirements& needs) {
+    // Integrals over area lights are sums of terms that cancel: in the lobe's tail float32's rounding is that
+    // of a tenth of the mean luminance. (Ten times left two pixels of builtin:areas at 333x187 beyond,
+    // by 1.13.)
+    constexpr double areaCancelling = 100;
+    return needs.areaLights() > 0 ? areaCancelling : 1;
+}
 
 std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& pair) {
     const std::optional<Allowance> allowance = Allowance::of(mode, pair);

@@ -15,6 +15,9 @@ namespace diptych {
 // How far float32 shading may be from double precision, of the pixel's largest component.
 inline constexpr double shadingRounding = 1e-4;
 
+// A pixel darker than so many floors of the metric is rounded as one of so many.
+double roundedFloors(const Requirements& needs);
+
 struct EncodingUse {
     // The largest difference, as a share of what is allowed at its pixel; beyond 1 the bits do not explain
     // it.

@@ -93,7 +93,7 @@ protected:
     Comparison compared() {
         CompareOptions options;
         options.across = &across_;
-        return compareFrames(report_, 0, 1, {}, options);
+        return compareFrames(report_, 0, 1, needs_, options);
     }
     // Names of the channels that fail, and failures of the pair.
     std::string faults() {
@@ -112,6 +112,7 @@ protected:
 
     Report report_;
     AcrossDevices across_;
+    Requirements needs_;
 };
 
 TEST_F(AcrossDevicesPair, TheSamePicturesPassAndUseNothing) {
@@ -208,6 +209,26 @@ TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces)
     EXPECT_EQ(faults(), "");
     // A light is missing on one device.
     fill(1, gpu::DEBUG_lit_diffuse, 0.4);
+    EXPECT_EQ(faults(), "lit_diffuse ");
+}
+
+// Integrals over area lights cancel, so that a pixel far darker than the picture may differ more; the parts
+// of lit by as much as lit.
+TEST_F(AcrossDevicesPair, AreaLightsGrantTheDarkMoreAndNothingElseDoes) {
+    const auto darken = [](Image& image, float value) { std::fill_n(image.pixel(index(20, 12)), 3, value); };
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse}) {
+        for (const std::size_t frame : {0, 1}) {
+            fill(frame, mode, mode == gpu::DEBUG_lit ? 0.5 : 0.1);
+            darken(at(frame, mode), 1e-3f);
+        }
+        Image& relit = across_.relit[static_cast<int>(mode)];
+        relit = at(1, mode);
+        darken(relit, 1.009e-3f);
+    }
+    EXPECT_EQ(faults(), "lit lit_diffuse ");
+    needs_.rect_lights = 1;
+    EXPECT_EQ(faults(), "");
+    darken(across_.relit[gpu::DEBUG_lit_diffuse], 1.02e-3f);
     EXPECT_EQ(faults(), "lit_diffuse ");
 }
 
