@@ -17,7 +17,8 @@ namespace diptych {
 namespace {
 
 // A vertex a step of the sub-pixel grid elsewhere moves an edge by as much, and this share of the pixels that
-// the edge crosses changes sides. A pixel beside an edge lies between two edges of a triangle.
+// the edge crosses changes sides. A pixel beside an edge lies between two edges of a triangle; one whose
+// triangle is narrower than two pixels lies between twice as many.
 constexpr double edgesOfPixel = 2;
 constexpr std::uint64_t fewPixels = 8;  // chance decides of so few
 
@@ -95,6 +96,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
     const auto tieReach = [&](std::size_t i) {
         return *z->pixel(i) * (step / pixelsPerRadian(pair.baseline, i) + relativeRounding());
     };
+    std::uint64_t narrow = 0;
     for (std::size_t i = 0; i < found.others.size(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const double facet = facetOf(i);
@@ -128,6 +130,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
             continue;
         }
         count(found.triangles, i, a->width, other, edge);
+        narrow += edge && pair.grid->narrow[i] != 0;
         // Light that is further apart beside a shadow's edge lies in another shadow, too, at the other's
         // place.
         const bool beside = shadowed.isBesideEdge(i),
@@ -136,7 +139,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         count(found.shadows, i, a->width, shade, beside);
         found.others[i] = other || shade ? 1 : 0;
     }
-    found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges);
+    found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
     // Each of a filter's texels across an edge may show another triangle.
     const double texels = pair.baseline.settings.shadow_kernel + 1;
     found.shadows.most = mostOf(edgesOfPixel * step * texels, found.shadows.edges);
