@@ -258,6 +258,14 @@ bool isTiff(std::span<const std::byte> bytes) {
     return text == "II*\0"sv || text == "MM\0*"sv || text == "II+\0"sv || text == "MM\0+"sv;
 }
 
+PictureSize tiffSize(std::span<const std::byte> bytes) {
+    TiffBytes file{bytes};
+    const OpenTiff tiff = openTiff(file, limits::imageBytes());
+    if (!tiff) fail("is a TIFF that does not decode: " + file.error);
+    const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), limits::imageBytes());
+    return {layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components};
+}
+
 TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         TiffBytes file{bytes};
