@@ -241,7 +241,7 @@ PlainMetrics plainMetrics(const PictureRows& reference, const PictureRows& test,
     m.nonfinite_test = sums.nonfinite_test;
     if (m.pixels == 0) return m;
     setComponents(sums, static_cast<double>(m.pixels) * reference.components, range, m);
-    setPixels(pass, m);
+    if (m.different > 0) setPixels(pass, m);
     if (pass.angles()) setAngles(sums, m);
     if (kind == ChannelKind::color && reference.components == 3)
         m.ssim = ssimOf(reference, test, range, pass.meanMagnitude(), coverage);

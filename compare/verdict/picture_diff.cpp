@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +86,10 @@ PicturePair readPair(const std::string& reference, const std::string& test,
         return a.width * a.height < b.width * b.height;
     });
     const auto pixels = static_cast<double>(larger.width * larger.height);
+    // SSIM has 252 rows of floats in each thread, all else together some 20.
+    const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
     checkMemory(fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height),
-                static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options)),
+                static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options) + rows),
                 "compare smaller pictures, or parts of them");
     // If neither file can be read, the error names the reference, whichever thread was faster.
     PictureFile pictures[2];
