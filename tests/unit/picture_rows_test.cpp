@@ -162,26 +162,5 @@ TEST(PictureRows, SsimOfBandsIsThatOfTheirWindows) {
     }
 }
 
-// A picture's FLIP is that of each part of it that has the filters' radius around it.
-TEST(PictureRows, FlipOfAPartIsThatOfTheWhole) {
-    constexpr int radius = 10, height = 150, width = 270, first = 119, last = 137;  // around a tile's edge
-    const Image a = noise(width, height, 1), b = noise(width, height, 2);
-    const auto rows = [&](const Image& image, int from, int to) {
-        Image part(width, to - from, 3);
-        std::copy_n(&image.data[image.offset(0, from)], part.data.size(), part.data.begin());
-        return part;
-    };
-    const Image whole = ldrFlip(a, b).error;
-    const auto partOf = [&](int margin) {
-        const Image part =
-            ldrFlip(rows(a, first - margin, last + margin), rows(b, first - margin, last + margin)).error;
-        return std::equal(&part.data[part.offset(0, margin)],
-                          &part.data[part.offset(0, margin + last - first)],
-                          &whole.data[whole.offset(0, first)]);
-    };
-    EXPECT_TRUE(partOf(radius));
-    EXPECT_FALSE(partOf(radius - 1)) << "the check would not see a margin that is one row too small";
-}
-
 }  // namespace
 }  // namespace diptych
