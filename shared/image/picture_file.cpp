@@ -156,21 +156,15 @@ PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& nam
                         EightBits eight) {
     const Format format = formatOf(bytes, name, part);
     return named(name, [&] {
-        switch (format) {
-            case Format::exr:
-                return sizeOfExr(bytes, part);
-            case Format::png:
-                return pngSize(bytes, eight);
-            case Format::jpeg:
-                return sizeOfJpeg(readJpegSize(encodedJpeg(bytes)), eight);
-            case Format::tiff:
-                return tiffSize(bytes);
-            case Format::hdr:
-                return hdrSize(bytes);
-            case Format::pfm:
-                break;
-        }
-        return pfmSize(bytes);
+        const PictureSize size = format == Format::exr   ? sizeOfExr(bytes, part)
+                                 : format == Format::png ? pngSize(bytes, eight)
+                                 : format == Format::jpeg
+                                     ? sizeOfJpeg(readJpegSize(encodedJpeg(bytes)), eight)
+                                 : format == Format::tiff ? tiffSize(bytes)
+                                 : format == Format::hdr  ? hdrSize(bytes)
+                                                          : pfmSize(bytes);
+        checkImageSize(size.width, size.height, size.bytes_per_pixel, limits::imageBytes());
+        return size;
     });
 }
 
