@@ -20,6 +20,13 @@ constexpr double measuring = 0.9;
 
 namespace {
 
+// Bytes a pixel that writing takes while the pictures are in memory, measured: a report's pictures, errors
+// and one picture of floats, or a PNG.
+double outputBytes(const std::optional<Output>& output) {
+    if (!output || output->kind == OutputKind::exr) return 0;
+    return output->kind == OutputKind::folder ? 13 : 4;
+}
+
 void print(const Options& options, const std::string& text) {
     if (options.json)
         fmt::print("{}", text);
@@ -80,6 +87,7 @@ int runDiff(const Options& options) {
     PictureDiffOptions settings = options.diff;
     settings.strict = options.strict;
     settings.allow_empty = options.allow_empty;
+    settings.output_bytes = outputBytes(output);
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
     const auto isFolder = [&](std::size_t i) {
         std::error_code ignored;  // what cannot be looked at is said by who reads it

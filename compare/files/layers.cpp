@@ -37,6 +37,17 @@ Image picked(const Image& image, const std::vector<std::size_t>& components) {
     return result;
 }
 
+Image8 picked(const Image8& coded, const std::vector<std::size_t>& components) {
+    const std::size_t pixels = static_cast<std::size_t>(coded.width) * static_cast<std::size_t>(coded.height),
+                      stored = static_cast<std::size_t>(coded.components);
+    Image8 result{coded.width, coded.height, static_cast<int>(components.size()),
+                  std::vector<std::uint8_t>(pixels * components.size())};
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < components.size(); ++c)
+            result.data[i * components.size() + c] = coded.data[i * stored + components[c]];
+    return result;
+}
+
 const DebugMode* modeOf(const std::string& name, std::size_t width) {
     const DebugMode* mode = findDebugMode(name);
     return mode && mode->name == name && static_cast<std::size_t>(mode->width) == width ? mode : nullptr;
@@ -77,10 +88,20 @@ private:
         for (std::size_t i = 0; i < layer_.channels.size(); ++i)
             if (left_[i] && layer_.channels[i] == "Y") {
                 PictureChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
-                channel.image = picked(layer_.image, {i, i, i});
+                if (layer_.image.empty())
+                    channel.coded = coded({i});
+                else
+                    channel.image = picked(layer_.image, {i, i, i});
                 left_[i] = false;
                 out_.push_back(std::move(channel));
             }
+    }
+
+    bool isWhole(const std::vector<std::size_t>& components) const {
+        return components.size() == layer_.channels.size() && std::ranges::is_sorted(components);
+    }
+    Image8 coded(const std::vector<std::size_t>& components) {
+        return isWhole(components) ? std::move(layer_.coded) : picked(layer_.coded, components);
     }
 
     std::string nameAlone(const std::string& channel, bool alone) const {
@@ -109,9 +130,10 @@ private:
         channel.kind = kindOf(name, channel.channels, channel.type);
         if (components.size() == 1 && components[0] < layer_.exact.size())
             channel.exact = std::move(layer_.exact[components[0]]);
-        channel.image = components.size() == layer_.channels.size() && std::ranges::is_sorted(components)
-                            ? std::move(layer_.image)
-                            : picked(layer_.image, components);
+        if (layer_.image.empty())
+            channel.coded = coded(components);
+        else
+            channel.image = isWhole(components) ? std::move(layer_.image) : picked(layer_.image, components);
         out_.push_back(std::move(channel));
     }
 };
@@ -259,11 +281,11 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             matched.one_sided.push_back({a.name, "the reference"});
             continue;
         }
-        if (a.image.components != b->image.components)
+        if (a.components() != b->components())
             fail(fmt::format("{}: {} in the reference and {} in the test; --map says what belongs together",
                              a.name, fmt::join(a.channels, ","), fmt::join(b->channels, ",")));
         const bool grey[2] = {a.channels == Names{"Y"}, b->channels == Names{"Y"}};
-        if (grey[0] != grey[1] && a.image.components == 3)
+        if (grey[0] != grey[1] && a.components() == 3)
             matched.notes.push_back(
                 fmt::format("{}: the one component of {} is compared with each of the three of {}", a.name,
                             grey[0] ? "the reference" : "the test", grey[0] ? "the test" : "the reference"));
@@ -272,8 +294,11 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
                 fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));
         tellApart(a, *b);
         const Metric metric = metricOf(a.name, a);
+        const auto stored = [](PictureChannel& c) {
+            return StoredPicture{std::move(c.image), std::move(c.coded), c.components()};
+        };
         matched.channels.push_back(
-            {a.name, a.kind, metric, a.type, b->type, a.channels, std::move(a.image), std::move(b->image)});
+            {a.name, a.kind, metric, a.type, b->type, a.channels, stored(a), stored(*b)});
     }
     for (const PictureChannel& b : test)
         if (isWanted(b.name) &&

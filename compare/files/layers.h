@@ -4,6 +4,7 @@
 
 #include "shared/frame/debug_modes.h"
 #include "shared/image/picture_file.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstdint>
 #include <string>
@@ -22,9 +23,16 @@ struct PictureChannel {
     Image image;
     // Of a single channel: the exact integers, where float32 rounds them; else empty.
     std::vector<std::uint32_t> exact{};
+    Image8 coded{};  // in place of `image`: 8 bits a component, of a grey colour one
+
+    int components() const {
+        const bool grey = kind == ChannelKind::color && channels.size() == 1;
+        return grey ? 3 : static_cast<int>(channels.size());
+    }
 };
 
-// `names`: renames another renderer's channels, e.g. "albedo=diffuse.R,diffuse.G,diffuse.B". Used
+// `names`: renames another renderer's channels, e.g. "albedo=diffuse.R,diffuse.G,diffuse.B" (not of layers
+// that are kept in 8 bits). Used
 // channels are taken out of the layers they were in. Of our own files the uncertainty is left out. Throws
 // std::runtime_error where such words are wrong.
 std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
@@ -46,7 +54,7 @@ struct MatchedChannel {
     Metric metric = Metric::absolute;  // of the debug mode of that name where it is angular or exact
     std::string reference_type, test_type;
     std::vector<std::string> channels;  // in the reference
-    Image reference, test;
+    StoredPicture reference, test;
 };
 
 // A channel that only one of two pictures has.

@@ -50,8 +50,8 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     const Measurement measurement({.metric = Metric::absolute,
                                    .kind = ChannelKind::color,
                                    .display = options.display,
-                                   .reference = &a,
-                                   .test = &b,
+                                   .reference = a,
+                                   .test = b,
                                    .coverage = &coverage,
                                    .flip = flip});
     Result result;

@@ -5,11 +5,18 @@
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -29,25 +36,128 @@ double magnitude(const float* p, int components, ChannelKind kind) {
     return std::sqrt(squares);
 }
 
-double meanMagnitude(const Image& image, ChannelKind kind, const Coverage& coverage) {
+double meanMagnitude(const PictureRows& picture, ChannelKind kind, const Coverage& coverage) {
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < image.pixels(); ++i)
-        if (coverage.covered[i] && finite(image.pixel(i), image.components)) {
-            sum += magnitude(image.pixel(i), image.components, kind);
-            ++count;
-        }
+    std::vector<float> buffer;
+    for (int y = 0; y < picture.height; ++y) {
+        const float* p = picture.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
+        for (int x = 0; x < picture.width; ++x, p += picture.components)
+            if (covered[x] && finite(p, picture.components)) {
+                sum += magnitude(p, picture.components, kind);
+                ++count;
+            }
+    }
     return count ? sum / static_cast<double>(count) : 0;
 }
 
-double nearestRank(std::vector<double>& errors, double share) {
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(errors.size())));
-    const auto nth = errors.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-    std::nth_element(errors.begin(), nth, errors.end());
-    return *nth;
-}
+// The bits of doubles that are 0 or above have the order of their values.
+constexpr int digit = 16;  // bits that one histogram tells apart
+using Histogram = std::vector<std::uint64_t>;
 
-void checkAlike(const Image& a, const Image& b, std::size_t covered) {
+// Ranks of the errors of covered pixels without holding them all: from a histogram of their first digits, and
+// from measuring the pixels again for the errors whose first digits are a rank's.
+class Ranks {
+public:
+    // `first`: of the errors that are not 0, by their first digit. `zeros`: how many are 0.
+    Ranks(const PictureRows& baseline, const PictureRows& test, const Coverage& coverage,
+          const PixelError& error, const Histogram& first, std::uint64_t zeros)
+        : baseline_(baseline),
+          test_(test),
+          coverage_(coverage),
+          error_(error),
+          first_(first),
+          zeros_(zeros),
+          count_(std::accumulate(first.begin(), first.end(), zeros)) {}
+
+    // The ceil(share N)-th smallest, of each share.
+    std::array<double, 2> nearest(const std::array<double, 2>& shares) const {
+        std::array<double, 2> values{};
+        std::vector<Sought> sought;
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const auto rank = static_cast<std::uint64_t>(std::ceil(shares[i] * static_cast<double>(count_)));
+            if (rank > zeros_) sought.push_back({&values[i], rank - zeros_, first_});
+        }
+        for (int shift = 64 - digit; !sought.empty(); shift -= digit) {
+            for (Sought& s : sought) {
+                std::size_t bin = 0;
+                for (; s.rank > s.counts[bin]; ++bin) s.rank -= s.counts[bin];
+                s.prefix = s.prefix << digit | bin;
+                s.few = s.counts[bin] <= few;
+                if (shift == 0) *s.value = std::bit_cast<double>(s.prefix);
+            }
+            if (shift == 0) break;
+            look(sought, shift);
+            std::erase_if(sought, [](Sought& s) {
+                if (!s.few) return false;
+                const auto nth = s.gathered.begin() + static_cast<std::ptrdiff_t>(s.rank - 1);
+                std::ranges::nth_element(s.gathered, nth);
+                *s.value = *nth;
+                return true;
+            });
+        }
+        return values;
+    }
+
+private:
+    static constexpr std::uint64_t few = 1 << 20;  // 8 MB of errors
+
+    struct Sought {
+        double* value;
+        std::uint64_t rank;              // among the errors that begin with `prefix`, from 1
+        Histogram counts;                // of those, by the digit that follows
+        std::vector<double> gathered{};  // those, if they are few
+        std::uint64_t prefix = 0;
+        bool few = false;
+    };
+
+    // Gathers or counts the errors that begin with each prefix, which is all but `shift` bits.
+    void look(std::vector<Sought>& sought, int shift) const {
+        struct Found {
+            std::vector<Histogram> counts;
+            std::vector<std::vector<double>> gathered;
+        };
+        const std::size_t n = sought.size();
+        tbb::enumerable_thread_specific<Found> results([n] {
+            return Found{std::vector(n, Histogram(std::size_t{1} << digit)),
+                         std::vector<std::vector<double>>(n)};
+        });
+        tbb::parallel_for(tbb::blocked_range<int>(0, baseline_.height, 16), [&](const auto& rows) {
+            Found& own = results.local();
+            eachPair(test_, baseline_, rows.begin(), rows.end(),
+                     [&](std::size_t i, const float* a, const float* b) {
+                         if (!coverage_.covered[i]) return;
+                         const double e = error_(a, b);
+                         const auto bits = std::bit_cast<std::uint64_t>(e);
+                         for (std::size_t k = 0; e != 0 && k < n; ++k)
+                             if (bits >> shift != sought[k].prefix)
+                                 continue;
+                             else if (sought[k].few)
+                                 own.gathered[k].push_back(e);
+                             else
+                                 ++own.counts[k][bits >> (shift - digit) & ((1u << digit) - 1)];
+                     });
+        });
+        for (std::size_t k = 0; k < n; ++k) {
+            std::ranges::fill(sought[k].counts, 0);
+            for (const Found& found : results) {
+                std::ranges::transform(sought[k].counts, found.counts[k], sought[k].counts.begin(),
+                                       std::plus());
+                sought[k].gathered.insert(sought[k].gathered.end(), found.gathered[k].begin(),
+                                          found.gathered[k].end());
+            }
+        }
+    }
+
+    const PictureRows &baseline_, &test_;
+    const Coverage& coverage_;
+    const PixelError& error_;
+    const Histogram& first_;
+    std::uint64_t zeros_, count_;
+};
+
+void checkAlike(const PictureRows& a, const PictureRows& b, std::size_t covered) {
     if (a.width != b.width || a.height != b.height || a.components != b.components || a.pixels() != covered)
         throw std::runtime_error(fmt::format("images of {}x{}x{} and {}x{}x{} cannot be compared", a.width,
                                              a.height, a.components, b.width, b.height, b.components));
@@ -72,11 +182,14 @@ bool showsBlended(const Frame& frame, std::size_t pixel) {
 
 }  // namespace
 
-bool isBlack(const Image& image, const Coverage& coverage) {
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-        const float* p = image.pixel(i);
-        if (coverage.covered[i] && std::any_of(p, p + image.components, [](float v) { return v != 0; }))
-            return false;
+bool isBlack(const PictureRows& picture, const Coverage& coverage) {
+    std::vector<float> buffer;
+    for (int y = 0; y < picture.height; ++y) {
+        const float* p = picture.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
+        for (int x = 0; x < picture.width; ++x, p += picture.components)
+            if (covered[x] && std::any_of(p, p + picture.components, [](float v) { return v != 0; }))
+                return false;
     }
     return true;
 }
@@ -106,7 +219,7 @@ Coverage coverage(const Frame& a, const Frame& b) {
     return coverage;
 }
 
-PixelError::PixelError(Metric metric, ChannelKind kind, const Image& baseline, const Coverage& coverage)
+PixelError::PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage)
     : metric_(metric), components_(baseline.components) {
     if (metric == Metric::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
     if (metric == Metric::angular && components_ != 3)
@@ -130,49 +243,54 @@ double PixelError::operator()(const float* test, const float* baseline) const {
     return infinity;
 }
 
-ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
-                          const Coverage& coverage) {
+ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& baseline,
+                          const PictureRows& test, const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
     const PixelError error(metric, kind, baseline, coverage);
     ChannelStats stats;
-    std::vector<double> all;
-    all.reserve(coverage.count);
+    Histogram first(std::size_t{1} << digit);
+    std::uint64_t zeros = 0;
     double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < baseline.pixels(); ++i) {
-        const float *a = test.pixel(i), *b = baseline.pixel(i);
+    eachPair(test, baseline, 0, baseline.height, [&](std::size_t i, const float* a, const float* b) {
         stats.nonfinite_test += !finite(a, test.components);
         stats.nonfinite_baseline += !finite(b, test.components);
-        if (!coverage.covered[i]) continue;
+        if (!coverage.covered[i]) return;
         const double e = error(a, b);
-        all.push_back(e);
+        if (e == 0) {
+            ++zeros;
+            return;
+        }
+        ++first[std::bit_cast<std::uint64_t>(e) >> (64 - digit)];
         sum += e;
         squares += e * e;
-        stats.different += e > 0;
+        ++stats.different;
         stats.infinite += e == infinity;
         if (e > stats.max) {
             stats.max = e;
-            stats.worst_x = static_cast<int>(i % static_cast<std::size_t>(baseline.width));
-            stats.worst_y = static_cast<int>(i / static_cast<std::size_t>(baseline.width));
+            stats.worst_x = static_cast<int>(i % size(baseline.width));
+            stats.worst_y = static_cast<int>(i / size(baseline.width));
         }
-    }
-    if (all.empty()) return stats;
-    stats.mean = sum / static_cast<double>(all.size());
-    stats.rmse = std::sqrt(squares / static_cast<double>(all.size()));
-    stats.p99 = nearestRank(all, 0.99);
-    stats.p999 = nearestRank(all, 0.999);
+    });
+    if (stats.different == 0) return stats;
+    const auto count = static_cast<double>(stats.different + zeros);
+    stats.mean = sum / count;
+    stats.rmse = std::sqrt(squares / count);
+    const auto ranks = Ranks(baseline, test, coverage, error, first, zeros).nearest({0.99, 0.999});
+    stats.p99 = ranks[0];
+    stats.p999 = ranks[1];
     return stats;
 }
 
-Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
+Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
                  const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
     const PixelError error(metric, kind, baseline, coverage);
     Image errors(baseline.width, baseline.height, 1);
-    for (std::size_t i = 0; i < errors.pixels(); ++i)
-        if (coverage.covered[i]) {
-            const double e = error(test.pixel(i), baseline.pixel(i));
-            errors.data[i] = e > std::numeric_limits<float>::max() ? HUGE_VALF : static_cast<float>(e);
-        }
+    eachPair(test, baseline, 0, baseline.height, [&](std::size_t i, const float* a, const float* b) {
+        if (!coverage.covered[i]) return;
+        const double e = error(a, b);
+        errors.data[i] = e > std::numeric_limits<float>::max() ? HUGE_VALF : static_cast<float>(e);
+    });
     return errors;
 }
 

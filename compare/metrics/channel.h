@@ -5,6 +5,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ Coverage coverage(const Frame& a, const Frame& b);
 Coverage everyPixel(std::size_t pixels);
 
 // Whether every component of every covered pixel is 0.
-bool isBlack(const Image& image, const Coverage& coverage);
+bool isBlack(const PictureRows& picture, const Coverage& coverage);
 
 // Over the covered pixels, in the channel's own unit (angular: degrees); all 0 where nothing is covered.
 // Every figure may be infinite: a NaN or infinity against anything else is an infinite difference, which no
@@ -48,7 +49,7 @@ struct ChannelStats {
 // Two NaNs are no difference, nor are two equal infinities.
 class PixelError {
 public:
-    PixelError(Metric metric, ChannelKind kind, const Image& baseline, const Coverage& coverage);
+    PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage);
     double operator()(const float* test, const float* baseline) const;
     double floor() const { return floor_; }  // relative: the least denominator; otherwise 0
 
@@ -59,12 +60,12 @@ private:
 };
 
 // Statistics of `test` against `baseline`, equal in size and components (throws std::runtime_error
-// otherwise). Deterministic: sums are double, in pixel order.
-ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
-                          const Coverage& coverage);
+// otherwise). Deterministic: sums are double, in pixel order. Takes a few MB, whatever the size.
+ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& baseline,
+                          const PictureRows& test, const Coverage& coverage);
 
 // The errors that the statistics are over, W x H x 1; 0 in the background, infinite errors are +infinity.
-Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
+Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
                  const Coverage& coverage);
 
 // Units in the last place of a pixel's largest component by which two pipelines may differ on a GPU, whose

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -21,8 +22,8 @@ namespace diptych {
 namespace {
 
 using metrics::finite;
+using metrics::size;
 
-constexpr float notMeasured = -1;  // in a list of errors: not measured
 constexpr double mostStops = 126;  // 2^126 is a float
 
 // Two NaNs are the same, and so are two equal infinities.
@@ -35,9 +36,9 @@ bool within(const float* p, float least, float most) {
     return std::min({p[0], p[1], p[2]}) >= least && std::max({p[0], p[1], p[2]}) <= most;
 }
 
-void checkPair(const Image& reference, const Image& test, const FlipOptions& options) {
+void checkPair(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
     if (reference.components != 3 || test.components != 3 || reference.width != test.width ||
-        reference.height != test.height || reference.empty())
+        reference.height != test.height || reference.pixels() == 0)
         throw std::runtime_error(
             fmt::format("FLIP compares two colour pictures of one size, not {}x{} of {} components and {}x{} "
                         "of {}; crop or "
@@ -54,57 +55,62 @@ void checkPair(const Image& reference, const Image& test, const FlipOptions& opt
 }
 
 // Counts and holes; finite values outside [least, most] are counted as limited.
-FlipPair inspect(const Image& reference, const Image& test, float least, float most, FlipResult& result) {
-    FlipPair pair{&reference, &test, {}};
+FlipPair inspect(const PictureRows& reference, const PictureRows& test, float least, float most,
+                 FlipResult& result) {
+    FlipPair pair{reference, test, {}};
     std::mutex lock;
-    const auto width = static_cast<std::size_t>(reference.width);
-    const auto look = [&](const tbb::blocked_range<std::size_t>& rows) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, reference.height, 32), [&](const auto& rows) {
         FlipResult found;
-        for (std::size_t i = rows.begin() * width; i < rows.end() * width; ++i) {
-            const float *r = reference.pixel(i), *t = test.pixel(i);
+        eachPair(reference, test, rows.begin(), rows.end(), [&](std::size_t, const float* r, const float* t) {
             const bool showsR = within(r, least, most), showsT = within(t, least, most);
-            if (showsR && showsT && finite(r, 3) && finite(t, 3)) continue;
+            if (showsR && showsT && finite(r, 3) && finite(t, 3)) return;
             found.nonfinite_reference += !finite(r, 3);
             found.nonfinite_test += !finite(t, 3);
             found.limited_reference += finite(r, 3) && !showsR;
             found.limited_test += finite(t, 3) && !showsT;
             found.nonfinite_different += !(finite(r, 3) && finite(t, 3)) && !same(r, t);
-        }
+        });
         const std::lock_guard hold(lock);
         result.nonfinite_reference += found.nonfinite_reference;
         result.nonfinite_test += found.nonfinite_test;
         result.limited_reference += found.limited_reference;
         result.limited_test += found.limited_test;
         result.nonfinite_different += found.nonfinite_different;
-    };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, static_cast<std::size_t>(reference.height), 32),
-                      look);
+    });
     if (result.nonfinite_reference + result.nonfinite_test == 0) return pair;
     pair.holes.resize(reference.pixels());
-    for (std::size_t i = 0; i < reference.pixels(); ++i) {
-        const float *r = reference.pixel(i), *t = test.pixel(i);
+    eachPair(reference, test, 0, reference.height, [&](std::size_t i, const float* r, const float* t) {
         if (!finite(r, 3) || !finite(t, 3)) pair.holes[i] = same(r, t) ? Hole::same : Hole::different;
-    }
+    });
     return pair;
 }
 
-// Of the errors that count; the others become notMeasured.
-std::vector<float> counted(const FlipPair& pair, std::span<const std::uint8_t> covered, const Image& error) {
-    std::vector<float> errors(error.data.begin(), error.data.end());
-    if (covered.empty() && pair.holes.empty()) return errors;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-        if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
-            errors[i] = notMeasured;
-    return errors;
+constexpr std::size_t pieceLength = 4096;  // of values that are made for an Order
+
+// Of the errors that count.
+metrics::Order counted(const FlipPair& pair, std::span<const std::uint8_t> covered, const Image& error) {
+    if (covered.empty() && pair.holes.empty()) return metrics::Order(error.data);
+    return {error.pixels(), [&pair, &error, covered](std::size_t from, std::size_t to, const auto& use) {
+                std::vector<float> piece;
+                for (std::size_t i = from; i < to; ++i) {
+                    const bool counts = (covered.empty() || covered[i]) &&
+                                        (pair.holes.empty() || pair.holes[i] != Hole::same);
+                    if (counts) piece.push_back(error.data[i]);
+                    if (piece.size() < pieceLength && i + 1 < to) continue;
+                    use(piece);
+                    piece.clear();
+                }
+            }};
 }
 
 void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResult& result) {
-    const std::vector<float> errors = counted(pair, covered, result.error);
-    const metrics::Order order(errors);
+    const metrics::Order order = counted(pair, covered, result.error);
+    constexpr std::array ends{0.0, 1.0};
+    const std::vector<float> ranks = order.nearestRanks(ends);
     result.pixels = order.size();
     result.mean = order.mean();
-    result.min = order.nearestRank(0);
-    result.max = order.nearestRank(1);
+    result.min = ranks[0];
+    result.max = ranks[1];
     result.weighted_first_quartile = order.weightedQuantile(0.25);
     result.weighted_median = order.weightedQuantile(0.5);
     result.weighted_third_quartile = order.weightedQuantile(0.75);
@@ -117,7 +123,7 @@ double checkedExposure(double stops) {
     return stops;
 }
 
-void chooseExposures(const Image& reference, const HdrFlipOptions& options, HdrFlipResult& result) {
+void chooseExposures(const PictureRows& reference, const HdrFlipOptions& options, HdrFlipResult& result) {
     ExposureRange range;
     if (!options.start_exposure || !options.stop_exposure)
         range = exposureRange(reference, options.tone_mapper);
@@ -132,10 +138,25 @@ void chooseExposures(const Image& reference, const HdrFlipOptions& options, HdrF
         throw std::runtime_error(fmt::format("{} exposures show nothing; give 1 or more", result.exposures));
 }
 
-// Linear luminance (Rec.709) of a finite pixel, negative components as 0; otherwise notMeasured.
-float luminance(const float* p) {
-    if (!finite(p, 3)) return notMeasured;
-    return 0.2126f * std::max(p[0], 0.0f) + 0.7152f * std::max(p[1], 0.0f) + 0.0722f * std::max(p[2], 0.0f);
+// Linear luminances (Rec.709) of the finite pixels, negative components as 0; `lit`: of those that have one.
+metrics::Order luminances(const PictureRows& picture, bool lit) {
+    return {picture.pixels(), [&picture, lit](std::size_t from, std::size_t to, const auto& use) {
+                const std::size_t width = size(picture.width);
+                std::vector<float> buffer, values;
+                while (from < to) {
+                    const std::size_t x = from % width, n = std::min(width - x, to - from);
+                    const float* p = picture.row(static_cast<int>(from / width), buffer) + 3 * x;
+                    values.clear();
+                    for (std::size_t i = 0; i < n; ++i, p += 3) {
+                        if (!finite(p, 3)) continue;
+                        const float y = 0.2126f * std::max(p[0], 0.0f) + 0.7152f * std::max(p[1], 0.0f) +
+                                        0.0722f * std::max(p[2], 0.0f);
+                        if (!lit || y > 0) values.push_back(y);
+                    }
+                    use(values);
+                    from += n;
+                }
+            }};
 }
 
 }  // namespace
@@ -144,40 +165,33 @@ double pixelsPerDegree(double distance, double width, int pixels) {
     return distance * (pixels / width) * (std::numbers::pi / 180);
 }
 
-ExposureRange exposureRange(const Image& reference, ToneMapper mapper) {
-    std::vector<float> values(reference.pixels());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = luminance(reference.pixel(i));
-    });
-    metrics::Order order(values);
-    const float most = order.nearestRank(1);
+ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper) {
+    constexpr std::array shares{1.0, 0.5};
+    const std::vector<float> ranks = luminances(reference, false).nearestRanks(shares);
+    const float most = ranks[0];
     if (!(most > 0)) return {};
-    float median = order.nearestRank(0.5);
-    if (!(median > 0)) {
-        std::ranges::replace(values, 0.0f, notMeasured);
-        median = metrics::Order(values).nearestRank(0.5);
-    }
+    const float median = ranks[1] > 0 ? ranks[1] : luminances(reference, true).nearestRank(0.5);
     const double bright = whereCurveReaches(mapper, 0.85);
     return {std::clamp(std::log2(bright / most), -mostStops, mostStops),
             std::clamp(std::log2(bright / median), -mostStops, mostStops)};
 }
 
-FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options) {
+FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
     checkPair(reference, test, options);
     FlipResult result;
     const FlipPair pair = inspect(reference, test, 0, 1, result);
-    flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error, nullptr);
+    flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error);
     pool(pair, options.covered, result);
     return result;
 }
 
-HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options) {
+HdrFlipResult hdrFlip(const PictureRows& reference, const PictureRows& test, const HdrFlipOptions& options) {
     checkPair(reference, test, options);
     return HdrFlipAgainst(reference, options, 0)(test);
 }
 
 struct HdrFlipAgainst::State {
-    State(const Image& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
+    State(const PictureRows& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
         checkPair(r, r, o);
         chooseExposures(r, o, begun);
         const double step =
@@ -190,23 +204,23 @@ struct HdrFlipAgainst::State {
         kept.emplace(r, itself.holes, filters, looks, most_bytes);
     }
 
-    FlipPair inspectLinear(const Image& test, FlipResult& result) const {
+    FlipPair inspectLinear(const PictureRows& test, FlipResult& result) const {
         return inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
     }
     // The errors alone; returns what they are of.
-    FlipPair compare(const Image& test, HdrFlipResult& result) const {
+    FlipPair compare(const PictureRows& test, HdrFlipResult& result) const {
         checkPair(reference, test, options);
         result = begun;
         FlipPair pair = inspectLinear(test, result);
         // What is kept was made without the reference's own holes; a test may have more.
         const auto holes =
             pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
-        flipErrorMap(pair, filters, looks, result.error, &result.exposure_map,
+        flipErrorMap(pair, filters, looks, result.error,
                      kept && holes == result.nonfinite_reference ? &*kept : nullptr);
         return pair;
     }
 
-    const Image& reference;
+    const PictureRows reference;
     const HdrFlipOptions options;
     const FlipFilters filters{options.pixels_per_degree};
     HdrFlipResult begun;  // its exposures
@@ -214,22 +228,22 @@ struct HdrFlipAgainst::State {
     std::optional<FilteredReference> kept;
 };
 
-HdrFlipAgainst::HdrFlipAgainst(const Image& reference, const HdrFlipOptions& options, std::size_t most_bytes)
+HdrFlipAgainst::HdrFlipAgainst(const PictureRows& reference, const HdrFlipOptions& options,
+                               std::size_t most_bytes)
     : state_(std::make_unique<const State>(reference, options, most_bytes)) {}
 HdrFlipAgainst::~HdrFlipAgainst() = default;
 
-HdrFlipResult HdrFlipAgainst::operator()(const Image& test) const {
+HdrFlipResult HdrFlipAgainst::operator()(const PictureRows& test) const {
     HdrFlipResult result;
     const FlipPair pair = state_->compare(test, result);
     pool(pair, state_->options.covered, result);
     return result;
 }
 
-HdrFlipAgainst::Mean HdrFlipAgainst::mean(const Image& test) const {
+HdrFlipAgainst::Mean HdrFlipAgainst::mean(const PictureRows& test) const {
     HdrFlipResult result;
     const FlipPair pair = state_->compare(test, result);
-    const std::vector<float> errors = counted(pair, state_->options.covered, result.error);
-    const metrics::Order order(errors);
+    const metrics::Order order = counted(pair, state_->options.covered, result.error);
     return {order.mean(), order.size()};
 }
 

@@ -7,6 +7,7 @@
 
 #include "compare/metrics/flip_rows.h"
 #include "shared/image/image.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,6 @@ struct FlipResult {
 struct HdrFlipResult : FlipResult {
     double start_exposure = 0, stop_exposure = 0;  // stops
     int exposures = 0;
-    Image exposure_map;  // W x H x 1: the first exposure, 0 .. exposures - 1, that shows the pixel's error
 };
 
 // For both functions below: `reference` and `test` are W x H x 3, equal in size; throws std::runtime_error
@@ -61,9 +61,10 @@ struct HdrFlipResult : FlipResult {
 // does not depend on the number of threads.
 
 // Of sRGB, display-referred values.
-FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options = {});
+FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const FlipOptions& options = {});
 // Of linear radiance: the largest error over the exposures, evenly spaced.
-HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options = {});
+HdrFlipResult hdrFlip(const PictureRows& reference, const PictureRows& test,
+                      const HdrFlipOptions& options = {});
 
 // hdrFlip() of any number of tests against one reference under one set of options, bit for bit: what is of
 // the reference alone is filtered once, which is nearly half of the work.
@@ -71,17 +72,17 @@ class HdrFlipAgainst {
 public:
     // The reference and what `options` covers must outlive it. Keeps 20 bytes a pixel and exposure, as far as
     // `most_bytes` reach; what is not kept is made for each test. Throws as hdrFlip() does.
-    HdrFlipAgainst(const Image& reference, const HdrFlipOptions& options,
+    HdrFlipAgainst(const PictureRows& reference, const HdrFlipOptions& options,
                    std::size_t most_bytes = std::size_t{256} << 20);
     ~HdrFlipAgainst();
 
-    HdrFlipResult operator()(const Image& test) const;
+    HdrFlipResult operator()(const PictureRows& test) const;
     // Its mean and pixels alone.
     struct Mean {
         double mean = 0;
         std::uint64_t pixels = 0;
     };
-    Mean mean(const Image& test) const;
+    Mean mean(const PictureRows& test) const;
 
 private:
     struct State;
@@ -94,6 +95,6 @@ private:
 struct ExposureRange {
     double start = 0, stop = 0;  // stops
 };
-ExposureRange exposureRange(const Image& reference, ToneMapper mapper);
+ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper);
 
 }  // namespace diptych

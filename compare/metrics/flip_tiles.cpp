@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <functional>
 
 namespace diptych {
@@ -31,7 +30,7 @@ int radiusOf(const HalfKernel& kernel) {
     return static_cast<int>(kernel.size()) - 1;
 }
 
-std::vector<Tile> tilesOf(const Image& image) {
+std::vector<Tile> tilesOf(const PictureRows& image) {
     const int across = (image.width + tileWidth - 1) / tileWidth;
     const int down = (image.height + tileHeight - 1) / tileHeight;
     const auto part = [](int whole, int i, int parts) {
@@ -119,7 +118,7 @@ private:
 
     bool hasHoles() const;
     void enter(Which which, int y, const FlipLook* look);
-    void gather(const Image& image, int y);
+    void gather(const PictureRows& image, int y);
     void enterWeights(int y);
 
     using Convolve = void(float*, const float* const*, const float*, int, int);
@@ -145,18 +144,16 @@ private:
 };
 
 bool TileRows::isSame(const Tile& tile) const {
-    const Image &a = *pair_.reference, &b = *pair_.test;
+    const PictureRows &a = pair_.reference, &b = pair_.test;
     const int left = std::max(tile.x0 - radius_, 0), right = std::min(tile.x1 + radius_, a.width);
     for (int y = std::max(tile.y0 - radius_, 0); y < std::min(tile.y1 + radius_, a.height); ++y)
-        if (std::memcmp(a.data.data() + a.offset(left, y), b.data.data() + b.offset(left, y),
-                        size(3 * (right - left)) * sizeof(float)) != 0)
-            return false;
+        if (!a.storesSame(b, left, y, right - left)) return false;
     return true;
 }
 
 bool TileRows::hasHoles() const {
     if (pair_.holes.empty()) return false;
-    const Image& image = *pair_.reference;
+    const PictureRows& image = pair_.reference;
     const int left = std::max(tile_.x0 - radius_, 0), right = std::min(tile_.x1 + radius_, image.width);
     for (int y = std::max(tile_.y0 - radius_, 0); y < std::min(tile_.y1 + radius_, image.height); ++y) {
         const Hole* row = pair_.holes.data() + size(y) * size(image.width);
@@ -166,15 +163,13 @@ bool TileRows::hasHoles() const {
 }
 
 // Row y of the tile's columns and those around them into rgb_; black, which is 0 in every plane, at holes.
-void TileRows::gather(const Image& image, int y) {
+void TileRows::gather(const PictureRows& image, int y) {
     const int line = std::clamp(y, 0, image.height - 1);
     const int first = tile_.x0 - radius_, last = first + paddedWidth();
     const int left = std::max(first, 0), right = std::min(last, image.width);
-    std::memcpy(rgb_.data() + 3 * (left - first), image.data.data() + image.offset(left, line),
-                size(3 * (right - left)) * sizeof(float));
+    image.copy(rgb_.data() + 3 * (left - first), left, line, right - left);
     const auto repeat = [&](int from, int to, int column) {
-        for (int x = from; x < to; ++x)
-            std::copy_n(image.data.data() + image.offset(column, line), 3, rgb_.data() + 3 * (x - first));
+        for (int x = from; x < to; ++x) image.copy(rgb_.data() + 3 * (x - first), column, line, 1);
     };
     repeat(first, left, 0);
     repeat(right, last, image.width - 1);
@@ -186,7 +181,7 @@ void TileRows::gather(const Image& image, int y) {
 }
 
 void TileRows::enterWeights(int y) {
-    const Image& image = *pair_.reference;
+    const PictureRows& image = pair_.reference;
     const Hole* holes = pair_.holes.data() + size(std::clamp(y, 0, image.height - 1)) * size(image.width);
     const OpponentRow out = opponents(pictures_[weight], y);
     for (int i = 0; i < paddedWidth(); ++i) {
@@ -196,7 +191,7 @@ void TileRows::enterWeights(int y) {
 }
 
 void TileRows::enter(Which which, int y, const FlipLook* look) {
-    gather(which == reference ? *pair_.reference : *pair_.test, y);
+    gather(which == reference ? pair_.reference : pair_.test, y);
     const OpponentRow out = opponents(pictures_[which], y);
     if (look)
         opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
@@ -266,21 +261,18 @@ void TileRows::makeErrors(int y, const ReferenceRow& referenceRow) {
     const ComparableRow r = referenceRow ? referenceRow(y) : comparable(reference, y);
     flipErrors(second_.data(), r, comparable(test, y), tile_.width());
     if (!holes_) return;
-    const Hole* holes = pair_.holes.data() + size(y) * size(pair_.reference->width) + tile_.x0;
+    const Hole* holes = pair_.holes.data() + size(y) * size(pair_.reference.width) + tile_.x0;
     for (int i = 0; i < tile_.width(); ++i)
         if (holes[i] != Hole::none) second_[size(i)] = holes[i] == Hole::different ? 1.0f : 0.0f;
 }
 
-// Where `next` is above `most`, replaces `most` by it and `which` by its number.
-void keepLargest(const float* next, float number, float* most, float* which, int n) {
-    for (int i = 0; i < n; ++i) {
-        which[i] = next[i] > most[i] ? number : which[i];
-        most[i] = next[i] > most[i] ? next[i] : most[i];
-    }
+// Where `next` is above `most`, replaces `most` by it.
+void keepLargest(const float* next, float* most, int n) {
+    for (int i = 0; i < n; ++i) most[i] = next[i] > most[i] ? next[i] : most[i];
 }
 
 void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& looks, Image& errors,
-                Image* which, const FilteredReference* kept) {
+                const FilteredReference* kept) {
     if (rows.isSame(tile)) return;
     if (looks.empty())
         rows.errors(tile, nullptr, {},
@@ -288,23 +280,21 @@ void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& l
     for (std::size_t i = 0; i < looks.size(); ++i) {
         TileRows::ReferenceRow reference;
         if (kept && kept->keeps(i)) reference = [&, i](int y) { return kept->row(i, tile.x0, y); };
-        rows.errors(tile, &looks[i], reference, [&](int y, const float* row) {
-            keepLargest(row, static_cast<float>(i), &errors.at(tile.x0, y), &which->at(tile.x0, y),
-                        tile.width());
-        });
+        rows.errors(tile, &looks[i], reference,
+                    [&](int y, const float* row) { keepLargest(row, &errors.at(tile.x0, y), tile.width()); });
     }
 }
 
 }  // namespace
 
-FilteredReference::FilteredReference(const Image& reference, const std::vector<Hole>& holes,
+FilteredReference::FilteredReference(const PictureRows& reference, const std::vector<Hole>& holes,
                                      const FlipFilters& filters, const std::vector<FlipLook>& looks,
                                      std::size_t most_bytes)
     : width_(size(reference.width)), height_(size(reference.height)) {
     const std::size_t floats = planes * reference.pixels();
     looks_.resize(std::min(looks.size(), most_bytes / (floats * sizeof(float))));
     for (auto& look : looks_) look.resize(floats);
-    const FlipPair pair{&reference, nullptr, holes};
+    const FlipPair pair{reference, reference, holes};
     const std::vector<Tile> tiles = tilesOf(reference);
     tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
     tbb::parallel_for(std::size_t{0}, looks_.size() * tiles.size(), [&](std::size_t i) {
@@ -328,13 +318,12 @@ ComparableRow FilteredReference::row(std::size_t look, int x, int y) const {
 }
 
 void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                  Image& errors, Image* which, const FilteredReference* kept) {
-    errors = Image(pair.reference->width, pair.reference->height, 1);
-    if (which) *which = errors;
+                  Image& errors, const FilteredReference* kept) {
+    errors = Image(pair.reference.width, pair.reference.height, 1);
     const std::vector<Tile> tiles = tilesOf(errors);
     tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
     tbb::parallel_for(std::size_t{0}, tiles.size(),
-                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, which, kept); });
+                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, kept); });
 }
 
 }  // namespace diptych

@@ -6,6 +6,7 @@
 #include "compare/metrics/flip_filters.h"
 #include "compare/metrics/flip_rows.h"
 #include "shared/image/image.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +19,8 @@ namespace diptych {
 enum class Hole : std::uint8_t { none, same, different };
 
 struct FlipPair {
-    const Image *reference, *test;  // W x H x 3, alike
-    std::vector<Hole> holes;        // W x H; empty: none
+    PictureRows reference, test;  // W x H x 3, alike
+    std::vector<Hole> holes;      // W x H; empty: none
 };
 
 // One exposure of a pair of linear pictures: values are multiplied by `scale` and tone mapped.
@@ -33,8 +34,8 @@ struct FlipLook {
 class FilteredReference {
 public:
     // `holes`: as the pairs have them that it serves; W x H or empty.
-    FilteredReference(const Image& reference, const std::vector<Hole>& holes, const FlipFilters& filters,
-                      const std::vector<FlipLook>& looks, std::size_t most_bytes);
+    FilteredReference(const PictureRows& reference, const std::vector<Hole>& holes,
+                      const FlipFilters& filters, const std::vector<FlipLook>& looks, std::size_t most_bytes);
     bool keeps(std::size_t look) const { return look < looks_.size(); }
     // From column x of row y on; of a look that is kept.
     ComparableRow row(std::size_t look, int x, int y) const;
@@ -46,10 +47,10 @@ private:
     std::vector<std::vector<float>> looks_;  // the planes of a ComparableRow, in its order
 };
 
-// Errors of a pair of sRGB pictures (no looks), or the largest over the looks at a linear pair; then `which`
-// gets the first look that has it. At a hole the error is 0 (same) or 1 (different), at look 0. `kept`: of
-// the pair's reference and holes, under these looks; the result is the same with and without it.
+// Errors of a pair of sRGB pictures (no looks), or the largest over the looks at a linear pair. At a hole the
+// error is 0 (same) or 1 (different). `kept`: of the pair's reference and holes, under these looks; the
+// result is the same with and without it.
 void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                  Image& errors, Image* which, const FilteredReference* kept = nullptr);
+                  Image& errors, const FilteredReference* kept = nullptr);
 
 }  // namespace diptych

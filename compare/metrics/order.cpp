@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/metrics/order.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace diptych::metrics {
 namespace {
@@ -29,28 +31,24 @@ float valueOf(std::size_t bin, std::size_t low) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bin << 16 | low));
 }
 
-Part countPart(std::span<const float> values) {
-    Part part{std::vector<std::uint32_t>(bins), std::vector<double>(bins)};
+void add(Part& part, std::span<const float> values) {
     for (const float v : values)
         if (isThere(v)) {
             ++part.count[keyOf(v) >> 16];
             part.weight[keyOf(v) >> 16] += double{v};
         }
-    return part;
-}
-
-// The i-th of `parts` stretches of the values.
-std::span<const float> stretch(std::span<const float> values, std::size_t i) {
-    const std::size_t from = values.size() * i / parts, to = values.size() * (i + 1) / parts;
-    return values.subspan(from, to - from);
 }
 
 }  // namespace
 
-Order::Order(std::span<const float> values) : values_(values), count_(bins), weight_(bins) {
+Order::Order(std::size_t count, Values values)
+    : length_(count), values_(std::move(values)), count_(bins), weight_(bins) {
     std::vector<Part> found(parts);
-    tbb::parallel_for(std::size_t{0}, parts,
-                      [&](std::size_t i) { found[i] = countPart(stretch(values, i)); });
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+        found[i] = {std::vector<std::uint32_t>(bins), std::vector<double>(bins)};
+        values_(length_ * i / parts, length_ * (i + 1) / parts,
+                [&](std::span<const float> piece) { add(found[i], piece); });
+    });
     for (const Part& part : found)
         for (std::size_t bin = 0; bin < bins; ++bin) {
             count_[bin] += part.count[bin];
@@ -62,23 +60,53 @@ Order::Order(std::span<const float> values) : values_(values), count_(bins), wei
     }
 }
 
-std::vector<std::uint32_t> Order::within(std::size_t bin) const {
-    std::vector<std::uint32_t> low(std::size_t{1} << 16);
-    for (const float v : values_)
-        if (keyOf(v) >> 16 == bin && isThere(v)) ++low[keyOf(v) & 0xffffu];
-    return low;
+Order::Order(std::span<const float> values)
+    : Order(values.size(), [values](std::size_t from, std::size_t to, const Use& use) {
+          use(values.subspan(from, to - from));
+      }) {}
+
+std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) const {
+    std::vector<std::uint8_t> place(bins);  // in `wanted`, from 1
+    for (std::size_t i = 0; i < wanted.size(); ++i) place[wanted[i]] = static_cast<std::uint8_t>(i + 1);
+    const std::vector<Bin> none(wanted.size(), Bin(std::size_t{1} << 16));
+    tbb::enumerable_thread_specific<std::vector<Bin>> found(none);
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+        std::vector<Bin>& low = found.local();
+        values_(length_ * i / parts, length_ * (i + 1) / parts, [&](std::span<const float> piece) {
+            for (const float v : piece)
+                if (const std::uint8_t at = isThere(v) ? place[keyOf(v) >> 16] : 0; at > 0)
+                    ++low[at - 1u][keyOf(v) & 0xffffu];
+        });
+    });
+    std::vector<Bin> sum = none;
+    for (const std::vector<Bin>& part : found)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            std::ranges::transform(sum[i], part[i], sum[i].begin(), std::plus());
+    return sum;
 }
 
-float Order::nearestRank(double share) const {
-    if (size_ == 0) return 0;
-    auto left = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(size_)));
-    left = std::clamp<std::uint64_t>(left, 1, size_);
-    std::size_t bin = 0;
-    for (; left > count_[bin]; ++bin) left -= count_[bin];
-    const std::vector<std::uint32_t> low = within(bin);
-    std::size_t i = 0;
-    for (; left > low[i]; ++i) left -= low[i];
-    return valueOf(bin, i);
+std::vector<float> Order::nearestRanks(std::span<const double> shares) const {
+    std::vector<float> values(shares.size());
+    if (size_ == 0) return values;
+    std::vector<std::size_t> found, in;  // bins, each once; which of them a share's rank is in
+    std::vector<std::uint64_t> left;     // ranks within them
+    for (const double share : shares) {
+        auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(size_)));
+        rank = std::clamp<std::uint64_t>(rank, 1, size_);
+        std::size_t bin = 0;
+        for (; rank > count_[bin]; ++bin) rank -= count_[bin];
+        const auto known = std::ranges::find(found, bin);
+        in.push_back(static_cast<std::size_t>(known - found.begin()));
+        if (known == found.end()) found.push_back(bin);
+        left.push_back(rank);
+    }
+    const std::vector<Bin> low = within(found);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        std::size_t i = 0;
+        for (; left[k] > low[in[k]][i]; ++i) left[k] -= low[in[k]][i];
+        values[k] = valueOf(found[in[k]], i);
+    }
+    return values;
 }
 
 float Order::weightedQuantile(double share) const {
@@ -87,7 +115,7 @@ float Order::weightedQuantile(double share) const {
     std::size_t bin = 0;
     for (; bin < bins && !(count_[bin] && left <= weight_[bin]); ++bin) left -= weight_[bin];
     if (bin == bins) return nearestRank(1);  // the sums' rounding
-    const std::vector<std::uint32_t> low = within(bin);
+    const Bin low = std::move(within({bin}).front());
     float value = 0;
     for (std::size_t i = 0; i < low.size(); ++i) {
         if (!low[i]) continue;

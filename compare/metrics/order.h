@@ -2,7 +2,9 @@
 // Exact order statistics without sorting.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,11 @@ namespace diptych::metrics {
 // number of threads.
 class Order {
 public:
+    // Calls use() with the values [from, to) in their order, in one or several pieces. Called by several
+    // threads at once, and again for each query, so that values need not be in memory at the same time.
+    using Use = std::function<void(std::span<const float>)>;
+    using Values = std::function<void(std::size_t from, std::size_t to, const Use& use)>;
+    Order(std::size_t count, Values values);
     explicit Order(std::span<const float> values);
 
     std::uint64_t size() const { return size_; }
@@ -22,15 +29,18 @@ public:
 
     // The ceil(share N)-th smallest value (nearest rank), share in [0, 1]; share 0 is the smallest. 0 if
     // there are no values.
-    float nearestRank(double share) const;
+    float nearestRank(double share) const { return nearestRanks({&share, 1}).front(); }
+    std::vector<float> nearestRanks(std::span<const double> shares) const;  // by one look at the values
     // A quantile in which each value is weighted by itself: the least value such that it and those below it
     // are at least `share` of the sum. 0 if the sum is 0; the sum must be finite.
     float weightedQuantile(double share) const;
 
 private:
-    std::vector<std::uint32_t> within(std::size_t bin) const;  // by the low 16 bits
+    using Bin = std::vector<std::uint32_t>;
+    std::vector<Bin> within(const std::vector<std::size_t>& bins) const;  // of each, by the low 16 bits
 
-    std::span<const float> values_;
+    std::size_t length_;  // of the values, those that are left out too
+    Values values_;
     std::vector<std::uint64_t> count_;  // by the high bits
     std::vector<double> weight_;
     std::uint64_t size_ = 0;

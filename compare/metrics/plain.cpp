@@ -7,10 +7,11 @@
 #include "compare/metrics/ssim.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -32,24 +33,24 @@ struct BandSums {
 
 class PlainPass {
 public:
-    PlainPass(const Image& reference, const Image& test, ChannelKind kind, const Coverage& coverage)
+    PlainPass(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+              const Coverage& coverage)
         : reference_(reference),
           test_(test),
           coverage_(coverage),
           angles_(kind == ChannelKind::vector && reference.components == 3),
-          floor_(PixelError(Metric::relative, kind, reference, coverage).floor()),
-          absolute(reference.pixels()),
-          relative(reference.pixels()) {}
+          floor_(PixelError(Metric::relative, kind, reference, coverage).floor()) {}
 
     bool angles() const { return angles_; }
     double meanMagnitude() const { return 1e3 * floor_; }
 
     // The sums of all rows.
-    BandSums run() {
+    BandSums run() const {
         std::vector<BandSums> bands(size((reference_.height + bandHeight - 1) / bandHeight));
         tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
             const int from = static_cast<int>(i) * bandHeight;
-            for (int y = from; y < std::min(from + bandHeight, reference_.height); ++y) row(y, bands[i]);
+            Row row;
+            for (int y = from; y < std::min(from + bandHeight, reference_.height); ++y) add(y, row, bands[i]);
         });
         BandSums total;
         for (const BandSums& band : bands) {
@@ -66,76 +67,104 @@ public:
         return total;
     }
 
-private:
-    void row(int y, BandSums& sums);
-    // For a row with nonfinite or uncovered pixels: adds copies of the row in which their components are 0.
-    void unevenRow(int y, BandSums& sums);
-    void addFinite(int y, const float* test, const float* reference, BandSums& sums);
+    // The relative errors of all pixels; below 0: not covered. They are measured again at every look.
+    Order relative() const {
+        return {reference_.pixels(), [this](std::size_t from, std::size_t to, const Order::Use& use) {
+                    const std::size_t width = size(reference_.width);
+                    Row row;
+                    for (std::size_t at = from; at < to;) {
+                        const std::size_t x = at % width, n = std::min(width - x, to - at);
+                        measure(static_cast<int>(at / width), row);
+                        use(std::span(row.relative).subspan(x, n));
+                        at += n;
+                    }
+                }};
+    }
 
-    const Image &reference_, &test_;
+private:
+    // What is measured of one row, in memory that serves one row after the other.
+    struct Row {
+        std::vector<float> buffers[2];
+        const float *test, *reference;          // uncovered and nonfinite components are 0
+        std::vector<float> absolute, relative;  // errors, a pixel each; below 0: not covered
+        std::uint64_t infinite, nonfinite_reference, nonfinite_test;
+    };
+    void measure(int y, Row& row) const;
+    // Replaces what is not finite or not covered of both by 0, in copies; returns the columns whose
+    // difference is infinite.
+    std::vector<std::size_t> clean(int y, Row& row) const;
+    void add(int y, Row& row, BandSums& sums) const;
+
+    const PictureRows &reference_, &test_;
     const Coverage& coverage_;
     bool angles_;
     double floor_;
-
-public:
-    std::vector<float> absolute, relative;  // per pixel; below 0: not covered
 };
 
-void PlainPass::addFinite(int y, const float* test, const float* reference, BandSums& sums) {
-    const int width = reference_.width, components = reference_.components;
-    const std::size_t at = size(y) * size(width);
-    addRow(sums.components, test, reference, width * components);
-    pixelErrors(&absolute[at], &relative[at], test, reference, components, floor_, width);
-    for (int i = 0; i < width * components; ++i)
-        sums.peak = reference[i] > sums.peak ? double{reference[i]} : sums.peak;
-    for (std::size_t x = 0; x < size(width); ++x) {
-        if (absolute[at + x] == 0) continue;
-        ++sums.different;
-        if (!angles_) continue;
-        const double degrees = angle(test + 3 * x, reference + 3 * x);
-        sums.angles += degrees;
-        sums.mostDegrees = std::max(sums.mostDegrees, degrees);
-        sums.mostLength = std::max(sums.mostLength, lengthsApart(test + 3 * x, reference + 3 * x));
-    }
-}
-
-void PlainPass::unevenRow(int y, BandSums& sums) {
+std::vector<std::size_t> PlainPass::clean(int y, Row& row) const {
     const int components = reference_.components;
-    const std::size_t width = size(reference_.width), at = size(y) * width;
-    const auto n = width * size(components);
-    std::vector<float> test(test_.pixel(at), test_.pixel(at) + n);
-    std::vector<float> reference(reference_.pixel(at), reference_.pixel(at) + n);
+    const std::size_t width = size(reference_.width), n = width * size(components);
+    const std::uint8_t* covered = coverage_.covered.data() + size(y) * width;
+    row.buffers[0].assign(row.test, row.test + n);
+    row.buffers[1].assign(row.reference, row.reference + n);
+    row.test = row.buffers[0].data();
+    row.reference = row.buffers[1].data();
     std::vector<std::size_t> infinitePixels;
     for (std::size_t x = 0; x < width; ++x) {
-        float *t = test.data() + x * size(components), *r = reference.data() + x * size(components);
-        sums.nonfinite_reference += !finite(r, components);
-        sums.nonfinite_test += !finite(t, components);
-        if (coverage_.covered[at + x] && distance(t, r, components) == infinity) infinitePixels.push_back(x);
+        float *t = row.buffers[0].data() + x * size(components),
+              *r = row.buffers[1].data() + x * size(components);
+        row.nonfinite_reference += !finite(r, components);
+        row.nonfinite_test += !finite(t, components);
+        if (covered[x] && distance(t, r, components) == infinity) infinitePixels.push_back(x);
         for (int c = 0; c < components; ++c)
-            if (!coverage_.covered[at + x] || !std::isfinite(t[c]) || !std::isfinite(r[c])) t[c] = r[c] = 0;
+            if (!covered[x] || !std::isfinite(t[c]) || !std::isfinite(r[c])) t[c] = r[c] = 0;
     }
-    addFinite(y, test.data(), reference.data(), sums);
-    for (const std::size_t x : infinitePixels) {
-        sums.different += absolute[at + x] == 0;
-        ++sums.infinite;
-        absolute[at + x] = relative[at + x] = HUGE_VALF;
-    }
-    for (std::size_t x = 0; x < width; ++x)
-        if (!coverage_.covered[at + x]) absolute[at + x] = relative[at + x] = notCovered;
+    return infinitePixels;
 }
 
-void PlainPass::row(int y, BandSums& sums) {
-    const std::size_t at = size(y) * size(reference_.width);
-    const int n = reference_.width * reference_.components;
-    const std::uint8_t* covered = coverage_.covered.data() + at;
-    if (allFinite(test_.pixel(at), n) && allFinite(reference_.pixel(at), n) &&
-        std::all_of(covered, covered + reference_.width, [](std::uint8_t c) { return c != 0; }))
-        addFinite(y, test_.pixel(at), reference_.pixel(at), sums);
-    else
-        unevenRow(y, sums);
+void PlainPass::measure(int y, Row& row) const {
+    const int width = reference_.width, n = width * reference_.components;
+    const std::uint8_t* covered = coverage_.covered.data() + size(y) * size(width);
+    row.infinite = row.nonfinite_reference = row.nonfinite_test = 0;
+    row.test = test_.row(y, row.buffers[0]);
+    row.reference = reference_.row(y, row.buffers[1]);
+    const bool whole = std::all_of(covered, covered + width, [](std::uint8_t c) { return c != 0; });
+    const bool even = whole && allFinite(row.test, n) && allFinite(row.reference, n);
+    const std::vector<std::size_t> infinitePixels = even ? std::vector<std::size_t>() : clean(y, row);
+    row.absolute.resize(size(width));
+    row.relative.resize(size(width));
+    pixelErrors(row.absolute.data(), row.relative.data(), row.test, row.reference, reference_.components,
+                floor_, width);
+    row.infinite = infinitePixels.size();
+    for (const std::size_t x : infinitePixels) row.absolute[x] = row.relative[x] = HUGE_VALF;
+    if (whole) return;
+    for (std::size_t x = 0; x < size(width); ++x)
+        if (!covered[x]) row.absolute[x] = row.relative[x] = notCovered;
 }
 
-void checkPair(const Image& reference, const Image& test, const Coverage& coverage) {
+void PlainPass::add(int y, Row& row, BandSums& sums) const {
+    measure(y, row);
+    const int width = reference_.width, n = width * reference_.components;
+    addRow(sums.components, row.test, row.reference, n);
+    for (int i = 0; i < n; ++i)
+        sums.peak = row.reference[i] > sums.peak ? double{row.reference[i]} : sums.peak;
+    sums.infinite += row.infinite;
+    sums.nonfinite_reference += row.nonfinite_reference;
+    sums.nonfinite_test += row.nonfinite_test;
+    for (std::size_t x = 0; x < size(width); ++x) {
+        if (!(row.absolute[x] > 0)) continue;
+        ++sums.different;
+        if (!angles_) continue;
+        const float *t = row.test + 3 * x, *r = row.reference + 3 * x;
+        if (std::equal(t, t + 3, r)) continue;  // they differ in a component that is not finite, 0 here
+        const double degrees = angle(t, r);
+        sums.angles += degrees;
+        sums.mostDegrees = std::max(sums.mostDegrees, degrees);
+        sums.mostLength = std::max(sums.mostLength, lengthsApart(t, r));
+    }
+}
+
+void checkPair(const PictureRows& reference, const PictureRows& test, const Coverage& coverage) {
     if (reference.width != test.width || reference.height != test.height ||
         reference.components != test.components || reference.components < 1 || reference.components > 4 ||
         coverage.covered.size() != reference.pixels())
@@ -147,14 +176,13 @@ void checkPair(const Image& reference, const Image& test, const Coverage& covera
 }
 
 void setPixels(const PlainPass& pass, PlainMetrics& m) {
-    const Order absolute(pass.absolute), relative(pass.relative);
-    m.max = absolute.nearestRank(1);
-    m.p99 = absolute.nearestRank(0.99);
-    m.p999 = absolute.nearestRank(0.999);
-    m.relative_max = relative.nearestRank(1);
+    constexpr std::array shares{1.0, 0.99, 0.999};
+    const Order relative = pass.relative();
+    const std::vector<float> ranks = relative.nearestRanks(shares);
+    m.relative_max = ranks[0];
     m.relative_mean = relative.mean();
-    m.relative_p99 = relative.nearestRank(0.99);
-    m.relative_p999 = relative.nearestRank(0.999);
+    m.relative_p99 = ranks[1];
+    m.relative_p999 = ranks[2];
 }
 
 void setComponents(const BandSums& sums, double components, Range range, PlainMetrics& m) {
@@ -178,36 +206,33 @@ void setAngles(const BandSums& sums, PlainMetrics& m) {
 }
 
 // The plane of luma that SSIM compares.
-Image luma(const Image& image, Range range, float scale) {
-    Image plane(image.width, image.height, 1);
-    tbb::parallel_for(tbb::blocked_range<int>(0, image.height, bandHeight), [&](const auto& rows) {
-        for (int y = rows.begin(); y < rows.end(); ++y) {
-            float* out = &plane.at(0, y);
-            const float* rgb = image.data.data() + image.offset(0, y);
-            if (range == Range::display)
-                lumaFromDisplay(out, rgb, image.width);
-            else
-                lumaFromLinear(out, rgb, image.width, scale);
-        }
-    });
-    return plane;
+PlaneRow luma(const PictureRows& picture, Range range, float scale) {
+    return [=, &picture](float* out, int y) {
+        static thread_local std::vector<float> buffer;
+        const float* rgb = picture.row(y, buffer);
+        if (range == Range::display)
+            lumaFromDisplay(out, rgb, picture.width);
+        else
+            lumaFromLinear(out, rgb, picture.width, scale);
+    };
 }
 
-std::optional<double> ssimOf(const Image& reference, const Image& test, Range range, double meanLuminance,
-                             const Coverage& coverage) {
+std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& test, Range range,
+                             double meanLuminance, const Coverage& coverage) {
     // A black reference has no mean to go by; a dim one's inverse may be no float.
     const double scale = meanLuminance > 0 ? std::min(0.18 / meanLuminance, 1e30) : 1;
     const auto s = static_cast<float>(scale);
-    return ssim(luma(reference, range, s), luma(test, range, s), coverage.covered);
+    return ssim(reference.width, reference.height, luma(reference, range, s), luma(test, range, s),
+                coverage.covered);
 }
 
 }  // namespace
 
-PlainMetrics plainMetrics(const Image& reference, const Image& test, ChannelKind kind, Range range,
-                          const Coverage& coverage) {
+PlainMetrics plainMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+                          Range range, const Coverage& coverage) {
     checkPair(reference, test, coverage);
     PlainMetrics m;
-    PlainPass pass(reference, test, kind, coverage);
+    const PlainPass pass(reference, test, kind, coverage);
     const BandSums sums = pass.run();
     m.pixels = coverage.count;
     m.different = sums.different;
@@ -216,7 +241,7 @@ PlainMetrics plainMetrics(const Image& reference, const Image& test, ChannelKind
     m.nonfinite_test = sums.nonfinite_test;
     if (m.pixels == 0) return m;
     setComponents(sums, static_cast<double>(m.pixels) * reference.components, range, m);
-    setPixels(pass, m);
+    if (m.different > 0) setPixels(pass, m);
     if (pass.angles()) setAngles(sums, m);
     if (kind == ChannelKind::color && reference.components == 3)
         m.ssim = ssimOf(reference, test, range, pass.meanMagnitude(), coverage);

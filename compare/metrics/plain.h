@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
-#include "shared/image/image.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,10 +27,8 @@ struct PlainMetrics {
     double peak = 1;           // Range::display: 1; linear: the reference's largest covered finite component
     double ulp_mean = 0, ulp_max = 0;  // how many float32 values lie from one to the other; -0 and 0 are one
 
-    // Over pixels; |t-r| is a pixel's largest component's. Percentiles are the nearest rank, to a float's
-    // rounding.
-    double max = 0, p99 = 0, p999 = 0;  // |t-r|, at most the largest float
-    // |t-r| / max(|r|, 1e-3 mean), |r| the pixel's largest component, mean as in PixelError.
+    // Over pixels: |t-r| / max(|r|, 1e-3 mean), |.| the pixel's largest component, mean as in PixelError.
+    // Percentiles are the nearest rank, to a float's rounding.
     double relative_max = 0, relative_mean = 0, relative_p99 = 0, relative_p999 = 0;
     // Degrees; for ChannelKind::vector of 3 components, else 0.
     double angle_max = 0, angle_mean = 0;
@@ -51,9 +49,9 @@ struct PlainMetrics {
     std::uint64_t nonfinite_reference = 0, nonfinite_test = 0;  // pixels, covered or not, the same or not
 };
 
-// Of two images alike in size and components (throws std::runtime_error otherwise). One pass over the pixels
-// and one for SSIM; the same result whatever the number of threads.
-PlainMetrics plainMetrics(const Image& reference, const Image& test, ChannelKind kind, Range range,
-                          const Coverage& coverage);
+// Of two pictures alike in size and components (throws std::runtime_error otherwise). A few passes over the
+// pixels, each in memory for a few dozen rows a thread; the same result whatever the number of threads.
+PlainMetrics plainMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+                          Range range, const Coverage& coverage);
 
 }  // namespace diptych

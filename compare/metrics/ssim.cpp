@@ -17,7 +17,9 @@
 namespace diptych::metrics {
 namespace {
 
-constexpr int radius = 5, bandHeight = 16;
+constexpr int radius = 5;
+constexpr int bandHeight = 16;              // rows whose similarities are added up first
+constexpr int taskHeight = 4 * bandHeight;  // rows of one thread's planes, beside the windows' borders
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;  // (K L)^2
 
 std::array<float, radius + 1> window() {
@@ -69,17 +71,17 @@ struct Sum {
 // Windows whose middles are in rows [from, to).
 class Band {
 public:
-    Band(const Image& reference, const Image& test, int from, int to)
-        : width_(reference.width),
+    // `reference` and `test`: row from - radius of the planes, on which the others follow.
+    Band(const float* reference, const float* test, int width, int from, int to)
+        : width_(width),
           from_(from),
           rows_(to - from + 2 * radius),
           planes_(size(4 * rows_) * size(width_)),
           upright_(size(width_)),
           filtered_(size(4 * width_)) {
         for (int y = 0; y < rows_; ++y) {
-            const std::size_t at = reference.offset(0, from - radius + y);
-            momentsOf(reference.data.data() + at, test.data.data() + at, row(y, 0), row(y, 1), row(y, 2),
-                      row(y, 3), width_);
+            const std::size_t at = size(y) * size(width);
+            momentsOf(reference + at, test + at, row(y, 0), row(y, 1), row(y, 2), row(y, 3), width_);
         }
     }
 
@@ -119,22 +121,34 @@ private:
 
 }  // namespace
 
-std::optional<double> ssim(const Image& reference, const Image& test, std::span<const std::uint8_t> covered) {
-    if (reference.width != test.width || reference.height != test.height ||
-        reference.pixels() != covered.size() || reference.components != 1 || test.components != 1)
-        throw std::runtime_error(fmt::format("SSIM of {}x{}x{} and {}x{}x{}: give two planes of one size",
-                                             reference.width, reference.height, reference.components,
-                                             test.width, test.height, test.components));
-    const int first = radius, last = reference.height - radius;  // rows of middles
-    if (first >= last || reference.width <= 2 * radius) return {};
+std::optional<double> ssim(int width, int height, const PlaneRow& reference, const PlaneRow& test,
+                           std::span<const std::uint8_t> covered) {
+    if (size(width) * size(height) != covered.size())
+        throw std::runtime_error(
+            fmt::format("SSIM of {}x{} pixels has coverage of {}; give one value a pixel", width, height,
+                        covered.size()));
+    const int first = radius, last = height - radius;  // rows of middles
+    if (first >= last || width <= 2 * radius) return {};
     std::vector<Sum> bands(size((last - first + bandHeight - 1) / bandHeight));
-    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
-        const int from = first + static_cast<int>(i) * bandHeight, to = std::min(from + bandHeight, last);
-        Band band(reference, test, from, to);
-        for (int y = from; y < to; ++y) {
-            const Sum row = band.sum(y, covered);
-            bands[i].value += row.value;
-            bands[i].count += row.count;
+    tbb::parallel_for(0, (last - first + taskHeight - 1) / taskHeight, [&](int task) {
+        const int top = first + task * taskHeight, bottom = std::min(top + taskHeight, last);
+        const std::size_t plane = size(bottom - top + 2 * radius) * size(width);
+        std::vector<float> a(plane), b(plane);
+        for (int y = top - radius; y < bottom + radius; ++y) {
+            const std::size_t at = size(y - top + radius) * size(width);
+            reference(a.data() + at, y);
+            test(b.data() + at, y);
+        }
+        for (int from = top; from < bottom; from += bandHeight) {
+            const int to = std::min(from + bandHeight, bottom);
+            const std::size_t at = size(from - top) * size(width);
+            Band band(a.data() + at, b.data() + at, width, from, to);
+            Sum& sum = bands[size((from - first) / bandHeight)];
+            for (int y = from; y < to; ++y) {
+                const Sum row = band.sum(y, covered);
+                sum.value += row.value;
+                sum.count += row.count;
+            }
         }
     });
     Sum total;

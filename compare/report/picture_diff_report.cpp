@@ -26,10 +26,10 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     for (const auto& channel : diff.channels) {
         const MatchedChannel& pair = channel->pair;
         const DebugMode* known = findDebugMode(pair.name);
-        const bool ours = known && known->name == pair.name && known->width == pair.reference.components;
+        const bool ours = known && known->name == pair.name && known->width == pair.reference.components();
         DebugMode mode{.number = ours ? known->number : 1000 + static_cast<int>(modes.size()),
                        .name = pair.name,
-                       .width = pair.reference.components,
+                       .width = pair.reference.components(),
                        .metric = pair.metric,
                        .kind = pair.kind,
                        .domain = Domain::any,
@@ -59,7 +59,7 @@ Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test)
         diff.channels[i]->measurement.reset();
         MatchedChannel& pair = diff.channels[i]->pair;
         Image& channel = frame.channels[modes[i].number];
-        channel = std::move(test ? pair.test : pair.reference);
+        channel = (test ? pair.test : pair.reference).takeImage();
         keepInFile(channel.data);
     }
     return frame;
@@ -75,7 +75,7 @@ ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel
     row.rule = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
     if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
-        row.shown_error = std::make_shared<Image>(std::move(errors.image));
+        row.shown_error = std::move(errors.image);
         row.shown_error_name = errors.name;
         row.shown_error_top = errors.top;
     }
@@ -128,18 +128,18 @@ void writePictureDiff(PictureDiff diff, const Output& output, const ReportOption
         return writePictureDiffs(std::move(one), output.path, options, words, {}, {});
     }
     if (output.kind == OutputKind::exr) {
-        std::vector<Image> errors;
+        std::vector<std::shared_ptr<const Image>> errors;
         for (const auto& channel : diff.channels) errors.push_back(decidingErrors(diff, *channel).image);
         std::vector<ExrLayerView> layers;
         for (std::size_t i = 0; i < errors.size(); ++i)
-            layers.push_back({{diff.channels[i]->pair.name + ".Y"}, &errors[i]});
+            layers.push_back({{diff.channels[i]->pair.name + ".Y"}, errors[i].get()});
         writeExr(output.path, layers,
                  {{"software", softwareName}, {"reference", diff.reference}, {"test", diff.test}});
         return;
     }
     const PictureChannelDiff& channel = deciding(diff);
     const DecidingErrors errors = decidingErrors(diff, channel);
-    writePng(output.path, errorPicture(errors.image, errors.top));
+    writePng(output.path, errorPicture(*errors.image, errors.top));
 }
 
 }  // namespace diptych

@@ -220,8 +220,8 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     channel.mode = &mode;
     channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.number),
                                  pair.test.channels.at(mode.number), pair.coverage);
-    const Measurement measurement({mode.metric, mode.kind, false, &pair.baseline.channels.at(mode.number),
-                                   &pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
+    const Measurement measurement({mode.metric, mode.kind, false, pair.baseline.channels.at(mode.number),
+                                   pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
     channel.figures = measurement.all();
     if (const Rule* rule = ruleFor(rules, mode.name))

@@ -21,7 +21,7 @@ PathError pathErrorOf(const DebugMode& mode, const Image& reference, const Image
     error.relative_rmse = mode.metric == Metric::relative
                               ? error.stats.rmse
                               : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
-    const Measurement measurement({mode.metric, mode.kind, false, &reference, &test, &covered, &error.stats});
+    const Measurement measurement({mode.metric, mode.kind, false, reference, test, &covered, &error.stats});
     error.flip = measurement({"flip", 0});
     return error;
 }

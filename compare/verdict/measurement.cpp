@@ -90,7 +90,7 @@ const Figure* findFigure(std::string_view name) {
 }
 
 bool Measurement::isVector() const {
-    return pair_.kind == ChannelKind::vector && pair_.reference->components == 3;
+    return pair_.kind == ChannelKind::vector && pair_.reference.components == 3;
 }
 
 std::optional<double> Measurement::operator()(const Quantity& quantity) const {
@@ -113,7 +113,7 @@ std::vector<std::pair<std::string, double>> Measurement::all() const {
 const ChannelStats& Measurement::stats() const {
     if (pair_.stats) return *pair_.stats;
     if (!stats_) {
-        stats_ = channelStats(pair_.metric, pair_.kind, *pair_.reference, *pair_.test, *pair_.coverage);
+        stats_ = channelStats(pair_.metric, pair_.kind, pair_.reference, pair_.test, *pair_.coverage);
         if (pair_.metric == Metric::absolute) {
             stats_->mean = plain().mae;
             stats_->rmse = plain().rmse;
@@ -124,15 +124,16 @@ const ChannelStats& Measurement::stats() const {
 
 const PlainMetrics& Measurement::plain() const {
     if (!plain_)
-        plain_ = plainMetrics(*pair_.reference, *pair_.test, pair_.kind,
+        plain_ = plainMetrics(pair_.reference, pair_.test, pair_.kind,
                               pair_.display ? Range::display : Range::linear, *pair_.coverage);
     return *plain_;
 }
 
 // FLIP's filters read neighbouring pixels. Uncovered pixels become NaN in both pictures, so that they do not
 // influence covered ones beside them.
-Image Measurement::withHoles(const Image& image) const {
-    Image holed = image;
+Image Measurement::withHoles(const PictureRows& picture) const {
+    Image holed(picture.width, picture.height, picture.components);
+    for (int y = 0; y < picture.height; ++y) picture.copy(&holed.at(0, y), 0, y, picture.width);
     for (std::size_t i = 0; i < holed.pixels(); ++i)
         if (!pair_.coverage->covered[i])
             std::fill_n(holed.pixel(i), holed.components, std::numeric_limits<float>::quiet_NaN());
@@ -140,30 +141,35 @@ Image Measurement::withHoles(const Image& image) const {
 }
 
 const HdrFlipResult* Measurement::flip() const {
-    if (pair_.kind != ChannelKind::color || pair_.reference->components != 3) return nullptr;
+    if (pair_.kind != ChannelKind::color || pair_.reference.components != 3) return nullptr;
     if (!flip_) {
         HdrFlipOptions options = pair_.flip;
         options.covered = pair_.coverage->covered;
-        const bool whole = pair_.coverage->count == pair_.reference->pixels();
-        const Image reference = whole ? Image() : withHoles(*pair_.reference),
-                    test = whole ? Image() : withHoles(*pair_.test);
-        const Image &r = whole ? *pair_.reference : reference, &t = whole ? *pair_.test : test;
-        if (pair_.display) {
-            flip_.emplace();
-            static_cast<FlipResult&>(*flip_) = ldrFlip(r, t, options);
-        } else {
-            flip_ = hdrFlip(r, t, options);
-        }
+        const bool whole = pair_.coverage->count == pair_.reference.pixels();
+        const Image reference = whole ? Image() : withHoles(pair_.reference),
+                    test = whole ? Image() : withHoles(pair_.test);
+        const PictureRows r = whole ? pair_.reference : reference, t = whole ? pair_.test : test;
+        auto result = std::make_shared<HdrFlipResult>();
+        if (pair_.display)
+            static_cast<FlipResult&>(*result) = ldrFlip(r, t, options);
+        else
+            *result = hdrFlip(r, t, options);
+        flip_ = std::move(result);
     }
-    return &*flip_;
+    return flip_.get();
+}
+
+std::shared_ptr<const Image> Measurement::flipErrors() const {
+    return flip() ? std::shared_ptr<const Image>(flip_, &flip_->error) : nullptr;
 }
 
 std::uint64_t Measurement::pixelsAbove(double most) const {
-    const PixelError error(pair_.metric, pair_.kind, *pair_.reference, *pair_.coverage);
+    const PixelError error(pair_.metric, pair_.kind, pair_.reference, *pair_.coverage);
     std::uint64_t count = 0;
-    for (std::size_t i = 0; i < pair_.reference->pixels(); ++i)
-        if (pair_.coverage->covered[i])
-            count += !(error(pair_.test->pixel(i), pair_.reference->pixel(i)) <= most);
+    eachPair(pair_.test, pair_.reference, 0, pair_.reference.height,
+             [&](std::size_t i, const float* test, const float* reference) {
+                 if (pair_.coverage->covered[i]) count += !(error(test, reference) <= most);
+             });
     return count;
 }
 

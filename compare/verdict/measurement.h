@@ -6,7 +6,7 @@
 #include "compare/metrics/plain.h"
 #include "compare/verdict/rules.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/image/image.h"
+#include "shared/image/picture_rows.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,13 +17,12 @@
 
 namespace diptych {
 
-// Two images of one channel, equal in size and components. They must outlive their Measurement.
+// Two pictures of one channel, equal in size and components. They must outlive their Measurement.
 struct ChannelPair {
     Metric metric = Metric::absolute;  // of max, mean, rmse, p99, p999 and the share of failing pixels
     ChannelKind kind = ChannelKind::color;
     bool display = false;  // sRGB values in [0, 1]; else linear
-    const Image* reference = nullptr;
-    const Image* test = nullptr;
+    PictureRows reference, test;
     const Coverage* coverage = nullptr;
     const ChannelStats* stats = nullptr;  // where they are known already
     HdrFlipOptions flip = {};             // its `covered` is set here
@@ -51,14 +50,16 @@ public:
     const ChannelStats& stats() const;
     const PlainMetrics& plain() const;
     const HdrFlipResult* flip() const;  // nullptr where it is not defined
+    // FLIP's error map, which may outlive this object; nullptr where it is not defined.
+    std::shared_ptr<const Image> flipErrors() const;
 
 private:
-    Image withHoles(const Image& image) const;
+    Image withHoles(const PictureRows& picture) const;
 
     ChannelPair pair_;
     mutable std::optional<ChannelStats> stats_;
     mutable std::optional<PlainMetrics> plain_;
-    mutable std::optional<HdrFlipResult> flip_;
+    mutable std::shared_ptr<HdrFlipResult> flip_;
 };
 
 // Applies the rule to the measurement. A NaN or infinity against any other value is a difference that some

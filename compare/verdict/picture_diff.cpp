@@ -3,11 +3,14 @@
 
 #include "compare/metrics/prefilter.h"
 #include "compare/verdict/one_sided.h"
+#include "shared/image/file_bytes.h"
+#include "shared/image/free_memory.h"
 #include "shared/image/picture_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +27,85 @@ float linearFromSrgb(float v) {
 }
 
 void makeLinear(PictureFile& file) {
-    for (PictureLayer& layer : file.layers)
+    for (PictureLayer& layer : file.layers) {
+        if (layer.image.empty())
+            layer.image = StoredPicture{{}, std::move(layer.coded), static_cast<int>(layer.channels.size())}
+                              .takeImage();
         for (std::size_t i = 0; i < layer.image.data.size(); ++i) {
             const std::string& channel = layer.channels[i % static_cast<std::size_t>(layer.image.components)];
             if (!channel.ends_with('A')) layer.image.data[i] = linearFromSrgb(layer.image.data[i]);
         }
+    }
     file.display_referred = false;
+}
+
+// ---- reading ----
+
+// Bytes a pixel that comparing takes at its peak, but for the encoded files.
+double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const PictureDiffOptions& options) {
+    const bool kept = eight == EightBits::kept;
+    constexpr double color = 3 * sizeof(float), coverage = 1, error = sizeof(float);
+    double pictures = 0, largest = 0;
+    for (const PictureSize& size : sizes) {
+        const auto decoded = static_cast<double>(size.bytes_per_pixel);
+        pictures += kept ? decoded : std::max(decoded, color);  // grey becomes a colour
+        largest = std::max(largest, decoded);
+    }
+    // A layer that is split into channels is copied. Each colour keeps FLIP's errors.
+    const double split = kept ? largest : std::max(largest, color);
+    const double flip = error * (kept ? 1 : std::ceil(largest / color));
+    const double holes = options.selection.any() ? 2 * color : 0;
+    const double filters = (options.blur > 0 ? 4 * color : 0) + (options.shift > 0 ? color : 0);
+    return pictures + std::max({split, coverage + flip + holes + options.output_bytes, coverage + filters});
+}
+
+struct PicturePair {
+    PictureFile reference, test;
+};
+
+// Refuses by name what this process has no memory for, before it is decoded.
+PicturePair readPair(const std::string& reference, const std::string& test,
+                     const PictureDiffOptions& options) {
+    const std::string* const names[2] = {&reference, &test};
+    std::vector<unsigned char> files[2];
+    std::span<const std::byte> bytes[2];
+    PictureSize kept[2], decoded[2];
+    for (const int i : {0, 1}) {
+        files[i] = bytesOf(*names[i]);
+        bytes[i] = std::as_bytes(std::span<const unsigned char>(files[i]));
+        kept[i] = pictureSize(bytes[i], *names[i], {}, EightBits::kept);
+        decoded[i] = pictureSize(bytes[i], *names[i], {}, EightBits::decoded);
+    }
+    const auto isEight = [&](int i) { return kept[i].bytes_per_pixel < decoded[i].bytes_per_pixel; };
+    const EightBits eight =
+        isEight(0) && isEight(1) && options.names.empty() && options.blur == 0 && options.shift == 0
+            ? EightBits::kept
+            : EightBits::decoded;
+    const auto& sizes = eight == EightBits::kept ? kept : decoded;
+    const PictureSize& larger = std::max(sizes[0], sizes[1], [](const PictureSize& a, const PictureSize& b) {
+        return a.width * a.height < b.width * b.height;
+    });
+    const auto pixels = static_cast<double>(larger.width * larger.height);
+    // SSIM has 252 rows of floats in each thread, all else together some 20.
+    const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
+    checkMemory(fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height),
+                static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options) + rows),
+                "compare smaller pictures, or parts of them");
+    // If neither file can be read, the error names the reference, whichever thread was faster.
+    PictureFile pictures[2];
+    std::exception_ptr failures[2];
+    const auto read = [&](int i) {
+        try {
+            pictures[i] = readPicture(bytes[i], *names[i], {}, limits::imageBytes(), eight);
+        } catch (...) {
+            failures[i] = std::current_exception();
+        }
+        files[i] = {};
+    };
+    tbb::parallel_invoke([&] { read(0); }, [&] { read(1); });
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
 void bringTogether(PictureFile& a, PictureFile& b, PictureDiff& diff) {
@@ -98,7 +174,8 @@ void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
 
 void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
     if (channel.measurement->stats().different == 0) return;
-    const Image errors = decidingErrors(diff, channel).image;
+    const DecidingErrors deciding = decidingErrors(diff, channel);
+    const Image& errors = *deciding.image;
     const auto most = std::max_element(errors.data.begin(), errors.data.end());
     if (!(*most > 0)) return;
     const auto at = static_cast<int>(most - errors.data.begin());
@@ -153,11 +230,12 @@ DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff&
             return f.name.starts_with(figure) && boundsFigure(channel.rule.fail, f.name);
         });
     };
-    if (decides("flip") && channel.measurement->flip())
-        return {channel.measurement->flip()->error, "FLIP", 1};
+    if (decides("flip"))
+        if (auto errors = channel.measurement->flipErrors()) return {std::move(errors), "FLIP", 1};
     const bool relative = decides("relative") && pair.metric == Metric::absolute;
     const Metric metric = relative ? Metric::relative : pair.metric;
-    Image errors = errorImage(metric, pair.kind, pair.reference, pair.test, *diff.coverage);
+    auto errors = std::make_shared<Image>(
+        errorImage(metric, pair.kind, pair.reference.rows(), pair.test.rows(), *diff.coverage));
     if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
     const double top = channel.measurement->plain().relative_max;
     return {std::move(errors), "relative", top};
@@ -178,19 +256,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.reference = reference;
     diff.test = test;
     options.progress.at(0, "read");
-    PictureFile a, b;
-    // If neither file can be read, the error names the reference, whichever thread was faster.
-    std::exception_ptr failures[2];
-    const auto read = [](PictureFile& file, const std::string& name, std::exception_ptr& failure) {
-        try {
-            file = readPicture(name);
-        } catch (...) {
-            failure = std::current_exception();
-        }
-    };
-    tbb::parallel_invoke([&] { read(a, reference, failures[0]); }, [&] { read(b, test, failures[1]); });
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
+    auto [a, b] = readPair(reference, test, options);
     diff.reference_format = a.format;
     diff.test_format = b.format;
     bringTogether(a, b, diff);
@@ -215,15 +281,16 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         MatchedChannel& p = channel->pair;
         if (p.kind != ChannelKind::id) {
             if (options.blur > 0) {
-                p.reference = metrics::blurred(p.reference, options.blur);
-                p.test = metrics::blurred(p.test, options.blur);
+                p.reference.image = metrics::blurred(p.reference.image, options.blur);
+                p.test.image = metrics::blurred(p.test.image, options.blur);
             }
-            if (options.shift > 0) p.test = metrics::shifted(p.reference, p.test, options.shift);
+            if (options.shift > 0)
+                p.test.image = metrics::shifted(p.reference.image, p.test.image, options.shift);
         }
         channel->display = diff.display && p.kind == ChannelKind::color;
-        channel->measurement =
-            std::make_unique<Measurement>(ChannelPair{p.metric, p.kind, channel->display, &p.reference,
-                                                      &p.test, diff.coverage.get(), nullptr, options.flip});
+        channel->measurement = std::make_unique<Measurement>(
+            ChannelPair{p.metric, p.kind, channel->display, p.reference.rows(), p.test.rows(),
+                        diff.coverage.get(), nullptr, options.flip});
         diff.channels.push_back(std::move(channel));
     }
     constexpr double reading = 0.3;
@@ -243,8 +310,8 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     addNotes(diff, options);
     judgeIdleRules(diff, options.rules, names);
     const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
-        return isBlack(channel->pair.reference, *diff.coverage) &&
-               isBlack(channel->pair.test, *diff.coverage);
+        return isBlack(channel->pair.reference.rows(), *diff.coverage) &&
+               isBlack(channel->pair.test.rows(), *diff.coverage);
     });
     constexpr const char* blackness = "both pictures are black: every value compared is 0";
     if (black && !options.allow_empty) {

@@ -31,6 +31,7 @@ struct PictureDiffOptions {
     bool allow_empty = false;  // two black pictures are what is wanted
     double blur = 0;           // standard deviation, pixels
     int shift = 0;             // pixels
+    double output_bytes = 0;   // a pixel, that the caller takes for output while the pictures are in memory
     HdrFlipOptions flip;
     Stage progress{};
 };
@@ -49,9 +50,9 @@ struct PictureChannelDiff {
 
 // The errors of the figure that decided.
 struct DecidingErrors {
-    Image image;       // W x H x 1
-    std::string name;  // "FLIP", "relative"; empty: of the channel's metric
-    double top = 0;    // the end of their colour map
+    std::shared_ptr<const Image> image;  // W x H x 1
+    std::string name;                    // "FLIP", "relative"; empty: of the channel's metric
+    double top = 0;                      // the end of their colour map
 };
 DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel);
 

@@ -116,8 +116,8 @@ DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Ima
             const Measurement measurement({.metric = mode.metric,
                                            .kind = mode.kind,
                                            .display = display,
-                                           .reference = &baseline,
-                                           .test = &test,
+                                           .reference = baseline,
+                                           .test = test,
                                            .coverage = &covered});
             if (const HdrFlipResult* const flip = measurement.flip()) {
                 panel.values = flip->error;

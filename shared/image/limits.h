@@ -32,6 +32,12 @@ inline constexpr std::int64_t deflate_ratio = 1032;
 
 namespace diptych {
 
+// What a file's header claims, before anything of its size is allocated.
+struct PictureSize {
+    std::int64_t width = 0, height = 0;
+    std::int64_t bytes_per_pixel = 0;  // while it is decoded
+};
+
 // Throws std::runtime_error if an image of this size exceeds the limits or needs more than `most` bytes:
 // "claims 100000 x 4 pixels: 1 to 65536 a side are read".
 void checkImageSize(std::int64_t width, std::int64_t height, std::int64_t bytesPerPixel, std::uint64_t most);

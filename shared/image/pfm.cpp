@@ -90,6 +90,12 @@ void readPixels(Image& image, std::string_view stored, float scale) {
 
 }  // namespace
 
+PictureSize pfmSize(std::span<const std::byte> bytes) {
+    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const PfmHeader header = readHeader(rest);
+    return {header.width, header.height, std::int64_t{sizeof(float)} * header.components};
+}
+
 PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -26,6 +26,9 @@ struct PfmPicture {
 PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name,
                    std::uint64_t most = limits::imageBytes());
 
+// From its header. Throws std::runtime_error without the file's name.
+PictureSize pfmSize(std::span<const std::byte> bytes);
+
 // Writes an image of 1 or 3 components: little-endian, scale 1, bit-exact. Written beside `file` and
 // renamed. Throws std::runtime_error naming the file.
 void writePfm(const std::filesystem::path& file, const Image& image);

@@ -2,9 +2,11 @@
 #include "shared/image/picture_file.h"
 
 #include "shared/image/exr.h"
+#include "shared/image/exr_header.h"
 #include "shared/image/file_bytes.h"
 #include "shared/image/jpeg_decoder.h"
 #include "shared/image/pfm.h"
+#include "shared/image/picture_rows.h"
 #include "shared/image/png.h"
 #include "shared/image/radiance.h"
 #include "shared/image/tiff.h"
@@ -12,24 +14,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace diptych {
 namespace {
 
-PictureFile ofOneLayer(std::string format, std::string sample, Image image) {
+PictureFile ofOneLayer(std::string format, std::string sample, Image image, Image8 coded = {}) {
     static const std::vector<std::vector<std::string>> names{
         {}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    PictureFile file{image.width, image.height, std::move(format), false, {}};
-    const auto components = static_cast<std::size_t>(image.components);
-    file.layers.push_back({"", names.at(components), std::move(sample), std::move(image)});
+    const bool kept = image.empty();
+    PictureFile file{
+        kept ? coded.width : image.width, kept ? coded.height : image.height, std::move(format), false, {}};
+    const auto components = static_cast<std::size_t>(kept ? coded.components : image.components);
+    file.layers.push_back(
+        {"", names.at(components), std::move(sample), std::move(image), {}, std::move(coded)});
     return file;
 }
 
-PictureFile pictureOfPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    PngPicture png = readPngPicture(bytes, name, most);
-    PictureFile file = ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image));
+PictureFile pictureOfPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                         EightBits eight) {
+    PngPicture png = readPngPicture(bytes, name, most, eight);
+    PictureFile file =
+        ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image), std::move(png.coded));
     file.display_referred = !png.linear;
     file.notes = std::move(png.notes);
     return file;
@@ -43,23 +52,39 @@ PictureFile pictureOfTiff(std::span<const std::byte> bytes, const std::string& n
     return file;
 }
 
+std::span<const unsigned char> encodedJpeg(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+}
+
+// Beside the picture there are the decoded bytes, RGBA.
+PictureSize sizeOfJpeg(const JpegSize& size, EightBits eight) {
+    const int components = size.grey ? 1 : 3;
+    return {size.width, size.height,
+            eight == EightBits::kept ? 4 + components : std::int64_t{sizeof(float)} * components + 4};
+}
+
 // The values of a JPEG without colour conversion: value / 255. It has no alpha.
-PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                          EightBits eight) {
     return named(name, [&] {
-        const std::span encoded(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+        const std::span encoded = encodedJpeg(bytes);
         const JpegSize size = readJpegSize(encoded);
-        const int components = size.grey ? 1 : 3;
-        // Beside the floats there are the decoded bytes, RGBA.
-        checkImageSize(size.width, size.height, std::int64_t{sizeof(float)} * components + 4, most);
+        checkImageSize(size.width, size.height, sizeOfJpeg(size, eight).bytes_per_pixel, most);
         if (size.width * size.height / jpeg_pixels_per_byte > static_cast<std::int64_t>(bytes.size()))
             failToHold(size.width, size.height, bytes.size());
-        Image image(static_cast<int>(size.width), static_cast<int>(size.height), components);
-        std::vector<unsigned char> rgba(4 * image.pixels());
+        const int width = static_cast<int>(size.width), height = static_cast<int>(size.height);
+        const std::size_t components = size.grey ? 1 : 3,
+                          pixels = static_cast<std::size_t>(size.width * size.height);
+        std::vector<unsigned char> rgba(4 * pixels);
         readJpegRgba(encoded, size, rgba.data());
-        for (std::size_t i = 0; i < image.pixels(); ++i)
-            for (int c = 0; c < components; ++c)
-                image.pixel(i)[c] = static_cast<float>(rgba[4 * i + static_cast<std::size_t>(c)]) / 255.0f;
-        PictureFile file = ofOneLayer("JPEG", "8 bit", std::move(image));
+        Image8 coded{width, height, static_cast<int>(components),
+                     std::vector<std::uint8_t>(components * pixels)};
+        for (std::size_t i = 0; i < pixels; ++i)
+            std::copy_n(&rgba[4 * i], components, &coded.data[components * i]);
+        rgba = {};
+        StoredPicture stored{{}, std::move(coded), static_cast<int>(components)};
+        PictureFile file = eight == EightBits::kept ? ofOneLayer("JPEG", "8 bit", {}, std::move(stored.coded))
+                                                    : ofOneLayer("JPEG", "8 bit", stored.takeImage());
         file.display_referred = true;
         return file;
     });
@@ -76,26 +101,71 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     return file;
 }
 
-}  // namespace
+// The formats by their first bytes.
+enum class Format { exr, png, jpeg, tiff, hdr, pfm };
 
-PictureFile readPicture(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
-                        std::uint64_t most) {
+Format formatOf(std::span<const std::byte> bytes, const std::string& name, std::string_view part) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (text.starts_with("\x76\x2f\x31\x01")) return readExr(bytes, name, most, part);
-    const bool png = text.starts_with("\x89PNG\r\n\x1a\n"), hdr = text.starts_with("#?"),
-               pfm = text.starts_with("PF") || text.starts_with("Pf"), tiff = isTiff(bytes),
-               jpeg = text.starts_with("\xff\xd8\xff");
-    if (!png && !hdr && !pfm && !tiff && !jpeg)
+    if (text.starts_with("\x76\x2f\x31\x01")) return Format::exr;
+    const auto format = text.starts_with("\x89PNG\r\n\x1a\n")              ? std::optional(Format::png)
+                        : text.starts_with("\xff\xd8\xff")                 ? std::optional(Format::jpeg)
+                        : isTiff(bytes)                                    ? std::optional(Format::tiff)
+                        : text.starts_with("#?")                           ? std::optional(Format::hdr)
+                        : text.starts_with("PF") || text.starts_with("Pf") ? std::optional(Format::pfm)
+                                                                           : std::nullopt;
+    if (!format)
         throw std::runtime_error(
             name +
             ": is no picture that is read: by their first bytes OpenEXR, PNG, JPEG, TIFF, Radiance HDR and "
             "PFM are");
     if (!part.empty()) throw std::runtime_error(name + ": has no parts, which are an OpenEXR file's");
-    if (png) return pictureOfPng(bytes, name, most);
-    if (tiff) return pictureOfTiff(bytes, name, most);
-    if (jpeg) return pictureOfJpeg(bytes, name, most);
-    if (hdr) return ofOneLayer("Radiance HDR", "RGBE", readHdr(bytes, name, most));
+    return *format;
+}
+
+PictureSize sizeOfExr(std::span<const std::byte> bytes, std::string_view part) {
+    const ExrHeader header = readExrHeader(bytes, limits::imageBytes(), part);
+    PictureSize size{header.display.width(), header.display.height(), 0};
+    for (const ExrPart& one : header.parts)
+        size.bytes_per_pixel += 4 * (std::ssize(one.channels) +
+                                     std::ranges::count(one.channels, ExrSample::uint, &ExrChannel::sample));
+    return size;
+}
+
+}  // namespace
+
+PictureFile readPicture(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
+                        std::uint64_t most, EightBits eight) {
+    switch (formatOf(bytes, name, part)) {
+        case Format::exr:
+            return readExr(bytes, name, most, part);
+        case Format::png:
+            return pictureOfPng(bytes, name, most, eight);
+        case Format::jpeg:
+            return pictureOfJpeg(bytes, name, most, eight);
+        case Format::tiff:
+            return pictureOfTiff(bytes, name, most);
+        case Format::hdr:
+            return ofOneLayer("Radiance HDR", "RGBE", readHdr(bytes, name, most));
+        case Format::pfm:
+            break;
+    }
     return pictureOfPfm(bytes, name, most);
+}
+
+PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
+                        EightBits eight) {
+    const Format format = formatOf(bytes, name, part);
+    return named(name, [&] {
+        const PictureSize size = format == Format::exr   ? sizeOfExr(bytes, part)
+                                 : format == Format::png ? pngSize(bytes, eight)
+                                 : format == Format::jpeg
+                                     ? sizeOfJpeg(readJpegSize(encodedJpeg(bytes)), eight)
+                                 : format == Format::tiff ? tiffSize(bytes)
+                                 : format == Format::hdr  ? hdrSize(bytes)
+                                                          : pfmSize(bytes);
+        checkImageSize(size.width, size.height, size.bytes_per_pixel, limits::imageBytes());
+        return size;
+    });
 }
 
 PictureFile readPicture(const std::filesystem::path& file, std::string_view part) {

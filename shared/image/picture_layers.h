@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/image/image.h"
+#include "shared/image/png.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,7 @@ struct PictureLayer {
     // For each channel the stored uint32 of every pixel, if float32 has rounded some of them (above 2^24);
     // empty if the image holds all of them exactly. The outer vector is empty if there is no such channel.
     std::vector<std::vector<std::uint32_t>> exact{};
+    Image8 coded{};  // in place of `image`, if the reader was asked to keep 8 bits
 
     // The value in the file, not rounded: two values are equal only if they are equal in the files. For PNG
     // and for scaled files it is the image's value.

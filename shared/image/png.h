@@ -29,15 +29,22 @@ std::string pngBytes(const Image8& image);
 // The values of a PNG without colour conversion: value / 255 or value / 65535 for each component.
 struct PngPicture {
     Image image;          // Y, YA, RGB or RGBA: palettes are expanded, transparent colours become an A
+    Image8 coded{};       // in place of `image`, the same components
     int bits = 8;         // 16, or 8 for files of 8 or fewer bits, whose values 8 bits hold exactly
     bool linear = false;  // its gamma is 1 (gAMA, without an sRGB chunk); otherwise it counts as sRGB-encoded
     std::vector<std::string> notes{};  // gammas and colour profiles that are not applied, one line each
 };
 
+// Whether 8 bits a component become floats, or stay what they are for a quarter of the memory.
+enum class EightBits { decoded, kept };
+
 // Reads a PNG. An interlaced file needs memory for all stored rows in addition. Refuses what needs more than
 // `most` bytes decoded. Throws std::runtime_error, one line naming file and fault.
 PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name,
-                          std::uint64_t most = limits::imageBytes());
+                          std::uint64_t most = limits::imageBytes(), EightBits eight = EightBits::decoded);
+
+// From its header. Throws std::runtime_error without the file's name.
+PictureSize pngSize(std::span<const std::byte> bytes, EightBits eight);
 
 // Reads a PNG as RGBA, 8 bits.
 Image8 readPng(const std::filesystem::path& file);

@@ -90,19 +90,41 @@ void convert(png_const_bytep row, float* to, std::size_t count) {
 
 constexpr const char* headerChanges = "its header changes";
 
-PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most) {
-    PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, "is cut short");
+constexpr const char* cutShort = "is cut short";
+
+bool isKept(const PngDecoder& decoder, EightBits eight) {
+    return eight == EightBits::kept && decoder.bits() == 8;
+}
+
+PictureSize sizeOf(const PngDecoder& decoder, EightBits eight) {
+    const int bytes = isKept(decoder, eight) ? 1 : static_cast<int>(sizeof(float));
+    const int rows = decoder.isInterlaced() && !isKept(decoder, eight) ? decoder.bits() / 8 : 0;
+    return {decoder.width(), decoder.height(), std::int64_t{bytes + rows} * decoder.components()};
+}
+
+PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBits eight) {
+    PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
-    const std::int64_t width = decoder.width(), height = decoder.height();
+    const auto [width, height, bytesPerPixel] = sizeOf(decoder, eight);
+    checkImageSize(width, height, bytesPerPixel, most);
     const int components = decoder.components(), bits = decoder.bits();
-    checkImageSize(width, height, std::int64_t{sizeof(float)} * components, most);
+    const bool interlaced = decoder.isInterlaced();
     checkDeflated(width, height, storedBits(bytes), bytes.size());
-    PngPicture picture{Image(static_cast<int>(width), static_cast<int>(height), components), bits};
-    describe(picture, encodingOf(bytes));
     const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
     if (decoder.rowBytes() != row * static_cast<std::size_t>(bits / 8)) fail(headerChanges);
     const auto lines = static_cast<std::size_t>(height);
-    const bool interlaced = decoder.isInterlaced();
+    PngPicture picture;
+    picture.bits = bits;
+    describe(picture, encodingOf(bytes));
+    if (isKept(decoder, eight)) {
+        picture.coded = {static_cast<int>(width), static_cast<int>(height), components,
+                         std::vector<std::uint8_t>(row * lines)};
+        if (interlaced) decoder.readAll(picture.coded.data.data());
+        for (std::size_t y = 0; !interlaced && y < lines; ++y)
+            decoder.readRow(picture.coded.data.data() + row * y);
+        return picture;
+    }
+    picture.image = Image(static_cast<int>(width), static_cast<int>(height), components);
     const auto rows =
         std::make_unique_for_overwrite<png_byte[]>(decoder.rowBytes() * (interlaced ? lines : 1));
     if (interlaced) decoder.readAll(rows.get());
@@ -124,8 +146,15 @@ std::uint8_t byteOf(float value) {
 
 }  // namespace
 
-PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    return named(name, [&] { return decode(bytes, most); });
+PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                          EightBits eight) {
+    return named(name, [&] { return decode(bytes, most, eight); });
+}
+
+PictureSize pngSize(std::span<const std::byte> bytes, EightBits eight) {
+    PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
+    decoder.readHeader();
+    return sizeOf(decoder, eight);
 }
 
 void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsigned char* pixels) {

@@ -286,6 +286,12 @@ void appendRuns(std::vector<std::uint8_t>& out, const std::vector<Rgbe>& line, s
 
 }  // namespace
 
+PictureSize hdrSize(std::span<const std::byte> bytes) {
+    RadianceCursor in(bytes);
+    const RadianceHeader header = readHeader(in);
+    return {header.width, header.height, 3 * sizeof(float)};
+}
+
 Image readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] { return readPicture(bytes, most); });
 }

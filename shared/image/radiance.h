@@ -23,6 +23,9 @@ Image readHdr(const std::filesystem::path& file);
 Image readHdr(std::span<const std::byte> bytes, const std::string& name,
               std::uint64_t most = limits::imageBytes());
 
+// From its header. Throws std::runtime_error without the file's name.
+PictureSize hdrSize(std::span<const std::byte> bytes);
+
 // Writes an RGB image, run-length coded; values read back are within 0.4 % of each pixel's largest
 // component. Returns the number of pixels that RGBE cannot hold: negative and NaN components are written as
 // 0, those above 1.7e38 as that, pixels below 2.9e-39 as black. Written beside `file` and renamed. Throws

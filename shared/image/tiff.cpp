@@ -258,22 +258,34 @@ bool isTiff(std::span<const std::byte> bytes) {
     return text == "II*\0"sv || text == "MM\0*"sv || text == "II+\0"sv || text == "MM\0+"sv;
 }
 
+namespace {
+
+[[noreturn]] void failToDecode(const TiffBytes& file) {
+    fail("is a TIFF that does not decode: " + (file.error.empty() ? "its pieces have no place" : file.error));
+}
+
+}  // namespace
+
+PictureSize tiffSize(std::span<const std::byte> bytes) {
+    TiffBytes file{bytes};
+    const OpenTiff tiff = openTiff(file, limits::imageBytes());
+    if (!tiff) failToDecode(file);
+    const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), limits::imageBytes());
+    return {layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components};
+}
+
 TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         TiffBytes file{bytes};
         const OpenTiff tiff = openTiff(file, most);
-        const auto failToDecode = [&] {
-            fail("is a TIFF that does not decode: " +
-                 (file.error.empty() ? "its pieces have no place" : file.error));
-        };
-        if (!tiff) failToDecode();
+        if (!tiff) failToDecode(file);
         const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), most);
         TiffPicture picture;
         picture.image =
             Image(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.components);
         picture.sample = sampleOf(layout);
         picture.linear = isFloat(layout);
-        if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode();
+        if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode(file);
         std::uint32_t size = 0;
         void* profile = nullptr;
         if (TIFFGetField(tiff.get(), TIFFTAG_ICCPROFILE, &size, &profile) == 1)

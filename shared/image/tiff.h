@@ -30,4 +30,7 @@ bool isTiff(std::span<const std::byte> bytes);
 TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name,
                      std::uint64_t most = limits::imageBytes());
 
+// From its tags. Throws std::runtime_error without the file's name.
+PictureSize tiffSize(std::span<const std::byte> bytes);
+
 }  // namespace diptych

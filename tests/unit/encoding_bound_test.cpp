@@ -322,7 +322,7 @@ TEST(Domain, LengthStandsBesideTheAngle) {
     reference.data = {0, 0, 1};
     test.data = {0, 0, 0.25f};
     const Coverage covered = everyPixel(1);
-    const Measurement measured({Metric::angular, ChannelKind::vector, false, &reference, &test, &covered});
+    const Measurement measured({Metric::angular, ChannelKind::vector, false, reference, test, &covered});
     EXPECT_EQ(measured({"angle_max", 0}), 0);
     EXPECT_EQ(measured({"length_max", 0}), 0.75);
 }

@@ -144,7 +144,6 @@ TEST(Flip, ThreadsDoNotChangeABit) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const HdrFlipResult single = hdrFlip(a, b);
     EXPECT_EQ(many.error.data, single.error.data);
-    EXPECT_EQ(many.exposure_map.data, single.exposure_map.data);
     EXPECT_EQ(many.mean, single.mean);
     EXPECT_EQ(many.weighted_median, single.weighted_median);
 }
@@ -317,7 +316,6 @@ TEST(Flip, AgainstOneReferenceIsTheSameBitForBit) {
                 if (more > 1) test = reference;
                 const HdrFlipResult expected = hdrFlip(reference, test, options), result = against(test);
                 EXPECT_EQ(result.error.data, expected.error.data) << looks << " " << holed << " " << more;
-                EXPECT_EQ(result.exposure_map.data, expected.exposure_map.data);
                 EXPECT_EQ(result.weighted_median, expected.weighted_median);
                 EXPECT_EQ(against.mean(test).mean, expected.mean);
                 EXPECT_EQ(against.mean(test).pixels, expected.pixels);

@@ -165,10 +165,10 @@ TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {
         return channelsOf(file({std::move(l)}), {});
     };
     auto matched = matchChannels(ids(16777217u), ids(16777216u), {});
-    EXPECT_EQ(matched.channels[0].reference.data[0], matched.channels[0].test.data[0]);
-    EXPECT_NE(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
+    EXPECT_EQ(matched.channels[0].reference.image.data[0], matched.channels[0].test.image.data[0]);
+    EXPECT_NE(matched.channels[0].reference.image.data[1], matched.channels[0].test.image.data[1]);
     matched = matchChannels(ids(16777217u), ids(16777217u), {});
-    EXPECT_EQ(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
+    EXPECT_EQ(matched.channels[0].reference.image.data[1], matched.channels[0].test.image.data[1]);
 }
 
 // ---- which pixels count ----

@@ -56,8 +56,8 @@ TEST(Library, FiguresAreThoseOfDiff) {
             HdrFlipOptions flip;
             flip.pixels_per_degree = 30;
             const Measurement expected({.display = display,
-                                        .reference = &reference,
-                                        .test = &test,
+                                        .reference = reference,
+                                        .test = test,
                                         .coverage = &coverage,
                                         .flip = flip});
             EXPECT_EQ(result.compared, coverage.count);

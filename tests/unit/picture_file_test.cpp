@@ -4,6 +4,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "shared/image/pfm.h"
+#include "shared/image/picture_rows.h"
 #include "shared/image/png.h"
 #include "shared/image/radiance.h"
 #include "tests/unit/files.h"
@@ -187,6 +188,62 @@ TEST(PicturePng, BrokenFilesSayWhy) {
     std::string data = whole;
     data[data.find("IDAT") + 5] ^= 0x55;
     EXPECT_TRUE(pictureFault(data).starts_with("a: IDAT: ")) << pictureFault(data);
+}
+
+// 8 bits that are kept are the values that the floats are made of; what is kept and what it takes is known
+// from the header.
+TEST(PictureFile, EightBitsCanBeKept) {
+    const std::vector<std::vector<std::uint8_t>> rows{{0, 1, 2, 3, 4, 5, 6, 255, 128, 9, 10, 11},
+                                                      {12, 13, 254, 15, 16, 17, 18, 19, 20, 21, 22, 23}};
+    const auto made = [&](int color, std::uint32_t width, bool interlaced) {
+        return pngOf({.color = color, .width = width, .rows = rows, .interlaced = interlaced});
+    };
+    for (const bool interlaced : {false, true})
+        for (const auto& [color, components] : {std::pair{PNG_COLOR_TYPE_GRAY, 1},
+                                                {PNG_COLOR_TYPE_GRAY_ALPHA, 2},
+                                                {PNG_COLOR_TYPE_RGB, 3},
+                                                {PNG_COLOR_TYPE_RGB_ALPHA, 4}}) {
+            const std::string file = made(color, static_cast<std::uint32_t>(12 / components), interlaced);
+            const auto bytes = std::as_bytes(std::span(file));
+            const PictureFile floats = readPicture(bytes, "a"),
+                              kept = readPicture(bytes, "a", {}, limits::imageBytes(), EightBits::kept);
+            const Image& image = floats.layers[0].image;
+            const Image8& coded = kept.layers[0].coded;
+            EXPECT_TRUE(kept.layers[0].image.empty());
+            EXPECT_TRUE(floats.layers[0].coded.data.empty());
+            EXPECT_EQ(kept.layers[0].channels, floats.layers[0].channels);
+            EXPECT_EQ(kept.width, floats.width);
+            ASSERT_EQ(coded.data.size(), image.data.size());
+            EXPECT_EQ((StoredPicture{{}, coded, components}.takeImage().data), image.data);
+            const PictureSize size = pictureSize(bytes, "a", {}, EightBits::kept);
+            EXPECT_EQ(size.width, kept.width);
+            EXPECT_EQ(size.height, 2);
+            EXPECT_EQ(size.bytes_per_pixel, components);
+            EXPECT_EQ(pictureSize(bytes, "a").bytes_per_pixel, (interlaced ? 5 : 4) * components);
+        }
+    const std::string deep = pngOf({.color = PNG_COLOR_TYPE_GRAY, .bits = 16, .width = 6, .rows = rows});
+    const auto bytes = std::as_bytes(std::span(deep));
+    EXPECT_EQ(readPicture(bytes, "a", {}, limits::imageBytes(), EightBits::kept).layers[0].image.data,
+              readPicture(bytes, "a").layers[0].image.data);
+    EXPECT_EQ(pictureSize(bytes, "a", {}, EightBits::kept).bytes_per_pixel, 4);
+}
+
+TEST(PictureFile, SizesAreKnownFromHeaders) {
+    const fs::path here = folder();
+    const Image image(5, 3, 3, 0.5f), one(5, 3, 1, 2);
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &image}, {{"Z"}, &one}});
+    writePfm(here / "a.pfm", image);
+    writePfm(here / "b.pfm", one);
+    writeHdr(here / "a.hdr", image);
+    for (const auto& [name, bytes] : {std::pair{"a.exr", 16}, {"a.pfm", 12}, {"b.pfm", 4}, {"a.hdr", 12}}) {
+        const std::string file = contentsOf(here / name);
+        const PictureSize size = pictureSize(std::as_bytes(std::span(file)), name);
+        EXPECT_EQ(size.width, 5) << name;
+        EXPECT_EQ(size.height, 3) << name;
+        EXPECT_EQ(size.bytes_per_pixel, bytes) << name;
+    }
+    const std::string nothing = "nothing";
+    EXPECT_THROW(pictureSize(std::as_bytes(std::span(nothing)), "a"), std::runtime_error);
 }
 
 }  // namespace

@@ -37,7 +37,6 @@ TEST(PlainMetrics, ByHand) {
     EXPECT_DOUBLE_EQ(m.relative_mse, (0.25 / 4.01 + 0.0625 / 9.01) / 4);
     EXPECT_EQ(m.peak, 4);
     EXPECT_DOUBLE_EQ(m.psnr, 10 * std::log10(16 / 0.078125));
-    EXPECT_EQ(m.max, 0.5);
     EXPECT_EQ(m.relative_max, 0.25);
     EXPECT_NEAR(m.relative_mean, (0.25 + 0.25 / 3) / 4, 1e-8) << "of floats";
     EXPECT_EQ(m.pixels, 4u);
@@ -46,20 +45,20 @@ TEST(PlainMetrics, ByHand) {
 }
 
 TEST(PlainMetrics, PercentilesAreTheNearestRank) {
-    PixelData reference(1000, 0.0f), test(1000);
-    for (std::size_t i = 0; i < 1000; ++i) test[(i * 617) % 1000] = static_cast<float>(i + 1);
+    PixelData reference(1000, 1.0f), test(1000);
+    for (std::size_t i = 0; i < 1000; ++i) test[(i * 617) % 1000] = static_cast<float>(i + 2);
     const PlainMetrics m = scalars(reference, test);
-    EXPECT_EQ(m.p99, 990);
-    EXPECT_EQ(m.p999, 999);
-    EXPECT_EQ(m.max, 1000);
-    EXPECT_EQ(m.relative_max, endless) << "of nothing";
+    EXPECT_EQ(m.relative_p99, 990);
+    EXPECT_EQ(m.relative_p999, 999);
+    EXPECT_EQ(m.relative_max, 1000);
+    EXPECT_EQ(scalars({0, 0}, {0, 1}).relative_max, endless) << "of nothing";
 }
 
 TEST(PlainMetrics, ThePictureItselfHasNoError) {
     const Image image = noise(50, 40, 1, 0, 100);
     for (const Range range : {Range::display, Range::linear}) {
         const PlainMetrics m = colors(image, image, range);
-        EXPECT_EQ(m.mse + m.mae + m.relative_mse + m.max + m.relative_max + m.ulp_max + m.ulp_mean, 0);
+        EXPECT_EQ(m.mse + m.mae + m.relative_mse + m.relative_max + m.ulp_max + m.ulp_mean, 0);
         EXPECT_EQ(m.psnr, endless);
         EXPECT_EQ(m.ssim, 1.0);
         EXPECT_EQ(m.different, 0u);
@@ -82,7 +81,6 @@ TEST(PlainMetrics, UlpsAreStepsBetweenFloats) {
     EXPECT_EQ(scalars({1, 1, 1, 1}, {one, 1, 1, 2}).ulp_mean, (1 + (1 << 23)) / 4.0);
     constexpr float most = std::numeric_limits<float>::max();
     EXPECT_EQ(scalars({-most}, {most}).ulp_max, 2.0 * 0x7f7fffff) << "exact, past what 32 bits hold";
-    EXPECT_EQ(scalars({-most}, {most}).max, double{most}) << "at most the largest float";
 }
 
 TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
@@ -91,17 +89,16 @@ TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
     EXPECT_EQ(m.nonfinite_test, 4u);
     EXPECT_EQ(m.nonfinite_different, 3u);
     EXPECT_EQ(m.different, 3u);
-    for (const double v :
-         {m.mse, m.rmse, m.mae, m.relative_mse, m.max, m.relative_max, m.ulp_max, m.ulp_mean})
+    for (const double v : {m.mse, m.rmse, m.mae, m.relative_mse, m.relative_max, m.ulp_max, m.ulp_mean})
         EXPECT_EQ(v, endless);
     EXPECT_EQ(m.psnr, -endless);
 
     const PlainMetrics alike = scalars({nan, inf, 2}, {nan, inf, 1});
-    EXPECT_EQ(alike.max, 1);
+    EXPECT_EQ(alike.relative_max, 0.5);
     EXPECT_EQ(alike.mse, 1.0 / 3);
     EXPECT_EQ(alike.nonfinite_different, 0u);
     // The other, finite components of a pixel with equal NaNs are compared.
-    EXPECT_EQ(colors(rowOf(3, {nan, 1, 2}), rowOf(3, {nan, 1, 2.5f})).max, 0.5);
+    EXPECT_EQ(colors(rowOf(3, {nan, 1, 2}), rowOf(3, {nan, 1, 2.5f})).relative_max, 0.25);
 }
 
 TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
@@ -125,8 +122,8 @@ TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
     const PlainMetrics all = colors(kept, keptTest);
     EXPECT_NEAR(some.mse, all.mse, 1e-15) << "doubles in another order";
     EXPECT_NEAR(some.relative_mean, all.relative_mean, 1e-13);
-    EXPECT_EQ(some.max, all.max);
-    EXPECT_EQ(some.p99, all.p99);
+    EXPECT_EQ(some.relative_max, all.relative_max);
+    EXPECT_EQ(some.relative_p99, all.relative_p99);
     EXPECT_EQ(some.relative_p999, all.relative_p999);
     EXPECT_EQ(some.ulp_max, all.ulp_max);
     EXPECT_EQ(some.different, all.different);
@@ -137,7 +134,7 @@ TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
     coverage.covered.assign(coverage.covered.size(), 0);
     coverage.count = 0;
     const PlainMetrics none = plainMetrics(reference, test, ChannelKind::color, Range::linear, coverage);
-    EXPECT_EQ(none.max + none.mse + none.psnr, 0);
+    EXPECT_EQ(none.relative_max + none.mse + none.psnr, 0);
     EXPECT_FALSE(none.ssim.has_value());
 }
 
@@ -157,15 +154,12 @@ TEST(PlainMetrics, AgreeWithTheChannelsStatistics) {
     const Image a = noise(120, 70, 4, 0, 5), b = noise(120, 70, 5, 0, 5);
     const Coverage all = everyPixel(a.pixels());
     const PlainMetrics m = colors(a, b);
-    const ChannelStats absolute = channelStats(Metric::absolute, ChannelKind::color, a, b, all);
     const ChannelStats relative = channelStats(Metric::relative, ChannelKind::color, a, b, all);
     constexpr double half = 0x1p-24;  // a float's rounding
-    EXPECT_NEAR(m.max, absolute.max, half * absolute.max);
-    EXPECT_NEAR(m.p99, absolute.p99, half * absolute.p99);
-    EXPECT_NEAR(m.p999, absolute.p999, half * absolute.p999);
     EXPECT_NEAR(m.relative_max, relative.max, half * relative.max);
     EXPECT_NEAR(m.relative_mean, relative.mean, half * relative.mean);
     EXPECT_NEAR(m.relative_p99, relative.p99, half * relative.p99);
+    EXPECT_NEAR(m.relative_p999, relative.p999, half * relative.p999);
     EXPECT_EQ(m.different, relative.different);
 }
 

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "shared/image/free_memory.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<std::uint64_t> numberIn(std::string_view word) {
+    std::uint64_t value = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || rest != word.data() + word.size()) return {};
+    return value;
+}
+
+std::vector<std::string> linesOf(const fs::path& file) {
+    std::vector<std::string> lines;
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+// The first number behind `label` on the line that begins with it; none where it is no number ("unlimited").
+std::optional<std::uint64_t> labelled(const fs::path& file, std::string_view label) {
+    for (const std::string& line : linesOf(file))
+        if (line.starts_with(label)) {
+            std::istringstream words(line.substr(label.size()));
+            std::string word;
+            words >> word;
+            return numberIn(word);
+        }
+    return {};
+}
+
+// A file of one number; none if it holds a word ("max").
+std::optional<std::uint64_t> numberOf(const fs::path& file) {
+    const std::vector<std::string> lines = linesOf(file);
+    return lines.empty() ? std::nullopt : numberIn(lines.front());
+}
+
+class Least {
+public:
+    // No more than `limit` less `used`, if there is a limit.
+    void take(std::optional<std::uint64_t> limit, std::uint64_t used, const char* name) {
+        if (!limit) return;
+        const std::uint64_t left = *limit > used ? *limit - used : 0;
+        if (left < free.bytes) free = {left, name};
+    }
+    FreeMemory free;
+};
+
+constexpr std::uint64_t kilobyte = 1024;  // proc's "kB"
+
+void takeMachine(const fs::path& root, Least& least) {
+    if (const auto available = labelled(root / "proc/meminfo", "MemAvailable:"))
+        least.take(*available * kilobyte, 0, "this machine");
+}
+
+// The names of one version's files.
+struct CgroupFiles {
+    std::initializer_list<const char*> limits;
+    const char* used;
+    std::initializer_list<const char*> cached;  // in memory.stat: pages of files, which the kernel gives up
+};
+
+// A cgroup and all around it, up to where they are mounted. In a container the path may be the host's, of
+// which its own mount shows the end: folders that are not there are passed over.
+void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFiles& files, Least& least) {
+    for (fs::path folder = fs::path(path).relative_path();; folder = folder.parent_path()) {
+        const fs::path at = mount / folder;
+        if (const auto used = numberOf(at / files.used)) {
+            std::uint64_t cached = 0;
+            for (const char* name : files.cached)
+                cached += labelled(at / "memory.stat", std::string(name) + " ").value_or(0);
+            for (const char* limit : files.limits)
+                least.take(numberOf(at / limit), *used > cached ? *used - cached : 0, "a cgroup");
+        }
+        if (folder.empty()) return;
+    }
+}
+
+// Lines of /proc/self/cgroup: "0::/path" of version 2, "5:memory:/path" of version 1.
+void takeCgroups(const fs::path& root, Least& least) {
+    const fs::path mount = root / "sys/fs/cgroup";
+    for (const std::string& line : linesOf(root / "proc/self/cgroup")) {
+        const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (first == line.npos || second == line.npos) continue;
+        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const std::string path = line.substr(second + 1);
+        if (controllers == ",,") {
+            const CgroupFiles files{
+                {"memory.max", "memory.high"}, "memory.current", {"inactive_file", "active_file"}};
+            takeCgroups(mount, path, files, least);
+        } else if (controllers.find(",memory,") != controllers.npos) {
+            takeCgroups(mount / "memory", path,
+                        {{"memory.limit_in_bytes"},
+                         "memory.usage_in_bytes",
+                         {"total_inactive_file", "total_active_file"}},
+                        least);
+        }
+    }
+}
+
+void takeLimits(const fs::path& root, Least& least) {
+    struct Row {
+        const char *limit, *used, *name;
+    };
+    for (const Row& row :
+         {Row{"Max address space", "VmSize:", "ulimit -v"}, Row{"Max data size", "VmData:", "ulimit -d"}})
+        if (const auto limit = labelled(root / "proc/self/limits", row.limit))
+            least.take(limit, labelled(root / "proc/self/status", row.used).value_or(0) * kilobyte, row.name);
+}
+
+std::string gigabytes(std::uint64_t bytes) {
+    return fmt::format("{:.1f} GB", static_cast<double>(bytes) / 1e9);
+}
+
+}  // namespace
+
+FreeMemory freeMemory(const fs::path& root) {
+    Least least;
+    takeMachine(root, least);
+    takeCgroups(root, least);
+    takeLimits(root, least);
+    return least.free;
+}
+
+void checkMemory(const std::string& what, std::uint64_t needed, const std::string& remedy,
+                 const FreeMemory& free) {
+    if (needed > free.bytes)
+        throw std::runtime_error(fmt::format("{}: needs about {}, {} are free here ({}); {}", what,
+                                             gigabytes(needed), gigabytes(free.bytes), free.limit, remedy));
+}
+
+}  // namespace diptych

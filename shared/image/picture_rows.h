@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/image/image.h"
+#include "shared/image/png.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// A picture that is read row by row as float32, whether it is stored as that or in 8 bits a component
+// (value / 255), a quarter of the memory. The picture must outlive it.
+class PictureRows {
+public:
+    PictureRows(const Image& image)
+        : width(image.width), height(image.height), components(image.components), image_(&image) {}
+    // `shown`: 3 for a grey picture whose one component stands for all.
+    explicit PictureRows(const Image8& coded, int shown)
+        : width(coded.width), height(coded.height), components(shown), coded_(&coded) {}
+
+    int width, height, components;
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+
+    // `count` pixels of row y from column x on.
+    void copy(float* to, int x, int y, int count) const {
+        const std::size_t n = stored(count);
+        if (image_) {
+            std::memcpy(to, floats(x, y), n * sizeof(float));
+            return;
+        }
+        const std::uint8_t* from = codes(x, y);
+        if (coded_->components == components)
+            for (std::size_t i = 0; i < n; ++i) to[i] = values()[from[i]];
+        else
+            for (std::size_t i = 0; i < n; ++i) to[3 * i] = to[3 * i + 1] = to[3 * i + 2] = values()[from[i]];
+    }
+    // Row y: where it is stored, or decoded into `buffer`.
+    const float* row(int y, std::vector<float>& buffer) const {
+        if (image_) return floats(0, y);
+        buffer.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(components));
+        copy(buffer.data(), 0, y, width);
+        return buffer.data();
+    }
+    // Whether both store `count` pixels from (x, y) on alike; no where one stores 8 bits and the other
+    // floats.
+    bool storesSame(const PictureRows& other, int x, int y, int count) const {
+        if (image_ && other.image_)
+            return std::memcmp(floats(x, y), other.floats(x, y), stored(count) * sizeof(float)) == 0;
+        return coded_ && other.coded_ && coded_->components == other.coded_->components &&
+               std::memcmp(codes(x, y), other.codes(x, y), stored(count)) == 0;
+    }
+
+private:
+    static const std::array<float, 256>& values() {
+        static const std::array<float, 256> all = [] {
+            std::array<float, 256> decoded{};
+            for (std::size_t i = 0; i < decoded.size(); ++i) decoded[i] = static_cast<float>(i) / 255.0f;
+            return decoded;
+        }();
+        return all;
+    }
+    std::size_t stored(int pixels) const {
+        return static_cast<std::size_t>(pixels) *
+               static_cast<std::size_t>(image_ ? image_->components : coded_->components);
+    }
+    const float* floats(int x, int y) const { return image_->data.data() + image_->offset(x, y); }
+    const std::uint8_t* codes(int x, int y) const {
+        return coded_->data.data() + (stored(width) * static_cast<std::size_t>(y) + stored(x));
+    }
+
+    const Image* image_ = nullptr;
+    const Image8* coded_ = nullptr;
+};
+
+// Calls use(i, a's pixel, b's pixel) with the pixels of rows [from, to) of two pictures of one size, i
+// counting from the first row's first pixel on.
+template <class Use>
+void eachPair(const PictureRows& a, const PictureRows& b, int from, int to, const Use& use) {
+    std::vector<float> buffers[2];
+    for (int y = from; y < to; ++y) {
+        const float *p = a.row(y, buffers[0]), *q = b.row(y, buffers[1]);
+        std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width);
+        for (int x = 0; x < a.width; ++x, ++i, p += a.components, q += b.components) use(i, p, q);
+    }
+}
+
+// A picture in whichever of the two ways it is stored.
+struct StoredPicture {
+    Image image;
+    Image8 coded{};  // where `image` is empty: 8 bits a component, value / 255
+    int shown = 0;   // components of `coded` that are compared: 3 of a grey colour, which has one
+
+    PictureRows rows() const { return image.empty() ? PictureRows(coded, shown) : PictureRows(image); }
+    int components() const { return image.empty() ? shown : image.components; }
+    // Moves the pixels out, as floats.
+    Image takeImage() {
+        if (!image.empty()) return std::move(image);
+        const PictureRows from(coded, shown);
+        Image decoded(from.width, from.height, shown);
+        for (int y = 0; y < from.height; ++y) from.copy(&decoded.at(0, y), 0, y, from.width);
+        coded = {};
+        return decoded;
+    }
+};
+
+}  // namespace diptych
