@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A folder that is written anew stays the folder that it was: its mode, its attributes, what leads to it.
 #include "compare/files/output_folder.h"
+#include "compare/files/kept_folder.h"
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
@@ -58,6 +59,37 @@ TEST(OutputFolder, ALinkStaysALink) {
     inodesAround(home / "latest", "new");
     EXPECT_TRUE(fs::is_symlink(home / "latest"));
     EXPECT_EQ(contentsOf(target / "a.txt"), "new");
+}
+
+// A folder of parts beside an output, as a long command keeps it.
+TEST(KeptFolder, ALinkIsRefusedAndItsFolderKept) {
+    const fs::path home = folder(), elsewhere = home / "elsewhere";
+    fs::create_directory(elsewhere);
+    std::ofstream(elsewhere / "mine.txt") << "mine";
+    std::ofstream(elsewhere / "key.json") << R"({"software": "diptych", "schema": 1})";
+    fs::create_directory_symlink("elsewhere", home / ".r.scenes");
+    try {
+        const KeptFolder kept(home / "r", "scenes", {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(".r.scenes: is a link"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(namesIn(elsewhere), (std::vector<std::string>{"key.json", "mine.txt"}));
+}
+
+TEST(KeptFolder, LinksInItAreReplacedAndNotFollowed) {
+    const fs::path home = folder();
+    std::ofstream(home / "mine.json") << "mine";
+    std::ofstream(home / "inner.txt") << "mine";
+    const nlohmann::ordered_json key{{"software", "diptych"}, {"schema", 1}};
+    KeptFolder kept(home / "r", "scenes", key);
+    fs::create_symlink(home / "mine.json", kept / "part.json");
+    kept.keep("part", {{"of", "ours"}});
+    EXPECT_EQ(contentsOf(home / "mine.json"), "mine");
+    EXPECT_EQ(kept.find("part")["of"], "ours");
+    fs::create_directory_symlink(home, kept / "folder");
+    kept.remove();
+    EXPECT_EQ(namesIn(home), (std::vector<std::string>{"inner.txt", "mine.json"}));
 }
 
 }  // namespace
