@@ -20,7 +20,7 @@ const std::vector<std::string> longWork{"render",    "builtin:spheres", "-v",   
                                         "1920x1080", "--runs",          "5000", "-o",       "r"};
 
 TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const Folder folder;
         Running tool(folder, longWork);
         ASSERT_TRUE(soon([&] { return tool.err().find(": time") != std::string::npos; })) << tool.err();
