@@ -187,6 +187,19 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
     EXPECT_GE(failed, 2);
 }
 
+// Mesa would end the process by SIGBUS.
+TEST(FullDisk, OfTheDriversCacheIsDoneWithout) {
+    const Folder folder;
+    if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";
+    const Ran ran = mounted(folder,
+                            "mkdir -p m; mount -t tmpfs -o size=20k none m\n"
+                            "dd if=/dev/zero of=m/full 2>/dev/null || true\n"
+                            "export XDG_CACHE_HOME=$PWD/m; unset MESA_SHADER_CACHE_DIR\n" +
+                                render + "r");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+}
+
 TEST(FullDisk, OneThatIsReadOnlyIsNamedAndKept) {
     const Folder folder;
     if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a read-only disk in";
