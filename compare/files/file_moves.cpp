@@ -176,7 +176,7 @@ void finishMoves(const fs::path& folder) {
     for (const std::string& name : moves.files)
         if (begun.has(name)) done.make(begun, place, name);
     for (const std::string& name : removedBy(moves))
-        if (place.hasFile(name)) place.removeFile(name);
+        place.removeFile(name);
     removeEmptied(place, moves);
     removeBegun(place, begun);
 }
