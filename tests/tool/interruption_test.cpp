@@ -49,7 +49,8 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
                      {"compare", "-q", "builtin:points", "--size", "96x54", "--runs", "0", "-o", "r"});
         ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
         std::this_thread::sleep_for(std::chrono::milliseconds(9 * attempt));
-        if (!tool.ended()) ::kill(tool.process(), SIGINT);
+        constexpr int signals[] = {SIGINT, SIGQUIT, SIGTERM, SIGHUP};
+        if (!tool.ended()) ::kill(tool.process(), signals[attempt % 4]);
         ASSERT_TRUE(soon([&] { return tool.ended(); }));
         const bool died = WIFSIGNALED(tool.wait());
         cut += died;

@@ -61,6 +61,32 @@ TEST(OutputFolder, ALinkStaysALink) {
     EXPECT_EQ(contentsOf(target / "a.txt"), "new");
 }
 
+// Links that somebody planted in the folder, and under the names of a killed program's temporaries.
+TEST(OutputFolder, LinksInsideAreNotFollowed) {
+    const fs::path home = folder(), target = home / "report", elsewhere = home / "elsewhere";
+    fs::create_directory(target);
+    fs::create_directory(elsewhere);
+    std::ofstream(elsewhere / "lit.png") << "theirs";
+    for (const fs::path& in : {home, target}) {
+        fs::create_directory_symlink(elsewhere, in / ".report.99999999-0.tmp");
+        fs::create_directory(in / ".report.99999999-1.tmp");
+        fs::create_directory_symlink(elsewhere, in / ".report.99999999-1.tmp/inner");
+    }
+    fs::create_directory_symlink(elsewhere, target / "1");
+    const auto put = [&](const std::vector<std::string>& files) {
+        OutputFolder output(target);
+        output.makeFolders(files);
+        for (const std::string& file : files) std::ofstream(output / file) << "new";
+        output.put(files, [] { return std::vector<std::string>{"1/lit.png"}; });
+    };
+    EXPECT_THROW(put({"a.txt", "1/lit.png"}), std::runtime_error);
+    EXPECT_EQ(namesIn(target), (std::vector<std::string>{".report.99999999-0.tmp", "1"}));
+    put({"a.txt"});
+    EXPECT_EQ(contentsOf(target / "a.txt"), "new");
+    EXPECT_EQ(filesIn(elsewhere), std::vector<std::string>{"lit.png"});
+    EXPECT_EQ(contentsOf(elsewhere / "lit.png"), "theirs");
+}
+
 // A folder of parts beside an output, as a long command keeps it.
 TEST(KeptFolder, ALinkIsRefusedAndItsFolderKept) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
