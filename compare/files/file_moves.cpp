@@ -175,8 +175,7 @@ void finishMoves(const fs::path& folder) {
     UndoableMoves done;
     for (const std::string& name : moves.files)
         if (begun.has(name)) done.make(begun, place, name);
-    for (const std::string& name : removedBy(moves))
-        place.removeFile(name);
+    for (const std::string& name : removedBy(moves)) place.removeFile(name);
     removeEmptied(place, moves);
     removeBegun(place, begun);
 }
