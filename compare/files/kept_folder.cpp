@@ -46,6 +46,7 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
         throw std::runtime_error(fmt::format(
             "{}: another diptych is at work for the same -o; wait for it, or write to another place",
             path().string()));
+    folder_.removeLinks();  // nobody writes parts through what was planted, nor reads them
     const Json there = readJson(path() / keyFile);
     if (there == key) return;
     const bool holdsOthers = std::ranges::any_of(

@@ -67,6 +67,20 @@ void removeAllIn(int folder, const char* name) {
     ::unlinkat(folder, name, AT_REMOVEDIR);
 }
 
+void removeLinksIn(int folder) {
+    for (const std::string& name : namesIn(folder)) {
+        struct stat status {};
+        if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 || S_ISREG(status.st_mode))
+            continue;
+        if (!S_ISDIR(status.st_mode)) {
+            ::unlinkat(folder, name.c_str(), 0);
+        } else if (const int inner = openedIn(folder, name.c_str()); inner >= 0) {
+            removeLinksIn(inner);
+            ::close(inner);
+        }
+    }
+}
+
 }  // namespace
 
 OpenFolder::OpenFolder(const fs::path& folder)
@@ -159,6 +173,10 @@ int OpenFolder::removeFolder(const fs::path& name) const {
 void OpenFolder::removeAll(const fs::path& name) const {
     if (const OpenFolder parent = parentOf(name); parent.file_ >= 0)
         removeAllIn(parent.file_, name.filename().c_str());
+}
+
+void OpenFolder::removeLinks() const {
+    removeLinksIn(file_);
 }
 
 int OpenFolder::move(const fs::path& name, const OpenFolder& to, const fs::path& as, unsigned flags) const {

@@ -37,6 +37,8 @@ public:
     int removeFile(const std::filesystem::path& name) const;
     int removeFolder(const std::filesystem::path& name) const;  // an empty one
     void removeAll(const std::filesystem::path& name) const;    // as much as is possible
+    // Whatever below it is neither a folder nor a regular file.
+    void removeLinks() const;
     int move(const std::filesystem::path& name, const OpenFolder& to, const std::filesystem::path& as,
              unsigned flags = 0) const;  // renameat2()
     int link(const std::filesystem::path& name, const OpenFolder& to, const std::filesystem::path& as) const;

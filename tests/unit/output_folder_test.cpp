@@ -118,5 +118,25 @@ TEST(KeptFolder, LinksInItAreReplacedAndNotFollowed) {
     EXPECT_EQ(namesIn(home), (std::vector<std::string>{"inner.txt", "mine.json"}));
 }
 
+// A command that goes on writes into folders of scenes that it finds there.
+TEST(KeptFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
+    const fs::path home = folder(), elsewhere = home / "elsewhere";
+    fs::create_directory(elsewhere);
+    std::ofstream(elsewhere / "part.json") << "{}";
+    const nlohmann::ordered_json key{{"software", "diptych"}, {"schema", 1}};
+    {
+        const KeptFolder kept(home / "r", "scenes", key);
+        kept.keep("part", {{"of", "ours"}});
+        fs::create_directory(kept / "Box");
+        fs::create_directory_symlink(elsewhere, kept / "Sphere");
+        fs::create_directory_symlink(elsewhere, kept / "Box/top");
+        fs::create_symlink(elsewhere / "part.json", kept / "theirs.json");
+    }
+    const KeptFolder again(home / "r", "scenes", key);
+    EXPECT_EQ(filesIn(again.path()), (std::vector<std::string>{"key.json", "part.json"}));
+    EXPECT_FALSE(again.isRenewed());
+    EXPECT_EQ(filesIn(elsewhere), std::vector<std::string>{"part.json"});
+}
+
 }  // namespace
 }  // namespace diptych
