@@ -2,6 +2,7 @@
 // A folder that is written anew stays the folder that it was: its mode, its attributes, what leads to it.
 #include "compare/files/output_folder.h"
 #include "compare/files/kept_folder.h"
+#include "compare/shards/slurm.h"
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
@@ -136,6 +137,20 @@ TEST(KeptFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
     EXPECT_EQ(filesIn(again.path()), (std::vector<std::string>{"key.json", "part.json"}));
     EXPECT_FALSE(again.isRenewed());
     EXPECT_EQ(filesIn(elsewhere), std::vector<std::string>{"part.json"});
+}
+
+// Before sbatch is looked for.
+TEST(OutputFolder, ScriptsOfJobsAreNotPutThroughALink) {
+    const fs::path home = folder(), elsewhere = home / "elsewhere";
+    fs::create_directory(elsewhere);
+    fs::create_directory_symlink(elsewhere, home / "r.slurm");
+    EXPECT_THROW(shards::submit({.program = "/bin/false",
+                                 .working = home,
+                                 .words = {"compare"},
+                                 .out = home / "r",
+                                 .options = {}}),
+                 std::runtime_error);
+    EXPECT_EQ(namesIn(elsewhere), std::vector<std::string>());
 }
 
 }  // namespace
