@@ -2,13 +2,15 @@
 #include "compare/choose/calibration.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/vulkan/user_cache.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 
 namespace diptych::choose {
@@ -49,10 +51,13 @@ std::filesystem::path calibrationFile(const std::filesystem::path& folder, const
 Calibration readCalibration(const std::filesystem::path& file, const std::string& device,
                             const std::string& driver, const std::string& program) {
     Calibration result{device, driver, program, {}};
-    std::ifstream stream(file);
-    if (!stream) return result;
+    const CacheFile opened = openCacheFile(file);
+    constexpr std::uintmax_t most = 16 << 20;  // ten thousand effects on a hundred scenes
+    if (!opened.stream || opened.bytes > most) return result;
     try {
-        const Json json = Json::parse(stream);
+        std::string text(opened.bytes, '\0');
+        if (std::fread(text.data(), 1, text.size(), opened.stream.get()) != text.size()) return result;
+        const Json json = Json::parse(text);
         if (json.at("schema") != 1 || json.at("device") != device || json.at("driver") != driver ||
             json.at("program") != program)
             return result;
@@ -89,8 +94,12 @@ bool writeCalibration(const std::filesystem::path& file, const Calibration& cali
                     {"program", calibration.program},
                     {"effects", std::move(effects)}};
     try {
-        std::filesystem::create_directories(file.parent_path());
-        writeFile(file, json.dump(1) + "\n");
+        makeCacheFolder(file.parent_path());
+        const std::string text = json.dump(1) + "\n";
+        AtomicFile out(file);
+        keepForUser(out.stream());
+        std::fwrite(text.data(), 1, text.size(), out.stream());
+        out.commit();
     } catch (const std::exception&) {
         return false;
     }

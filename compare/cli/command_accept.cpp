@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/files/our_files.h"
+#include "compare/files/output.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"
 
@@ -118,7 +119,7 @@ int runAccept(const Options& options) {
                                        ? fmt::format("accepted as {} was in {}", how.pair, report.string())
                                        : options.accept.because}});
     }
-    writeFile(out, rules.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeFile(linkedFile(out), rules.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (!options.quiet)
         fmt::print("{}: {} rule{} written; compare --tolerances {} holds to {}\n", out.string(),
                    failing.size(), failing.size() == 1 ? "" : "s", out.string(),

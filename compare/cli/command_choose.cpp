@@ -3,6 +3,7 @@
 #include "compare/choose/report.h"
 #include "compare/cli/commands.h"
 #include "compare/cli/scene_chooser.h"
+#include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
 #include "shared/image/atomic_file.h"
 
@@ -69,7 +70,7 @@ int runChoose(const Options& options) {
     std::optional<Settings> settings = chosenSettings(choices);
     if (settings) settings->camera = options.settings.camera;
     if (isSettingsFile(options.out)) {
-        if (settings) writeFile(options.out, toJson(*settings) + "\n");
+        if (settings) writeFile(linkedFile(options.out), toJson(*settings) + "\n");
     } else if (!options.out.empty()) {
         writeChoice(choices, options.out, options.force);
         tell((options.out / "index.html").string() + "\n");

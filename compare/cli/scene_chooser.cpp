@@ -12,7 +12,7 @@
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
-#include "shared/vulkan/pipeline_cache.h"
+#include "shared/vulkan/user_cache.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

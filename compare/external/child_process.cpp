@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +19,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -48,10 +51,18 @@ void check(int error, const char* what) {
     if (error != 0) throw std::system_error(error, std::generic_category(), what);
 }
 
-// What is told to posix_spawn: where the program runs, what it reads and writes, and a group of its own.
+// All that posix_spawn is told: what to run, where, what it reads and writes, and a group of its own. It is
+// made before the fork, behind which nothing is allocated.
 class SpawnPlan {
 public:
-    SpawnPlan(const std::filesystem::path& folder, int output, int error) {
+    SpawnPlan(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int output,
+              int error)
+        : pwd_("PWD=" + folder.string()), variables_{pwd_.data()} {
+        for (char** variable = environ; *variable; ++variable)
+            if (!std::string_view(*variable).starts_with("PWD=")) variables_.push_back(*variable);
+        variables_.push_back(nullptr);
+        for (const std::string& word : arguments) words_.push_back(const_cast<char*>(word.c_str()));
+        words_.push_back(nullptr);
         check(posix_spawn_file_actions_init(&actions_), "posix_spawn");
         check(posix_spawnattr_init(&attributes_), "posix_spawn");
         check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()), "posix_spawn");
@@ -76,21 +87,15 @@ public:
     SpawnPlan(const SpawnPlan&) = delete;
     SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-    // 0, or why the program did not start. `folder`: that it runs in, which programs also look up in PWD.
-    int start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-              pid_t& process) const {
-        std::string pwd = "PWD=" + folder.string();
-        std::vector<char*> variables{pwd.data()};
-        for (char** variable = environ; *variable; ++variable)
-            if (!std::string_view(*variable).starts_with("PWD=")) variables.push_back(*variable);
-        variables.push_back(nullptr);
-        std::vector<char*> words;
-        for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-        words.push_back(nullptr);
-        return posix_spawnp(&process, words.front(), &actions_, &attributes_, words.data(), variables.data());
+    // 0, or why the program did not start.
+    int start(pid_t& process) const {
+        return posix_spawnp(&process, words_.front(), &actions_, &attributes_, words_.data(),
+                            variables_.data());
     }
 
 private:
+    std::string pwd_;  // the folder that it runs in, which programs also look up there
+    std::vector<char*> variables_, words_;
     posix_spawn_file_actions_t actions_{};
     posix_spawnattr_t attributes_{};
 };
@@ -105,6 +110,17 @@ struct Pipe {
         check(::fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0 ? 0 : errno, "fcntl");
     }
     std::optional<Descriptor> output, input;
+};
+
+// Two ends of which one hears when the other says something, or is gone with its process.
+struct Lifeline {
+    Lifeline() {
+        int ends[2];
+        check(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno, "socketpair");
+        ours.emplace(ends[0]);
+        supervisors.emplace(ends[1]);
+    }
+    std::optional<Descriptor> ours, supervisors;
 };
 
 // Returns how many bytes it has cut off.
@@ -129,12 +145,94 @@ bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     }
 }
 
-// Until the process has ended or the time is over, reads what it says. Its end is what counts and not that of
-// its output, which whoever it started may hold open.
-bool waitFor(int process, const Pipe& output, const Pipe& error, double seconds, Ended& ended) {
+// What the supervisor says of the program at its own end.
+struct Told {
+    int failed = 0;  // an errno: it did not start
+    int status = 0;  // as waitpid() has it
+};
+
+// By its number: glibc 2.36 declares pidfd_open() without C linkage.
+int handleOf(pid_t process) {
+    return static_cast<int>(::syscall(SYS_pidfd_open, process, 0));
+}
+
+// Kills every child of this process, which has one thread.
+void killChildren() {
+    const int list = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+    if (list < 0) return;
+    char bytes[4096];
+    pid_t process = 0;
+    for (ssize_t count = 0; (count = ::read(list, bytes, sizeof bytes)) > 0;)
+        for (ssize_t i = 0; i < count; ++i)
+            if (bytes[i] != ' ') {
+                process = 10 * process + (bytes[i] - '0');
+            } else {
+                ::kill(process, SIGKILL);
+                process = 0;
+            }
+    ::close(list);
+}
+
+// A process whose parent ends becomes a child of this one, the subreaper: killing children until none is left
+// ends all that the program started, whatever group or session it is in. What has not died after 5 s is stuck
+// in the kernel, or another user's.
+void killAllBelow() {
+    constexpr timespec pause{0, 1'000'000};
+    for (int i = 0; i < 5000; ++i) {
+        killChildren();
+        pid_t ended = 0;
+        while ((ended = ::waitpid(-1, nullptr, WNOHANG)) > 0) {
+        }
+        if (ended < 0) return;
+        ::nanosleep(&pause, nullptr);
+    }
+}
+
+// The locks and pipes of this program are not the supervisor's: of its descriptors these two are left.
+void keepOnly(int& lifeline, int& report) {
+    // From 3 on, where neither is in the other's way.
+    lifeline = ::dup2(::fcntl(lifeline, F_DUPFD_CLOEXEC, 3), 0);
+    report = ::dup2(::fcntl(report, F_DUPFD_CLOEXEC, 3), 1);
+    if (::syscall(SYS_close_range, 2u, ~0u, 0u) == 0) return;
+    const auto most = static_cast<int>(std::min(::sysconf(_SC_OPEN_MAX), 65536L));  // before Linux 5.9
+    for (int file = 2; file < most; ++file) ::close(file);
+}
+
+// The process between this program and another: it starts that, and ends all of it when that has ended, when
+// the lifeline says so, and when this program is gone, however it went. In a child of a program with threads:
+// system calls alone.
+[[noreturn]] void supervise(const SpawnPlan& plan, int lifeline, int report) {
+    ::setpgid(0, 0);  // no signal of a terminal's
+    sigset_t all;
+    sigfillset(&all);
+    ::sigprocmask(SIG_BLOCK, &all, nullptr);
+    ::signal(SIGCHLD, SIG_DFL);
+    ::prctl(PR_SET_NAME, "diptych-run");
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+    Told told;
+    pid_t process = 0;
+    told.failed = plan.start(process);
+    keepOnly(lifeline, report);
+    if (told.failed == 0) {
+        pollfd watched[2] = {{handleOf(process), POLLIN, 0}, {lifeline, POLLIN, 0}};
+        if (watched[0].fd < 0) told.failed = errno;
+        while (told.failed == 0 && ::poll(watched, 2, -1) < 0 && errno == EINTR) {
+        }
+        // Before it is waited for: until then nobody else can have its group's number.
+        ::kill(-process, SIGKILL);
+        ::waitpid(process, &told.status, 0);
+        killAllBelow();
+    }
+    const ssize_t written = ::write(report, &told, sizeof told);
+    ::_exit(written == sizeof told ? 0 : 1);
+}
+
+// Until the supervisor has ended or the time is over, reads what the program says. The supervisor's end is
+// what counts and not that of the output, which whoever was started may hold open.
+bool waitFor(int supervisor, const Pipe& output, const Pipe& error, double seconds, Ended& ended) {
     const auto last = Clock::now() + std::chrono::duration<double>(seconds);
     pollfd watched[3] = {
-        {process, POLLIN, 0}, {output.output->number(), POLLIN, 0}, {error.output->number(), POLLIN, 0}};
+        {supervisor, POLLIN, 0}, {output.output->number(), POLLIN, 0}, {error.output->number(), POLLIN, 0}};
     for (;;) {
         const double left = std::chrono::duration<double, std::milli>(last - Clock::now()).count();
         if (left <= 0) return false;
@@ -151,31 +249,38 @@ bool waitFor(int process, const Pipe& output, const Pipe& error, double seconds,
 
 Ended runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  double seconds) {
-    Pipe output, error;
+    Pipe output, error, report;
+    Lifeline lifeline;
+    const SpawnPlan plan(arguments, folder, output.input->number(), error.input->number());
     const auto start = Clock::now();
     Ended ended;
-    pid_t process = 0;
-    if (const int failed = SpawnPlan(folder, output.input->number(), error.input->number())
-                               .start(arguments, folder, process);
-        failed != 0)
-        throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
-                                             oneLine(folder.string()), std::strerror(failed)));
-    output.input.reset();
-    error.input.reset();
-    const KilledWhenInterrupted watched(process);
-    // By its number: glibc 2.36 declares pidfd_open() without C linkage.
-    const Descriptor handle(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
-    check(handle.number() >= 0 ? 0 : errno, "pidfd_open");
-    ended.timed_out = !waitFor(handle.number(), output, error, seconds, ended);
-    // Before the process is waited for: until then nobody else can have its group's number.
-    ::kill(-process, SIGKILL);
-    int status = 0;
-    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    const pid_t supervisor = ::fork();
+    check(supervisor >= 0 ? 0 : errno, "fork");
+    if (supervisor == 0) {
+        lifeline.ours.reset();  // its own copy would outlive this program's
+        supervise(plan, lifeline.supervisors->number(), report.input->number());
     }
+    for (Pipe* written : {&output, &error, &report}) written->input.reset();
+    lifeline.supervisors.reset();
+    {
+        const EndedWhenInterrupted watched(lifeline.ours->number(), supervisor);
+        const Descriptor handle(handleOf(supervisor));
+        const int failed = handle.number() >= 0 ? 0 : errno;
+        ended.timed_out = failed == 0 && !waitFor(handle.number(), output, error, seconds, ended);
+        if (ended.timed_out || failed != 0) endSupervised(lifeline.ours->number());
+        while (::waitpid(supervisor, nullptr, 0) < 0 && errno == EINTR) {
+        }
+        check(failed, "pidfd_open");
+    }
+    Told told{0, SIGKILL};  // where somebody has killed the supervisor
+    const ssize_t count = ::read(report.output->number(), &told, sizeof told);
+    if (count == sizeof told && told.failed != 0)
+        throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
+                                             oneLine(folder.string()), std::strerror(told.failed)));
     readInto(ended, output, false);
     readInto(ended, error, true);
-    if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
+    if (WIFEXITED(told.status)) ended.code = WEXITSTATUS(told.status);
+    if (WIFSIGNALED(told.status)) ended.signal = WTERMSIG(told.status);
     ended.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return ended;
 }

@@ -26,10 +26,9 @@ struct Ended {
 inline constexpr std::size_t most_said = 16 * 1024;
 
 // Runs arguments[0], which is looked for in PATH where it has no slash, with `arguments` as they are: no
-// shell reads them. Its working directory is `folder`, its stdin is empty, and it and whatever it starts is a
-// process group of its own, which is killed when the program ends, when `seconds` are over, and when an
-// interruption ends this one. Throws std::runtime_error, one line naming the program, where it cannot be
-// started.
+// shell reads them. Its working directory is `folder`, its stdin is empty, and all that it started, in
+// whatever group or session, is killed when the program ends, when `seconds` are over, and when this process
+// ends, however it does. Throws std::runtime_error, one line naming the program, where it cannot be started.
 Ended runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  double seconds);
 

@@ -152,9 +152,8 @@ Frame readPicture(const fs::path& file, const fs::path& after, const Granted& gr
 Attempt drawExternally(const Renderer& renderer, const Scene& scene, const SceneView& view,
                        const Settings& settings) {
     const fs::path root = fs::temp_directory_path();
-    const fs::path target = root / fmt::format("diptych-job-{}", renderer.name);
-    Temporary folder(root, target);
-    if (!folder.createFolder())
+    Temporary folder(root, root / "diptych-job");
+    if (!folder.createFolder(true))
         throw std::runtime_error(fmt::format("{}: {}; TMPDIR says where another one is",
                                              oneLine(root.string()), std::strerror(errno)));
     const Job job = writeJob(fs::absolute(folder.path()), scene, view, settings, renderer);

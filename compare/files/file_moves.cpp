@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/file_moves.h"
 
+#include "compare/files/open_folder.h"
 #include "compare/files/our_files.h"
 #include "shared/image/atomic_file.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <fstream>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -24,56 +22,67 @@ constexpr const char* begunName = ".diptych.put";  // the folder whose files are
 constexpr const char* listName = ".plan.json";     // inside it: the list of moves
 constexpr const char* oldName = ".old";            // inside it: replaced files, until all moves are done
 
-bool isThere(const fs::path& path) {
-    return fs::exists(fs::symlink_status(path));
-}
+// The list of moves of a report of a hundred thousand files, of 200 bytes a name, fits twice.
+constexpr std::size_t mostOfList = std::size_t{64} << 20;
 
 // Moves files, and can move them back.
 class UndoableMoves {
 public:
-    void make(const fs::path& from, const fs::path& to) {
-        makeFolder(to.parent_path());
-        made_.emplace_back(from, to);
-        if (std::rename(from.c_str(), to.c_str()) == 0) return;
-        const int error = errno;
+    void make(const OpenFolder& from, const OpenFolder& to, const std::string& name) {
+        makeFolders(to, name);
+        made_.push_back({&from, &to, name});
+        const int error = from.move(name, to, name);
+        if (error == 0) return;
         made_.pop_back();
-        throw std::runtime_error(writingFailed(to, error));
+        throw std::runtime_error(writingFailed(to.path() / name, error));
     }
 
-    // Moves `from` to `to` and keeps the old `to` as `kept`. Where the file system has hard links, `to`
-    // exists at every moment.
-    void replace(const fs::path& from, const fs::path& to, const fs::path& kept) {
-        makeFolder(kept.parent_path());
-        if (::link(to.c_str(), kept.c_str()) != 0) {
-            make(to, kept);
-            return make(from, to);
+    // Moves `from` to `to` and keeps the file that is there in `kept`. Where the file system has hard links,
+    // `to` exists at every moment.
+    void replace(const OpenFolder& from, const OpenFolder& to, const OpenFolder& kept,
+                 const std::string& name) {
+        makeFolders(kept, name);
+        if (to.link(name, kept, name) != 0) {
+            make(to, kept, name);
+            return make(from, to, name);
         }
-        made_.emplace_back(to, kept);
-        if (std::rename(from.c_str(), to.c_str()) != 0) throw std::runtime_error(writingFailed(to, errno));
+        made_.push_back({&to, &kept, name});
+        if (const int error = from.move(name, to, name); error != 0)
+            throw std::runtime_error(writingFailed(to.path() / name, error));
     }
 
     bool undo() noexcept {
         bool all = true;
-        for (; !made_.empty(); made_.pop_back())
-            all = std::rename(made_.back().second.c_str(), made_.back().first.c_str()) == 0 && all;
-        for (; !folders_.empty(); folders_.pop_back()) ::rmdir(folders_.back().c_str());
+        for (; !made_.empty(); made_.pop_back()) {
+            const auto& [from, to, name] = made_.back();
+            all = to->move(name, *from, name) == 0 && all;
+        }
+        for (; !folders_.empty(); folders_.pop_back())
+            folders_.back().first->removeFolder(folders_.back().second);
         return all;
     }
 
 private:
-    void makeFolder(const fs::path& folder) {
-        folders_.push_back(folder);
-        if (::mkdir(folder.c_str(), 0777) == 0) return;
-        const int error = errno;
-        folders_.pop_back();
-        if (error == EEXIST) return;
-        if (error != ENOENT) throw std::runtime_error(writingFailed(folder, error));
-        makeFolder(folder.parent_path());
-        makeFolder(folder);
+    struct Move {
+        const OpenFolder *from, *to;
+        std::string name;
+    };
+
+    void makeFolders(const OpenFolder& place, const std::string& file) {
+        std::vector<fs::path> folders = foldersOf(file);
+        std::ranges::reverse(folders);
+        for (const fs::path& folder : folders) {
+            folders_.emplace_back(&place, folder);
+            const int error = place.makeFolder(folder);
+            if (error == 0) continue;
+            folders_.pop_back();
+            if (error != EEXIST) throw std::runtime_error(writingFailed(place.path() / folder, error));
+            place.in(folder);  // throws where it is a link, or a file
+        }
     }
 
-    std::vector<std::pair<fs::path, fs::path>> made_;
-    std::vector<fs::path> folders_;
+    std::vector<Move> made_;
+    std::vector<std::pair<const OpenFolder*, fs::path>> folders_;
 };
 
 std::vector<std::string> removedBy(const FileMoves& moves) {
@@ -84,9 +93,9 @@ std::vector<std::string> removedBy(const FileMoves& moves) {
 }
 
 // Removes folders that are now empty, such as "1" after "1/lit.png" was removed.
-void removeEmptied(const fs::path& folder, const FileMoves& moves) {
+void removeEmptied(const OpenFolder& place, const FileMoves& moves) {
     for (const std::string& name : removedBy(moves))
-        for (const fs::path& inner : foldersOf(name)) ::rmdir((folder / inner).c_str());
+        for (const fs::path& inner : foldersOf(name)) place.removeFolder(inner);
 }
 
 std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
@@ -97,26 +106,29 @@ std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
     return names;
 }
 
-FileMoves readMoves(const fs::path& file) {
-    std::ifstream stream(file);
-    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+FileMoves readMoves(const OpenFolder& begun) {
+    const nlohmann::json json = [&] {
+        try {
+            return nlohmann::json::parse(begun.read(listName, mostOfList), nullptr, false);
+        } catch (const std::runtime_error&) {
+            return nlohmann::json();
+        }
+    }();
     if (!json.is_object() || !json.contains("files"))
         throw std::runtime_error(
-            file.string() + ": left by a program that was killed, and cannot be read; remove its folder");
+            (begun.path() / listName).string() +
+            ": left by a program that was killed, and cannot be read; remove its folder");
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 
 // Cleans up when everything new is in place. The list of moves is removed last: if the program is killed in
 // between, finishMoves() can repeat the clean-up.
-void removeBegun(const fs::path& begun) {
-    std::error_code ignored;
-    std::vector<fs::path> folders;  // of replaced files, and those that files were moved out of
-    for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end;
-         entry.increment(ignored))
-        if (entry->is_directory(ignored)) folders.push_back(entry->path());
-    for (const fs::path& folder : folders) fs::remove_all(folder, ignored);
-    fs::remove(begun / listName, ignored);
-    ::rmdir(begun.c_str());
+void removeBegun(const OpenFolder& place, const OpenFolder& begun) {
+    // Replaced files, and the folders that files were moved out of.
+    for (const std::string& name : begun.names())
+        if (!begun.hasFile(name)) begun.removeAll(name);
+    begun.removeFile(listName);
+    place.removeFolder(begunName);
 }
 
 }  // namespace
@@ -124,46 +136,48 @@ void removeBegun(const fs::path& begun) {
 void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) {
     writeFile(made.path() / listName,
               nlohmann::json{{"files", moves.files}, {"earlier", moves.earlier}}.dump());
-    const fs::path begun = folder / begunName;
-    const fs::path temporary = made.path();
-    if (std::rename(temporary.c_str(), begun.c_str()) != 0)
-        throw std::runtime_error(writingFailed(folder, errno));
+    const OpenFolder place(folder), begun(made.path());
+    const std::string temporary = made.path().filename();
+    if (const int error = begun.makeFolder(oldName); error != 0)
+        throw std::runtime_error(writingFailed(folder, error));
+    const OpenFolder old = begun.in(oldName);
+    if (const int error = place.move(temporary, place, begunName); error != 0)
+        throw std::runtime_error(writingFailed(folder, error));
     UndoableMoves done;
     try {
         for (const std::string& name : moves.files) {
-            if (isThere(folder / name))
-                done.replace(begun / name, folder / name, begun / oldName / name);
+            if (place.has(name))
+                done.replace(begun, place, old, name);
             else
-                done.make(begun / name, folder / name);
+                done.make(begun, place, name);
         }
         for (const std::string& name : removedBy(moves))
-            if (fs::is_regular_file(fs::symlink_status(folder / name)))
-                done.make(folder / name, begun / oldName / name);
+            if (place.hasFile(name)) done.make(place, old, name);
     } catch (...) {
         // If undoing fails as well, the list of moves stays, and the next program finishes the moves.
-        if (done.undo()) std::rename(begun.c_str(), temporary.c_str());
+        if (done.undo()) place.move(begunName, place, temporary);
         throw;
     }
-    removeEmptied(folder, moves);
-    removeBegun(begun);
+    removeEmptied(place, moves);
+    removeBegun(place, begun);
 }
 
 bool isMoveBegun(const fs::path& folder) {
-    return isThere(folder / begunName);
+    return fs::exists(fs::symlink_status(folder / begunName));
 }
 
 void finishMoves(const fs::path& folder) {
-    const fs::path begun = folder / begunName;
-    if (!isThere(begun) || ::rmdir(begun.c_str()) == 0) return;
-    const FileMoves moves = readMoves(begun / listName);
+    if (!isMoveBegun(folder)) return;
+    const OpenFolder place(folder);
+    if (place.removeFolder(begunName) == 0) return;
+    const OpenFolder begun = place.in(begunName);
+    const FileMoves moves = readMoves(begun);
     UndoableMoves done;
     for (const std::string& name : moves.files)
-        if (isThere(begun / name)) done.make(begun / name, folder / name);
-    std::error_code error;
-    for (const std::string& name : removedBy(moves))
-        if (fs::is_regular_file(fs::symlink_status(folder / name))) fs::remove(folder / name, error);
-    removeEmptied(folder, moves);
-    removeBegun(begun);
+        if (begun.has(name)) done.make(begun, place, name);
+    for (const std::string& name : removedBy(moves)) place.removeFile(name);
+    removeEmptied(place, moves);
+    removeBegun(place, begun);
 }
 
 }  // namespace diptych

@@ -5,16 +5,12 @@
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <stdexcept>
-#include <vector>
 
 namespace diptych {
 
@@ -35,58 +31,51 @@ Json readJson(const fs::path& file) {
     return json.is_object() ? json : Json();
 }
 
+OpenFolder made(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);  // of a link as well, which OpenFolder refuses
+    if (error) throw std::runtime_error(writingFailed(folder, error.value()));
+    return OpenFolder(folder);
+}
+
 }  // namespace
 
 KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json& key)
-    : folder_(besideOutput(out, what)) {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) throw std::runtime_error(writingFailed(folder_, error.value()));
-    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0) throw std::runtime_error(writingFailed(folder_, errno));
-    // On a file system without locks nothing is locked.
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    : folder_(made(besideOutput(out, what))) {
+    if (!folder_.lock())
         throw std::runtime_error(fmt::format(
             "{}: another diptych is at work for the same -o; wait for it, or write to another place",
-            folder_.string()));
-    const Json there = readJson(folder_ / keyFile);
+            path().string()));
+    folder_.removeLinks();  // nobody writes parts through what was planted, nor reads them
+    const Json there = readJson(path() / keyFile);
     if (there == key) return;
-    const bool holdsOthers =
-        std::any_of(fs::directory_iterator(folder_), fs::directory_iterator(),
-                    [](const auto& e) { return !isTemporaryOf(keyFile, e.path().filename().string()); });
-    if (holdsOthers && !isOurManifest(folder_ / keyFile))
-        throw std::runtime_error(folder_.string() +
-                                 ": is there and was not written by diptych; move it away");
+    const bool holdsOthers = std::ranges::any_of(
+        folder_.names(), [](const std::string& name) { return !isTemporaryOf(keyFile, name); });
+    if (holdsOthers && !isOurManifest(path() / keyFile))
+        throw std::runtime_error(path().string() + ": is there and was not written by diptych; move it away");
     renewed_ = holdsOthers;
     clear();
-    writeFile(folder_ / keyFile, pageOfJson(key));
-}
-
-KeptFolder::~KeptFolder() {
-    if (lock_ >= 0) ::close(lock_);
+    writeFile(path() / keyFile, pageOfJson(key));
 }
 
 // The key is removed last: it marks the other files as ours.
 void KeptFolder::clear() {
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-        if (entry.path().filename() != keyFile) files.push_back(entry.path());
-    std::error_code ignored;
-    for (const fs::path& file : files) fs::remove_all(file, ignored);
-    fs::remove(folder_ / keyFile, ignored);
+    for (const std::string& name : folder_.names())
+        if (name != keyFile) folder_.removeAll(name);
+    folder_.removeFile(keyFile);
 }
 
 Json KeptFolder::find(const std::string& name) const {
-    return readJson(folder_ / (name + ".json"));
+    return readJson(path() / (name + ".json"));
 }
 
 void KeptFolder::keep(const std::string& name, const Json& part) const {
-    writeFile(folder_ / (name + ".json"), pageOfJson(part));
+    writeFile(path() / (name + ".json"), pageOfJson(part));
 }
 
 void KeptFolder::remove() {
     clear();
-    ::rmdir(folder_.c_str());
+    ::rmdir(path().c_str());
 }
 
 }  // namespace diptych

@@ -35,11 +35,16 @@ Output outputOf(const fs::path& out) {
     std::error_code ignored;
     if (ending.empty() || out.filename().empty() || fs::is_directory(out, ignored))
         return {OutputKind::folder, out};
-    if (ending == ".exr") return {OutputKind::exr, out};
-    if (ending == ".png") return {OutputKind::png, out};
+    if (ending == ".exr") return {OutputKind::exr, linkedFile(out)};
+    if (ending == ".png") return {OutputKind::png, linkedFile(out)};
     throw std::runtime_error(
         fmt::format("-o {}: {} cannot be written; use .exr, .png, or a name without ending for a folder",
                     out.string(), out.extension().string()));
+}
+
+fs::path linkedFile(const fs::path& out) {
+    std::error_code ignored;
+    return fs::is_symlink(fs::symlink_status(out, ignored)) ? fs::weakly_canonical(out, ignored) : out;
 }
 
 fs::path besideOutput(const fs::path& out, const std::string& what) {

@@ -19,6 +19,10 @@ struct Output {
 // is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
 Output outputOf(const std::filesystem::path& out);
 
+// The file that `out` itself is a link to, else `out`: the link that a user names is kept, while those that
+// are found in a folder are replaced (AtomicFile).
+std::filesystem::path linkedFile(const std::filesystem::path& out);
+
 // ".NAME.what" beside an output: holds the finished part of it until all of it is done.
 std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
 

@@ -3,6 +3,7 @@
 
 #include "compare/files/file_moves.h"
 #include "compare/files/folder_lock.h"
+#include "compare/files/open_folder.h"
 #include "compare/files/our_files.h"
 
 #include "shared/image/atomic_file.h"
@@ -87,14 +88,11 @@ bool isReadOnly(const fs::path& folder) {
 }
 
 // Moves files that another program created in the old folder during the exchange into the new one.
-void rescue(const fs::path& from, const fs::path& to, const std::vector<std::string>& ours) {
-    std::error_code ignored;
-    for (const std::string& name : ours) fs::remove(from / name, ignored);
+void rescue(const OpenFolder& from, const OpenFolder& to, const std::vector<std::string>& ours) {
+    for (const std::string& name : ours) from.removeFile(name);
     for (const std::string& name : ours)
-        for (const fs::path& inner : foldersOf(name)) ::rmdir((from / inner).c_str());
-    for (fs::directory_iterator entry(from, ignored), end; !ignored && entry != end; entry.increment(ignored))
-        ::renameat2(AT_FDCWD, entry->path().c_str(), AT_FDCWD, (to / entry->path().filename()).c_str(),
-                    RENAME_NOREPLACE);
+        for (const fs::path& inner : foldersOf(name)) from.removeFolder(inner);
+    for (const std::string& name : from.names()) from.move(name, to, name, RENAME_NOREPLACE);
 }
 
 }  // namespace
@@ -129,7 +127,7 @@ bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
     const fs::path home = temporary_->path().parent_path(), beside = folder_.parent_path();
     if (home != beside && !temporary_->moveTo(beside)) return false;
     if (::renameat2(AT_FDCWD, temporary_->path().c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) == 0) {
-        rescue(temporary_->path(), folder_, earlier);
+        rescue(OpenFolder(temporary_->path()), OpenFolder(folder_), earlier);
         return true;
     }
     return false;

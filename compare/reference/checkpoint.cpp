@@ -66,12 +66,16 @@ std::vector<fs::path> filesOf(const fs::path& stem) {
     return files;
 }
 
-// Opened for reading and writing, because some file systems only lock such files.
+// Opened for reading and writing, because some file systems only lock such files. Null where it is a link or
+// anything else but a regular file.
 std::FILE* opened(const fs::path& file, int how) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | how, 0666);
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | how, 0666);
     if (descriptor < 0) return nullptr;
-    std::FILE* stream = ::fdopen(descriptor, "r+b");
+    struct stat status {};
+    const bool regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    std::FILE* stream = regular ? ::fdopen(descriptor, "r+b") : nullptr;
     if (!stream) ::close(descriptor);
+    if (!regular) errno = EEXIST;
     return stream;
 }
 
@@ -86,7 +90,7 @@ bool lock(std::FILE* stream) {
 bool isAt(std::FILE* stream, const fs::path& file) {
     struct stat open {};
     struct stat there {};
-    return ::fstat(::fileno(stream), &open) == 0 && ::stat(file.c_str(), &there) == 0 &&
+    return ::fstat(::fileno(stream), &open) == 0 && ::lstat(file.c_str(), &there) == 0 &&
            open.st_dev == there.st_dev && open.st_ino == there.st_ino;
 }
 

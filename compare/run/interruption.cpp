@@ -4,12 +4,14 @@
 #include "compare/run/progress.h"
 #include "shared/image/temporary.h"
 
+#include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
 
 namespace diptych {
@@ -18,12 +20,15 @@ namespace {
 std::mutex lastWordsMutex;
 std::string lastWords;
 
-std::mutex groupsMutex;
-std::set<int> groups;  // that an interruption kills
+std::mutex supervisedMutex;
+std::map<int, int> lifelines;  // by the supervisor's process number
 
-void killGroups() {
-    const std::lock_guard lock(groupsMutex);
-    for (const int group : groups) ::kill(-group, SIGKILL);
+void endAllSupervised() {
+    const std::lock_guard lock(supervisedMutex);
+    for (const auto& [supervisor, lifeline] : lifelines) endSupervised(lifeline);
+    siginfo_t ended{};  // it stays to be waited for by its parent's other thread
+    for (const auto& [supervisor, lifeline] : lifelines)
+        ::waitid(P_PID, static_cast<id_t>(supervisor), &ended, WEXITED | WNOWAIT);
 }
 
 }  // namespace
@@ -33,14 +38,18 @@ void sayWhenInterrupted(const std::string& line) {
     lastWords = line;
 }
 
-KilledWhenInterrupted::KilledWhenInterrupted(int group) : group_(group) {
-    const std::lock_guard lock(groupsMutex);
-    groups.insert(group_);
+void endSupervised(int lifeline) {
+    ::send(lifeline, "", 1, MSG_NOSIGNAL);  // fails where it has ended by itself
 }
 
-KilledWhenInterrupted::~KilledWhenInterrupted() {
-    const std::lock_guard lock(groupsMutex);
-    groups.erase(group_);
+EndedWhenInterrupted::EndedWhenInterrupted(int lifeline, int supervisor) : supervisor_(supervisor) {
+    const std::lock_guard lock(supervisedMutex);
+    lifelines.emplace(supervisor, lifeline);
+}
+
+EndedWhenInterrupted::~EndedWhenInterrupted() {
+    const std::lock_guard lock(supervisedMutex);
+    lifelines.erase(supervisor_);
 }
 
 void dieOf(int signal) {
@@ -56,7 +65,7 @@ void dieOf(int signal) {
 void watchInterruption() {
     sigset_t watched;
     sigemptyset(&watched);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         struct sigaction now {};
         if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&watched, signal);
     }
@@ -64,7 +73,7 @@ void watchInterruption() {
     std::thread([watched] {
         int signal = 0;
         if (sigwait(&watched, &signal) != 0) return;
-        killGroups();
+        endAllSupervised();
         abandonTemporaries();
         wipeProgress();
         {

@@ -5,8 +5,8 @@
 
 namespace diptych {
 
-// From now on SIGINT, SIGTERM and SIGHUP end the program at once, even during a long submission to the
-// device; signals that are already ignored (as under nohup) stay ignored. Unfinished temporary files are
+// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program at once, even during a long submission to
+// the device; signals that are already ignored (as under nohup) stay ignored. Unfinished temporary files are
 // removed, the progress line is wiped, and the program dies of the signal, as its shell expects. Call this
 // before any thread is started: threads inherit the blocked signals.
 void watchInterruption();
@@ -15,17 +15,20 @@ void watchInterruption();
 // from any thread.
 void sayWhenInterrupted(const std::string& line);
 
-// While there is one, an interruption kills the process group too, before the program ends.
-class KilledWhenInterrupted {
+// While there is one, an interruption first ends what a child of this process supervises, so that nobody
+// writes into folders that are then removed. The child ends when its end of the socket `lifeline` has a byte
+// or is closed.
+class EndedWhenInterrupted {
 public:
-    explicit KilledWhenInterrupted(int group);
-    ~KilledWhenInterrupted();
-    KilledWhenInterrupted(const KilledWhenInterrupted&) = delete;
-    KilledWhenInterrupted& operator=(const KilledWhenInterrupted&) = delete;
+    EndedWhenInterrupted(int lifeline, int supervisor);
+    ~EndedWhenInterrupted();  // once the supervisor has been waited for
+    EndedWhenInterrupted(const EndedWhenInterrupted&) = delete;
+    EndedWhenInterrupted& operator=(const EndedWhenInterrupted&) = delete;
 
 private:
-    const int group_;
+    const int supervisor_;
 };
+void endSupervised(int lifeline);
 
 // The program ends as if `signal` had never been caught.
 [[noreturn]] void dieOf(int signal);

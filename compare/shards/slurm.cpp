@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/slurm.h"
 
+#include "compare/files/open_folder.h"
 #include "compare/run/command_text.h"
 #include "shared/image/atomic_file.h"
 
@@ -154,6 +155,7 @@ Submitted submit(const SlurmJob& job) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
+    const OpenFolder unlinked(folder);  // throws where it is a link, whose folder would get the scripts
     const fs::path array = folder / "array.sh", merge = folder / "merge.sh";
     writeFile(array, arrayScript(job));
     writeFile(merge, mergeScript(job));

@@ -6,8 +6,8 @@
 #include "shared/environment/environment_maps.h"
 #include "shared/frame/settings.h"
 #include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pipeline_cache.h"
 #include "shared/vulkan/resources.h"
+#include "shared/vulkan/user_cache.h"
 #include "shared/vulkan/variant.h"
 
 #include <cstdint>

@@ -42,12 +42,24 @@ Environment halved(const Environment& fine) {
 }
 
 // Rows of a picture twice as wide as high whose pixels would be as fine.
-int finenessOf(const Image& picture) {
-    return std::max(picture.height, (picture.width + 1) / 2);
+int finenessOf(int width, int height) {
+    return std::max(height, (width + 1) / 2);
+}
+
+bool canBeHalved(int width, int height) {
+    return finenessOf(width, height) >= 4 * mostSourceSide && width % 2 == 0 && height % 2 == 0;
 }
 
 bool canBeHalved(const Image& picture) {
-    return finenessOf(picture) >= 4 * mostSourceSide && picture.width % 2 == 0 && picture.height % 2 == 0;
+    return canBeHalved(picture.width, picture.height);
+}
+
+// Of the environment's own map. A map of `height` texels a side has texels as large as those at the horizon
+// of a picture so high.
+int sourceSide(int width, int height) {
+    for (; canBeHalved(width, height); height /= 2) width /= 2;
+    return static_cast<int>(std::bit_ceil(
+        static_cast<unsigned>(std::clamp(finenessOf(width, height), leastSourceSide, mostSourceSide))));
 }
 
 }  // namespace
@@ -60,9 +72,7 @@ EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const Enviro
     while (canBeHalved(even.radiance)) even = halved(even);
     const BrightPixels suns(even);
     const LatLong light(even);
-    // A map of `height` texels a side has texels as large as those at the horizon of a picture so high.
-    const auto side = static_cast<int>(std::bit_ceil(
-        static_cast<unsigned>(std::clamp(finenessOf(even.radiance), leastSourceSide, mostSourceSide))));
+    const int side = sourceSide(even.radiance.width, even.radiance.height);
     OctahedralMap whole = resampled(light, side);
     suns.addTo(whole);
     std::vector<BrightTexel> bright;
@@ -82,6 +92,17 @@ EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const Enviro
         addBrightTexels(maps.levels.back(), bright, levelAlpha(level));
     }
     return maps;
+}
+
+MapSides mapSides(int width, int height, bool prefilter) {
+    MapSides sides{diffuseSide, {}};
+    const int side = sourceSide(width, height);
+    if (prefilter)
+        for (std::size_t level = 0; level < gpu::ENVIRONMENT_SPECULAR_LEVELS; ++level)
+            sides.levels.push_back(levelSide(level, side));
+    else  // powers of two, down to the last of pyramid()
+        for (int each = side; each >= leastPyramidSide; each /= 2) sides.levels.push_back(each + 1);
+    return sides;
 }
 
 // Rows of maps, from large to small.

@@ -27,6 +27,13 @@ struct EnvironmentMaps {
     std::vector<NodeMap> levels;  // as of contract/environment.h
 };
 
+// How many nodes a side the maps have that are made of a picture so large.
+struct MapSides {
+    int diffuse = 0;
+    std::vector<int> levels;
+};
+MapSides mapSides(int width, int height, bool prefilter);
+
 EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const EnvironmentRequest& request);
 
 // Where each map's texels begin, in one picture of all of them.

@@ -2,8 +2,10 @@
 #include "shared/environment/map_cache.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/vulkan/user_cache.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +13,6 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <span>
 #include <system_error>
 #include <vector>
@@ -78,31 +79,34 @@ std::vector<float> flattened(const EnvironmentMaps& maps) {
     return floats;
 }
 
-// Nothing where the floats are not those of so many maps.
-std::optional<EnvironmentMaps> unflattened(std::span<const float> floats, std::uint64_t count) {
-    constexpr std::size_t harmonics = 9 * 3 * 2;
-    if (floats.size() < harmonics || count < 1) return {};
+constexpr std::size_t harmonicFloats = 9 * 3 * 2;
+
+std::uint64_t floatsOf(const MapSides& sides) {
+    const auto of = [](int side) {
+        return 1 + 3 * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+    };
+    std::uint64_t floats = harmonicFloats + of(sides.diffuse);
+    for (const int side : sides.levels) floats += of(side);
+    return floats;
+}
+
+// Nothing where the floats are not those of such maps; there are floatsOf() of them.
+std::optional<EnvironmentMaps> unflattened(std::span<const float> floats, const MapSides& sides) {
     EnvironmentMaps maps;
-    for (std::size_t i = 0; i < harmonics; i += 2)
+    for (std::size_t i = 0; i < harmonicFloats; i += 2)
         maps.harmonics[i / 6][static_cast<int>(i / 2 % 3)] =
             std::bit_cast<double>(std::array<float, 2>{floats[i], floats[i + 1]});
-    floats = floats.subspan(harmonics);
-    for (std::uint64_t number = 0; number < count; ++number) {
-        constexpr float most = 16384;
-        if (floats.empty() || !(floats[0] >= 1 && floats[0] <= most)) return {};
-        NodeMap map(static_cast<int>(floats[0]));
-        const std::size_t values = std::size_t{3} * static_cast<std::size_t>(map.side * map.side);
-        if (floats.size() < 1 + values) return {};
-        const float* next = floats.data() + 1;
-        for (int y = 0; y < map.side; ++y)
-            for (int x = 0; x < map.side; ++x, next += 3) map.at(x, y) = Texel{next[0], next[1], next[2], 0};
-        floats = floats.subspan(1 + values);
-        if (number == 0)
-            maps.diffuse = std::move(map);
-        else
-            maps.levels.push_back(std::move(map));
-    }
-    if (!floats.empty()) return {};
+    const float* next = floats.data() + harmonicFloats;
+    const auto take = [&](NodeMap& map, int side) {
+        if (*next++ != static_cast<float>(side)) return false;
+        map = NodeMap(side);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x, next += 3) map.at(x, y) = Texel{next[0], next[1], next[2], 0};
+        return true;
+    };
+    if (!take(maps.diffuse, sides.diffuse)) return {};
+    for (const int side : sides.levels)
+        if (!take(maps.levels.emplace_back(), side)) return {};
     return maps;
 }
 
@@ -124,31 +128,29 @@ fs::path mapCacheFile(const fs::path& folder, std::uint64_t key) {
     return folder / fmt::format("environment-{:016x}", key);
 }
 
-std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key) {
-    std::ifstream stream(file, std::ios::binary);
+std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key, const MapSides& sides) {
+    const CacheFile opened = openCacheFile(file);
+    std::FILE* const stream = opened.stream.get();
     MapFileHead head;
-    if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
-    std::error_code failed;
-    const std::uintmax_t size = fs::file_size(file, failed);
-    if (head.magic != MapFileHead{}.magic || head.key != key || failed ||
-        head.floats > size / sizeof(float) || size != sizeof head + head.floats * sizeof(float))
+    if (!stream || std::fread(&head, sizeof head, 1, stream) != 1) return {};
+    // Nothing is allocated for what is not just as large as these maps are.
+    if (head.magic != MapFileHead{}.magic || head.key != key || head.maps != 1 + sides.levels.size() ||
+        head.floats != floatsOf(sides) || opened.bytes != sizeof head + head.floats * sizeof(float))
         return {};
     std::vector<float> floats(head.floats);
-    if (!stream.read(reinterpret_cast<char*>(floats.data()),
-                     static_cast<std::streamsize>(floats.size() * sizeof(float))))
-        return {};
+    if (std::fread(floats.data(), sizeof(float), floats.size(), stream) != floats.size()) return {};
     MapHash hash;
     hash.add(head.maps);
     hash.add(floats);
     if (hash.value() != head.hash) return {};
     // What is read is needed: it goes last.
-    fs::last_write_time(file, fs::file_time_type::clock::now(), failed);
-    return unflattened(floats, head.maps);
+    ::futimens(::fileno(stream), nullptr);
+    return unflattened(floats, sides);
 }
 
 bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& maps) {
     try {
-        fs::create_directories(file.parent_path());
+        makeCacheFolder(file.parent_path());
         const std::vector<float> floats = flattened(maps);
         MapFileHead head;
         head.key = key;
@@ -159,6 +161,7 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
         hash.add(floats);
         head.hash = hash.value();
         AtomicFile out(file);
+        keepForUser(out.stream());
         std::fwrite(&head, sizeof head, 1, out.stream());
         std::fwrite(floats.data(), sizeof(float), floats.size(), out.stream());
         out.commit();
@@ -206,7 +209,9 @@ EnvironmentMaps environmentMaps(const Environment& environment, const Environmen
     if (folder.empty()) return makeEnvironmentMaps(environment, request);
     const std::uint64_t key = mapKey(environment, request);
     const fs::path file = mapCacheFile(folder, key);
-    if (std::optional<EnvironmentMaps> maps = readMaps(file, key)) {
+    const MapSides sides =
+        mapSides(environment.radiance.width, environment.radiance.height, request.prefilter);
+    if (std::optional<EnvironmentMaps> maps = readMaps(file, key, sides)) {
         if (wasKept) *wasKept = true;
         return std::move(*maps);
     }

@@ -17,8 +17,10 @@ inline constexpr std::uintmax_t mapCacheBytes = std::uintmax_t{512} << 20;
 std::uint64_t mapKey(const Environment& environment, const EnvironmentRequest& request);
 std::filesystem::path mapCacheFile(const std::filesystem::path& folder, std::uint64_t key);
 
-// Nothing where there is no such file, or it is damaged or of another key.
-std::optional<EnvironmentMaps> readMaps(const std::filesystem::path& file, std::uint64_t key);
+// Nothing where there is no such file, or it is damaged, of another key, of maps that have not `sides`
+// (mapSides()), or not this user's alone (openCacheFile()).
+std::optional<EnvironmentMaps> readMaps(const std::filesystem::path& file, std::uint64_t key,
+                                        const MapSides& sides);
 // Whether it could be written, whole: it appears under its name at once, whoever else writes it too.
 bool writeMaps(const std::filesystem::path& file, std::uint64_t key, const EnvironmentMaps& maps);
 // Removes what is above `most` bytes together.

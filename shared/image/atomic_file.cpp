@@ -12,19 +12,22 @@ namespace diptych {
 
 namespace fs = std::filesystem;
 
+namespace {
+
 // Refuses folders and devices before a temporary file is made beside them.
-fs::path AtomicFile::resolved(const fs::path& file) {
+const fs::path& replaceable(const fs::path& file) {
     std::error_code ignored;
-    fs::path real = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
-    const fs::file_status status = fs::status(real, ignored);
-    if (fs::is_directory(status)) throw std::runtime_error(writingFailed(real, EISDIR));
-    if (fs::exists(status) && !fs::is_regular_file(status))
-        throw std::runtime_error(real.string() + ": not a regular file, so it cannot be replaced");
-    return real;
+    const fs::file_status status = fs::symlink_status(file, ignored);
+    if (fs::is_directory(status)) throw std::runtime_error(writingFailed(file, EISDIR));
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_symlink(status))
+        throw std::runtime_error(file.string() + ": not a regular file, so it cannot be replaced");
+    return file;
 }
 
+}  // namespace
+
 AtomicFile::AtomicFile(const fs::path& file)
-    : file_(resolved(file)), temporary_(file_.parent_path(), file_), stream_(temporary_.createFile()) {
+    : file_(replaceable(file)), temporary_(file_.parent_path(), file_), stream_(temporary_.createFile()) {
     if (!stream_) fail(errno);
 }
 

@@ -17,8 +17,7 @@ namespace diptych {
 // message and a remedy.
 class AtomicFile {
 public:
-    // If `file` is a symbolic link, its target is written and the link is kept; a folder or a device is
-    // refused.
+    // A link is replaced, never followed; a folder or a device is refused.
     explicit AtomicFile(const std::filesystem::path& file);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -28,7 +27,6 @@ public:
     void commit();  // checks all writes so far, closes and renames
 
 private:
-    static std::filesystem::path resolved(const std::filesystem::path& file);
     [[noreturn]] void fail(int error);
 
     std::filesystem::path file_;

@@ -113,16 +113,18 @@ std::FILE* Temporary::createFile() {
     return file;
 }
 
-bool Temporary::createFolder() {
+bool Temporary::createFolder(bool isPrivate) {
     const std::lock_guard lock(registry().mutex);
     const auto entry = registry().targets.emplace(path_, target_).first;
-    if (::mkdir(path_.c_str(), 0777) != 0) {
+    constexpr mode_t ours = 0700;
+    if (::mkdir(path_.c_str(), isPrivate ? ours : 0777) != 0) {
         const int error = errno;
         registry().targets.erase(entry);
         errno = error;
         return false;
     }
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (isPrivate) ::chmod(path_.c_str(), ours);
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
     return true;
 }

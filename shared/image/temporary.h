@@ -23,8 +23,8 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
 
-    std::FILE* createFile();  // opens it for writing; nullptr on failure
-    bool createFolder();
+    std::FILE* createFile();                           // opens it for writing; nullptr on failure
+    bool createFolder(bool isPrivate = false);         // private: 0700 whatever the umask
     bool moveTo(const std::filesystem::path& folder);  // keeps its name and stays temporary
     // Renames it to `file`, replacing what is there; it is no longer temporary.
     bool become(const std::filesystem::path& file);

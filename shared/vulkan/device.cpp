@@ -7,6 +7,7 @@
 #include "shared/vulkan/physical_device.h"
 #include "shared/vulkan/pipeline_cache.h"
 #include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/user_cache.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
+#include <utility>
 
 namespace diptych {
 
@@ -23,6 +26,21 @@ std::optional<std::string> driverFilesFault() {
                            name, value);
     }
     return {};
+}
+
+void avoidCacheOnFullDisk() {
+    constexpr std::uintmax_t least = 4 << 20;
+    std::filesystem::path folder;
+    // As Mesa looks for it (disk_cache_os.c).
+    for (const auto& [variable, below] :
+         {std::pair{"MESA_SHADER_CACHE_DIR", ""}, {"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
+        if (const char* const value = std::getenv(variable); folder.empty() && value && *value)
+            folder = std::filesystem::path(value) / below;
+    std::error_code failed;
+    while (folder.has_relative_path() && !std::filesystem::exists(folder, failed))
+        folder = folder.parent_path();
+    const std::filesystem::space_info room = std::filesystem::space(folder, failed);
+    if (!failed && room.available < least) ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 }  // namespace diptych

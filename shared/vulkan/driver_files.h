@@ -11,4 +11,9 @@ namespace diptych {
 // do. Empty where neither is set.
 std::optional<std::string> driverFilesFault();
 
+// Has Mesa's drivers do without their shader cache where its disk is full: they map its index, a hole of
+// 1.3 MB, and the first page that finds no room ends the process by SIGBUS (22.3). Before the instance is
+// made.
+void avoidCacheOnFullDisk();
+
 }  // namespace diptych

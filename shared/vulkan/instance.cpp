@@ -53,6 +53,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
 }  // namespace
 
 VulkanInstance::VulkanInstance(ValidationLog* log, std::span<const char* const> extensions) {
+    avoidCacheOnFullDisk();
     if (log != nullptr && !layerThere(validationLayer))
         throw std::runtime_error(
             "--validate: the Khronos validation layer is missing; install vulkan-validationlayers");

@@ -2,18 +2,17 @@
 #include "shared/vulkan/pipeline_cache.h"
 
 #include "shared/vulkan/spirv.h"
+#include "shared/vulkan/user_cache.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdlib>
+#include <cstdio>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
-#include <utility>
 
 namespace diptych {
 namespace {
@@ -53,18 +52,13 @@ struct CacheFileHead {
 };
 static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // every byte is written by us
 
+// Of one device: more than any driver keeps.
+constexpr std::uint64_t mostCacheBytes = std::uint64_t{1} << 30;
+
 // A driver that keeps nothing gives the header that Vulkan demands (VkPipelineCacheHeaderVersionOne).
 constexpr std::size_t emptyCacheBytes = sizeof(VkPipelineCacheHeaderVersionOne);
 
 }  // namespace
-
-fs::path userCacheFolder() {
-    // The XDG base directory specification: a relative path is invalid, and ignored.
-    for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
-        if (const char* const value = std::getenv(variable); value && fs::path(value).is_absolute())
-            return fs::path(value) / below / "diptych";
-    return {};
-}
 
 fs::path pipelineCacheFile(const fs::path& folder, const PipelineCacheKey& key) {
     CacheHash hash;
@@ -75,34 +69,36 @@ fs::path pipelineCacheFile(const fs::path& folder, const PipelineCacheKey& key) 
 }
 
 std::vector<std::byte> readPipelineCache(const fs::path& file, const PipelineCacheKey& key) {
-    std::ifstream stream(file, std::ios::binary);
+    const CacheFile opened = openCacheFile(file);
+    std::FILE* const stream = opened.stream.get();
     CacheFileHead head;
-    if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
-    std::error_code failed;
-    const std::uintmax_t size = fs::file_size(file, failed);
-    if (head.magic != CacheFileHead{}.magic || head.key != key || failed || size != sizeof head + head.bytes)
+    if (!stream || std::fread(&head, sizeof head, 1, stream) != 1) return {};
+    if (head.magic != CacheFileHead{}.magic || head.key != key || head.bytes > mostCacheBytes ||
+        opened.bytes != sizeof head + head.bytes)
         return {};
     std::vector<std::byte> data(head.bytes);
-    if (!stream.read(reinterpret_cast<char*>(data.data()), static_cast<std::streamsize>(data.size())) ||
-        hashOf(data) != head.hash)
+    if (std::fread(data.data(), 1, data.size(), stream) != data.size() || hashOf(data) != head.hash)
         return {};
     return data;
 }
 
 bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::span<const std::byte> data) {
-    std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
+    makeCacheFolder(file.parent_path());
     const fs::path beside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
     CacheFileHead head;
     head.key = key;
     head.bytes = data.size();
     head.hash = hashOf(data);
-    std::ofstream stream(beside, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(&head), sizeof head);
-    stream.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
-    stream.close();
-    if (stream) fs::rename(beside, file, failed);
-    if (stream && !failed) return true;
+    std::error_code failed;
+    fs::remove(beside, failed);  // of a process that had this number before
+    std::FILE* const stream = std::fopen(beside.c_str(), "wbxe");
+    if (!stream) return false;
+    keepForUser(stream);
+    const bool written = std::fwrite(&head, sizeof head, 1, stream) == 1 &&
+                         std::fwrite(data.data(), 1, data.size(), stream) == data.size();
+    const bool closed = std::fclose(stream) == 0;
+    if (written && closed) fs::rename(beside, file, failed);
+    if (written && closed && !failed) return true;
     fs::remove(beside, failed);
     return false;
 }

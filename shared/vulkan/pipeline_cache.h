@@ -23,13 +23,11 @@ struct PipelineCacheKey {
     bool operator==(const PipelineCacheKey&) const = default;
 };
 
-// $XDG_CACHE_HOME/diptych, else $HOME/.cache/diptych; empty where neither is an absolute path.
-std::filesystem::path userCacheFolder();
-
 // One file for each device and driver: that of another build of the program is written over.
 std::filesystem::path pipelineCacheFile(const std::filesystem::path& folder, const PipelineCacheKey& key);
 
-// The data as they were kept under this key; empty where the file is not there, is another's, or is damaged.
+// The data as they were kept under this key; empty where the file is not there, is another key's or another
+// user's (openCacheFile()), or is damaged.
 std::vector<std::byte> readPipelineCache(const std::filesystem::path& file, const PipelineCacheKey& key);
 
 // Makes the folder, writes a file beside and renames it, so that the file is whole or the old one. Returns

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Renderers of others: what they are told, what becomes of their pictures, and what of those that fail.
 #include "shared/image/exr.h"
+#include "shared/vulkan/driver_trial.h"
 #include "tests/tool/fake_renderer.h"
 #include "tests/tool/running.h"
+
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -251,25 +254,63 @@ pid_t processIn(const fs::path& file) {
 
 TEST(External, ATimeoutEndsAllThatItStarted) {
     const Folder folder;
-    writeRenderer(folder, "fake", {"hang", (folder / "pid").string()}, {{"timeout", 1.5}});
+    writeRenderer(folder, "fake", {"flee", (folder / "pid").string()}, {{"timeout", 1.5}});
     const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
     EXPECT_TRUE(ran.failedOver("was killed after 1.5 s"));
     const pid_t child = processIn(folder / "pid");
     ASSERT_GT(child, 0);
-    EXPECT_TRUE(soon([&] { return !isRunning(child); }));
+    EXPECT_FALSE(isRunning(child)) << "nor has it fled into a session of its own";
 }
 
-TEST(External, AnInterruptionEndsAllThatItStarted) {
+// A renderer that is done leaves nobody behind either.
+TEST(External, ItsEndEndsAllThatItStarted) {
     const Folder folder;
-    writeRenderer(folder, "fake", {"hang", (folder / "pid").string()});
-    Running tool(folder, {"compare", "builtin:points", "--size", "32x18", "--runs", "0", "-q", "--channels",
-                          "lit", "--renderer", "fake=fake.json"});
+    folder.write("leave.py", fake_renderer +
+                                 "\nsubprocess.Popen(['setsid', '-f', 'sh', '-c', 'echo $$ > pid; "
+                                 "exec sleep 600']);\nwhile not os.path.exists('pid'): pass\n");
+    folder.write("fake.json",
+                 Json{{"command", {"python3", (folder / "leave.py").string(), "picture"}}}.dump());
+    EXPECT_EQ(runTool(folder, compare_points + "--renderer fake=fake.json").code, 1) << "another picture";
     const pid_t child = processIn(folder / "pid");
-    ASSERT_GT(child, 0) << tool.err();
-    ASSERT_TRUE(isRunning(child));
-    ::kill(tool.process(), SIGTERM);
-    ASSERT_TRUE(soon([&] { return tool.ended(); }));
-    EXPECT_TRUE(soon([&] { return !isRunning(child); }));
+    ASSERT_GT(child, 0);
+    EXPECT_FALSE(isRunning(child));
+}
+
+std::vector<std::string> jobsIn(const fs::path& folder) {
+    std::vector<std::string> jobs;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().filename().string().starts_with(".diptych-job"))
+            jobs.push_back(entry.path().filename().string());
+    return jobs;
+}
+
+// However this program ends; of SIGKILL the next one, with another renderer, removes the job.
+TEST(External, AnyEndEndsAllThatItStarted) {
+    const Folder folder;
+    writeRenderer(folder, "flee", {"flee", (folder / "pid").string()});
+    writeRenderer(folder, "fails", {"exit"});
+    fs::create_directory(folder / "tmp");
+    const EnvironmentVariables there({{"TMPDIR", (folder / "tmp").string()}});
+    const mode_t before = ::umask(0);
+    for (const int signal : {SIGTERM, SIGQUIT, SIGKILL}) {
+        fs::remove(folder / "pid");
+        Running tool(folder, {"compare", "builtin:points", "--size", "32x18", "--runs", "0", "-q",
+                              "--channels", "lit", "--renderer", "fake=flee.json"});
+        const pid_t child = processIn(folder / "pid");
+        ASSERT_GT(child, 0) << tool.err();
+        ASSERT_TRUE(isRunning(child));
+        ASSERT_EQ(jobsIn(folder / "tmp").size(), 1u);
+        EXPECT_EQ(fs::status(folder / "tmp" / jobsIn(folder / "tmp").front()).permissions(),
+                  fs::perms::owner_all);
+        ::kill(tool.process(), signal);
+        ASSERT_TRUE(soon([&] { return tool.ended(); }));
+        EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
+        EXPECT_TRUE(soon([&] { return !isRunning(child); })) << signal;
+        EXPECT_EQ(jobsIn(folder / "tmp").size(), signal == SIGKILL ? 1u : 0u) << signal;
+    }
+    ::umask(before);
+    EXPECT_TRUE(runTool(folder, compare_points + "--renderer other=fails.json").failedOver("no licence"));
+    EXPECT_EQ(jobsIn(folder / "tmp"), std::vector<std::string>());
 }
 
 TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {

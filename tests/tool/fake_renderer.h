@@ -12,7 +12,8 @@
 namespace diptych {
 
 // Modes: picture (all pixels 0.25, 0.5, 0.75), wide, nan, none, exit, crash, hang FILE (a child writes its
-// number there), link EXR, old EXR, chatter, keep FOLDER (what it was handed), copy EXR.
+// number there), flee FILE (hang, but the child is of a session of its own), link EXR, old EXR, chatter, keep
+// FOLDER (what it was handed), copy EXR.
 inline const std::string fake_renderer = R"py(
 import json, os, shutil, signal, struct, subprocess, sys, time
 
@@ -48,8 +49,8 @@ if mode == 'exit':
     sys.exit(3)
 if mode == 'crash':
     os.kill(os.getpid(), signal.SIGSEGV)
-if mode == 'hang':
-    subprocess.Popen(['sh', '-c', 'echo $$ > "$1.part"; mv "$1.part" "$1"; exec sleep 600', 'sh', sys.argv[2]])
+if mode in ('hang', 'flee'):
+    subprocess.Popen((['setsid', '-f'] if mode == 'flee' else []) + ['sh', '-c', 'echo $$ > "$1.part"; mv "$1.part" "$1"; exec sleep 600', 'sh', sys.argv[2]])
     time.sleep(600)
 if mode == 'none':
     sys.exit(0)

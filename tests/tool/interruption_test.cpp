@@ -20,7 +20,7 @@ const std::vector<std::string> longWork{"render",    "builtin:spheres", "-v",   
                                         "1920x1080", "--runs",          "5000", "-o",       "r"};
 
 TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const Folder folder;
         Running tool(folder, longWork);
         ASSERT_TRUE(soon([&] { return tool.err().find(": time") != std::string::npos; })) << tool.err();
@@ -49,7 +49,8 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
                      {"compare", "-q", "builtin:points", "--size", "96x54", "--runs", "0", "-o", "r"});
         ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
         std::this_thread::sleep_for(std::chrono::milliseconds(9 * attempt));
-        if (!tool.ended()) ::kill(tool.process(), SIGINT);
+        constexpr int signals[] = {SIGINT, SIGQUIT, SIGTERM, SIGHUP};
+        if (!tool.ended()) ::kill(tool.process(), signals[attempt % 4]);
         ASSERT_TRUE(soon([&] { return tool.ended(); }));
         const bool died = WIFSIGNALED(tool.wait());
         cut += died;
@@ -185,6 +186,19 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
             << blocks;
     }
     EXPECT_GE(failed, 2);
+}
+
+// Mesa would end the process by SIGBUS.
+TEST(FullDisk, OfTheDriversCacheIsDoneWithout) {
+    const Folder folder;
+    if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";
+    const Ran ran = mounted(folder,
+                            "mkdir -p m; mount -t tmpfs -o size=20k none m\n"
+                            "dd if=/dev/zero of=m/full 2>/dev/null || true\n"
+                            "export XDG_CACHE_HOME=$PWD/m; unset MESA_SHADER_CACHE_DIR\n" +
+                                render + "r");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
 }
 
 TEST(FullDisk, OneThatIsReadOnlyIsNamedAndKept) {

@@ -33,7 +33,7 @@ public:
         // A shell's background jobs, and with them these tests, ignore SIGINT; what they start would, too.
         sigset_t heard;
         sigemptyset(&heard);
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&heard, signal);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&heard, signal);
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setsigdefault(&attributes, &heard);

@@ -4,6 +4,8 @@
 
 #include "tests/unit/files.h"
 
+#include <sys/stat.h>
+
 #include <stdexcept>
 
 namespace diptych {
@@ -96,6 +98,78 @@ TEST(FileMoves, AListNamesOurFilesAlone) {
     EXPECT_FALSE(fs::exists(place / "run.sh"));
     EXPECT_TRUE(fs::exists(place / "new.png"));
     EXPECT_FALSE(fs::exists(above / "new.png"));
+}
+
+// What somebody planted in a folder that is not ours leads nowhere else.
+void expectRefused(const fs::path& place, const fs::path& named) {
+    try {
+        finishMoves(place);
+        ADD_FAILURE() << named;
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(std::string(error.what()).find(named.string() + ": "), 0u) << error.what();
+    }
+}
+
+TEST(FileMoves, ALinkInPlaceOfWhatWasBegunIsRefused) {
+    const fs::path above = folder(), place = above / "report", elsewhere = above / "elsewhere";
+    fs::create_directories(place);
+    put(elsewhere / "lit.png", "theirs");
+    put(elsewhere / "inner/kept.txt", "theirs");
+    put(elsewhere / ".plan.json", R"({"files": ["lit.png"]})");
+    fs::create_directory_symlink(elsewhere, place / ".diptych.put");
+    expectRefused(place, place / ".diptych.put");
+    EXPECT_EQ(filesIn(elsewhere), (Names{".plan.json", "inner/kept.txt", "lit.png"}));
+    EXPECT_EQ(namesIn(place), Names{".diptych.put"});
+    EXPECT_THROW(moveNew(place, {{"lit.png"}, {}}), std::runtime_error);
+    EXPECT_EQ(contentsOf(elsewhere / "lit.png"), "theirs");
+}
+
+TEST(FileMoves, AFolderThatIsALinkIsNeitherFilledNorEmptied) {
+    const fs::path above = folder(), place = above / "report", elsewhere = above / "elsewhere";
+    fs::create_directories(place);
+    for (const char* name : {"lit.png", "old.png"}) put(elsewhere / name, "theirs");
+    fs::create_directory_symlink(elsewhere, place / "1");
+    begin(place, {"1/lit.png"}, R"({"files": ["1/lit.png"], "earlier": ["1/old.png"]})");
+    expectRefused(place, place / "1");
+    fs::remove_all(place / ".diptych.put");
+    EXPECT_THROW(moveNew(place, {{"0/lit.png", "1/lit.png"}, {"1/old.png"}}), std::runtime_error);
+    EXPECT_EQ(namesIn(place), Names{"1"}) << "all is undone";
+    moveNew(place, {{"lit.png"}, {"1/old.png"}});
+    EXPECT_EQ(namesIn(place), (Names{"1", "lit.png"}));
+    for (const char* name : {"lit.png", "old.png"}) EXPECT_EQ(contentsOf(elsewhere / name), "theirs");
+}
+
+TEST(FileMoves, LinksInPlaceOfFilesAreReplaced) {
+    const fs::path above = folder(), place = above / "report", elsewhere = above / "elsewhere";
+    fs::create_directories(place);
+    put(elsewhere / "file", "theirs");
+    put(elsewhere / "inner/file", "theirs");
+    fs::create_symlink(elsewhere / "file", place / "lit.png");
+    moveNew(place, {{"lit.png"}, {}});
+    EXPECT_EQ(contentsOf(place / "lit.png"), "new");
+    // What is removed with a list that is done with.
+    begin(place, {"lit.png"}, R"({"files": ["lit.png"]})");
+    fs::create_directory_symlink(elsewhere, place / ".diptych.put/.old");
+    fs::create_directories(place / ".diptych.put/1");
+    fs::create_directory_symlink(elsewhere, place / ".diptych.put/1/inner");
+    finishMoves(place);
+    EXPECT_EQ(namesIn(place), Names{"lit.png"});
+    EXPECT_EQ(filesIn(elsewhere), (Names{"file", "inner/file"}));
+    EXPECT_EQ(contentsOf(elsewhere / "file"), "theirs");
+}
+
+TEST(FileMoves, AListIsARegularFile) {
+    for (const bool isPipe : {false, true}) {
+        const fs::path above = folder(), place = above / "report", list = place / ".diptych.put/.plan.json";
+        put(above / "list", R"({"files": ["lit.png"]})");
+        put(place / ".diptych.put/lit.png", "new");
+        if (isPipe)
+            ASSERT_EQ(::mkfifo(list.c_str(), 0600), 0);
+        else
+            fs::create_symlink(above / "list", list);
+        expectRefused(place, list);
+        EXPECT_FALSE(fs::exists(place / "lit.png"));
+    }
 }
 
 TEST(FileMoves, AListThatCannotBeReadIsNamed) {

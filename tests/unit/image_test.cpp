@@ -227,13 +227,14 @@ TEST(AtomicFile, RefusesWhatIsNoFile) {
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(AtomicFile, ALinkKeepsPointing) {
+TEST(AtomicFile, ALinkIsReplacedAndNotFollowed) {
     const fs::path here = folder();
     writeFile(here / "real", "old");
     fs::create_symlink("real", here / "link");
     writeFile(here / "link", "new");
-    EXPECT_TRUE(fs::is_symlink(here / "link"));
-    EXPECT_EQ(contentsOf(here / "real"), "new");
+    EXPECT_FALSE(fs::is_symlink(here / "link"));
+    EXPECT_EQ(contentsOf(here / "link"), "new");
+    EXPECT_EQ(contentsOf(here / "real"), "old");
 }
 
 // A full disk: /dev/full accepts bytes and fails only when they are flushed.

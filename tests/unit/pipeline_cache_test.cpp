@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What is kept of compiled pipelines: only the same device, driver and program get it back, and only whole.
 #include "shared/vulkan/pipeline_cache.h"
+#include "shared/vulkan/user_cache.h"
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <functional>
@@ -109,6 +111,18 @@ TEST(PipelineCache, DamagedFilesAreIgnoredAndWrittenOver) {
     EXPECT_TRUE(readWith(whole + "x").empty());
     ASSERT_TRUE(writePipelineCache(file, someKey(), someData(5)));
     EXPECT_EQ(readPipelineCache(file, someKey()), someData(5));
+}
+
+// Whatever the umask, what is written can be read again, and nobody else may write to it.
+TEST(PipelineCache, AFileIsOfThisUserAlone) {
+    const fs::path file = folder() / "made" / "pipelines";
+    const mode_t before = ::umask(0);
+    const bool written = writePipelineCache(file, someKey(), someData(100));
+    ::umask(before);
+    ASSERT_TRUE(written);
+    EXPECT_EQ(readPipelineCache(file, someKey()), someData(100));
+    fs::permissions(file, fs::perms::group_write, fs::perm_options::add);
+    EXPECT_TRUE(readPipelineCache(file, someKey()).empty());
 }
 
 TEST(PipelineCache, WhatCannotBeWrittenIsNoError) {

@@ -169,6 +169,18 @@ TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
 
 // ---- faults ------------------------------------------------------------------------------------------
 
+TEST(ReferenceCheckpoint, ALinkIsNotFollowed) {
+    const Path stem = folder() / "kept", elsewhere = stem.parent_path() / "elsewhere";
+    for (const bool there : {false, true}) {
+        if (there) write(elsewhere, "theirs");
+        std::filesystem::remove(stem.parent_path() / keptName);
+        std::filesystem::create_symlink(elsewhere, stem.parent_path() / keptName);
+        EXPECT_THROW(Checkpoint(stem, key, 3), std::runtime_error);
+        EXPECT_EQ(contentsOf(elsewhere), there ? "theirs" : "");
+        EXPECT_EQ(std::filesystem::exists(elsewhere), there);
+    }
+}
+
 TEST(ReferenceCheckpoint, WhatCannotBeWrittenIsNamed) {
     const Path stem = folder() / "absent" / "kept";
     try {

@@ -134,6 +134,12 @@ int mkdir(const char* path, mode_t mode) noexcept {
 int link(const char* from, const char* to) noexcept {
     return fails("create", to) ? -1 : NEXT(link)(from, to);
 }
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+    return fails("create", path) ? -1 : NEXT(mkdirat)(folder, path, mode);
+}
+int linkat(int fromFolder, const char* from, int toFolder, const char* to, int flags) noexcept {
+    return fails("create", to) ? -1 : NEXT(linkat)(fromFolder, from, toFolder, to, flags);
+}
 std::size_t fwrite(const void* data, std::size_t size, std::size_t count, std::FILE* stream) {
     return fails("write", stream) ? 0 : NEXT(fwrite)(data, size, count, stream);
 }
