@@ -115,7 +115,7 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
         "{}</p></header>\n",
         markup(audit.scene), page::style, plotStyle, auditStyle, verdict, page::breakable(audit.scene),
         audit.settings.size.width, audit.settings.size.height, markup(audit.device.name),
-        markup(audit.device.driver), markup(audit.camera));
+        markup(audit.device.driver), page::isolated(audit.camera));
     if (!audit.requirements.empty()) {
         out += "<div class=\"box says\"><ul>";
         for (const Requirement& requirement : audit.requirements)

@@ -123,7 +123,7 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         markup(audit.scene), page::style, auditStyle,
         fmt::format("<span class=\"verdict {0}\">{0}</span> ", audit.holds() ? "pass" : "fail"),
         breakable(audit.scene), audit.settings.size.width, audit.settings.size.height,
-        markup(audit.device.name), markup(audit.device.driver), markup(audit.camera));
+        markup(audit.device.name), markup(audit.device.driver), page::isolated(audit.camera));
     out += fmt::format("<div class=\"box says\"><p>{}</p></div>\n", markup(inWords(audit)));
     out += "<h2>What holds</h2>\n" + tableOfRelations(audit);
     out +=

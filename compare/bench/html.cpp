@@ -147,7 +147,7 @@ std::string benchHtml(const Bench& bench) {
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
         "<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
         "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by "
-        "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
+        "side: <bdi>{0}</bdi></h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
         "{8}{15}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
         markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
         markup(bench.device.name), markup(bench.device.driver), conclusions(bench),

@@ -175,7 +175,7 @@ std::string choiceHtml(const Choices& choices, const std::vector<std::string>& f
         choices.all ? "" : verdictOf(first.choice.chosen.has_value()), markup(title),
         markup(goalInWords(first)), first.given.size.width, first.given.size.height,
         markup(first.device.name), markup(first.device.driver),
-        markup(fmt::format("{}", fmt::join(first.cameras, "; "))));
+        page::isolated(fmt::format("{}", fmt::join(first.cameras, "; "))));
     if (choices.all) out += commonSection(*choices.all, first);
     for (const ChoiceReport& report : choices.scenes) out += sceneSection(report, choices.all.has_value());
     out += "<footer><p>";

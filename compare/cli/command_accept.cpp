@@ -2,6 +2,7 @@
 #include "compare/cli/commands.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
+#include "compare/run/print.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"
 
@@ -121,9 +122,8 @@ int runAccept(const Options& options) {
     }
     writeFile(linkedFile(out), rules.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (!options.quiet)
-        fmt::print("{}: {} rule{} written; compare --tolerances {} holds to {}\n", out.string(),
-                   failing.size(), failing.size() == 1 ? "" : "s", out.string(),
-                   failing.size() == 1 ? "it" : "them");
+        printOut("{}: {} rule{} written; compare --tolerances {} holds to {}\n", out.string(), failing.size(),
+                 failing.size() == 1 ? "" : "s", out.string(), failing.size() == 1 ? "it" : "them");
     return 0;
 }
 

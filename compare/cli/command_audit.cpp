@@ -10,6 +10,7 @@
 #include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/run/interruption.h"
+#include "compare/run/print.h"
 #include "compare/run/version.h"
 
 #include <fmt/format.h>
@@ -109,7 +110,7 @@ public:
             met = met && requirement.met;
             opened_.print(audit::inWords(requirement));
         }
-        if (options_.json) fmt::print("{}", json);
+        if (options_.json) printText(json);
         opened_.print((opened_.folder() / "index.html").string() + "\n");
         return met ? 0 : 1;
     }

@@ -2,6 +2,7 @@
 #include "compare/bench/bench.h"
 #include "compare/cli/commands.h"
 #include "compare/files/output.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 
@@ -68,7 +69,7 @@ int runBench(const Options& options) {
     const auto print = [&](const std::string& text) {
         if (!prints || std::ferror(stdout)) return;
         progress.wipe();
-        fmt::print("{}", text);
+        printText(text);
         std::fflush(stdout);
     };
     const Stage whole(progress, bench.scene);
@@ -90,7 +91,7 @@ int runBench(const Options& options) {
     checkValidation(device);
     const std::string json = writeBench(bench, folder, options.force);
     progress.wipe();
-    if (options.json) fmt::print("{}", json);
+    if (options.json) printText(json);
     print(benchEnd(bench) + (folder / "index.html").string() + "\n");
     return 0;
 }

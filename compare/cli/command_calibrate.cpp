@@ -2,6 +2,7 @@
 #include "compare/cli/commands.h"
 #include "compare/external/calibration.h"
 #include "compare/external/external_frame.h"
+#include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
 
@@ -69,7 +70,7 @@ int runCalibrate(const Options& options) {
                   {"granted", grants}};
         for (const external::Deviation& one : deviations)
             json["deviations"].push_back({{"name", one.name}, {"words", one.words}, {"grant", one.grant}});
-        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        printOut("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     } else if (!options.quiet) {
         std::string out;
         for (const std::string& line : granted) out += fmt::format("granted {}\n", line);

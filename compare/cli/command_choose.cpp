@@ -5,6 +5,7 @@
 #include "compare/cli/scene_chooser.h"
 #include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
+#include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
 
 #include <fmt/format.h>
@@ -76,7 +77,7 @@ int runChoose(const Options& options) {
         tell((options.out / "index.html").string() + "\n");
     }
     if (options.json)
-        fmt::print("{}\n", toJson(choices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        printOut("{}\n", toJson(choices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return settings ? 0 : 1;
 }
 

@@ -11,6 +11,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/report.h"
+#include "compare/run/print.h"
 #include "compare/verdict/baseline.h"
 #include "compare/verdict/pair_reports.h"
 
@@ -115,7 +116,7 @@ int runCompare(const Options& given) {
     progress.wipe();
     noteLeftByOthers(options, kept);
     if (options.json)
-        fmt::print("{}", json);
+        printText(json);
     else if (!options.quiet)
         printColored(options, fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report),
                                           sinceText(since.get(), report), exposureLine(report, picture),

@@ -3,6 +3,7 @@
 
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
+#include "compare/run/print.h"
 #include "shared/material/texture_probe.h"
 
 #include <fmt/format.h>
@@ -39,11 +40,11 @@ nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices, const Prob
 }
 
 void print(const DeviceInfo& device) {
-    fmt::print("{}  {} ({}, {}, Vulkan {}){}\n", device.index, device.name, device.type, device.driver,
-               device.api_version, device.usable() ? "" : ": cannot be used");
+    printOut("{}  {} ({}, {}, Vulkan {}){}\n", device.index, device.name, device.type, device.driver,
+             device.api_version, device.usable() ? "" : ": cannot be used");
     for (const DeviceFact& fact : device.facts)
-        fmt::print("     {:<3}  {:<38} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
-                   fact.required && !fact.there ? " (required)" : "");
+        printOut("     {:<3}  {:<38} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
+                 fact.required && !fact.there ? " (required)" : "");
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ int runDevices(const Options& options) {
     }
     progress.wipe();
     if (options.json)
-        fmt::print(
+        printOut(
             "{}\n",
             jsonOf(devices, probes).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     else if (!options.quiet)
@@ -83,7 +84,7 @@ int runDevices(const Options& options) {
         }
     // Drivers install their files where the loader finds them, but for those that come with a program.
     if (!options.json && !options.quiet && options.device.empty())
-        fmt::print(
+        printOut(
             "Devices of several drivers in one process, as for compare --against-device: "
             "VK_DRIVER_FILES=FILE.json:FILE.json\n");
     return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;

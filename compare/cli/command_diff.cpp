@@ -4,6 +4,7 @@
 #include "compare/files/picture_folders.h"
 #include "compare/report/picture_diff_report.h"
 #include "compare/report/picture_diff_text.h"
+#include "compare/run/print.h"
 #include "compare/verdict/picture_diff.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ double outputBytes(const std::optional<Output>& output) {
 
 void print(const Options& options, const std::string& text) {
     if (options.json)
-        fmt::print("{}", text);
+        printText(text);
     else if (!options.quiet)
         printColored(options, text);
 }

@@ -10,6 +10,7 @@
 #include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
 #include "compare/run/command_text.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 
@@ -66,10 +67,10 @@ void leave(const Options& options, const PictureChoice& picture, const Device& d
                                 options.force);
     wipeProgress();
     if (options.json) {
-        fmt::print("{}", json.empty() ? toJson(explanation, of).dump(2) + "\n" : json);
+        printOut("{}", json.empty() ? toJson(explanation, of).dump(2) + "\n" : json);
     } else if (!options.quiet) {
         printColored(options, inWords(explanation, of));
-        if (!options.out.empty()) fmt::print("page: {}\n", (options.out / "index.html").string());
+        if (!options.out.empty()) printOut("page: {}\n", (options.out / "index.html").string());
     }
 }
 

@@ -8,6 +8,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
+#include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 
@@ -99,7 +100,7 @@ public:
                 return earlierIn(output_.path);
             });
         }
-        if (options_.json) fmt::print("{}", jsonText(result_));
+        if (options_.json) printText(jsonText(result_));
     }
 
 private:
@@ -135,12 +136,12 @@ private:
 
     void print(const Frame& frame, const fs::path& place, int number) {
         const double ms = frame.time.runs > 0 ? frame.time.median : frame.made_in_ms;
-        fmt::print("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", place.string(), frame.scene,
-                   frame.settings.time, frame.settings.size.width, frame.settings.size.height,
-                   frame.time.runs > 0 ? "" : "made in ", ms);
-        if (number == 0 && output_.kind != OutputKind::exr) fmt::print("  picture: {}\n", exposure_line_);
+        printOut("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", place.string(), frame.scene, frame.settings.time,
+                 frame.settings.size.width, frame.settings.size.height, frame.time.runs > 0 ? "" : "made in ",
+                 ms);
+        if (number == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)
-            if (said_.insert(withoutNumbers(line)).second) fmt::print("  note: {}\n", line);
+            if (said_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);
         std::fflush(stdout);
     }
 

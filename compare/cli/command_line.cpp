@@ -10,6 +10,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -213,15 +214,11 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
 // "64MiB"; nothing where the word is empty.
 std::optional<std::uint64_t> bytesOf(const std::string& word) {
     if (word.empty()) return {};
-    std::size_t end = 0;
     double number = -1;
-    try {
-        number = std::stod(word, &end);
-    } catch (const std::exception&) {
-        end = 0;
-    }
+    const char *const begin = word.data(), *const end = begin + word.size();
+    const std::string_view rest(std::from_chars(begin, end, number).ptr, end);
     for (const auto& [unit, size] : {std::pair{"", 1.0}, {"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}})
-        if (end > 0 && word.substr(end) == unit && number > 0 && number * size < 0x1p63)
+        if (rest == unit && number > 0 && number * size < 0x1p63)
             return static_cast<std::uint64_t>(number * size);
     throw std::runtime_error(
         fmt::format("--max-bytes {}: takes a number above 0, with KiB, MiB or GiB behind or nothing", word));
@@ -245,14 +242,11 @@ void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
     audit::quantitiesOf(audit.quantities);  // throws where there is none of a name
     for (const std::string& words : parsed.require) {
         const std::size_t at = words.find('=');
-        double magnitude = 0;
-        std::size_t end = 0;
-        try {
-            if (at != std::string::npos) magnitude = std::stod(words.substr(at + 1), &end);
-        } catch (const std::exception&) {
-            end = 0;
-        }
-        if (end == 0 || at + 1 + end != words.size() || !(magnitude >= 0) || !std::isfinite(magnitude))
+        double magnitude = -1;
+        const char* const end = words.data() + words.size();
+        const char* const begin = at == words.npos ? end : words.data() + at + 1;
+        if (std::from_chars(begin, end, magnitude).ptr != end || !(magnitude >= 0) ||
+            !std::isfinite(magnitude))
             throw std::runtime_error(
                 fmt::format("--require {}: is NAME=MAGNITUDE, 0 or more, as offset=1e7", words));
         const std::string name = words.substr(0, at);
@@ -300,6 +294,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
     if (parsed.channels != "all") options.channels = channelNumbers(parsed.channels);
     options.scene_given = !options.scenes.empty();
+    for (const std::string& scene : options.scenes) refuseLineBreak(scene);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
     if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: 0 or more", options.runs));

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <stdexcept>
 #include <string_view>
@@ -126,7 +128,9 @@ void addOutput(CLI::App& app, Options& options) {
 
 void addFiles(CLI::App& app, Options& options, const std::string& usual) {
     app.option_defaults()->group(output_group);
-    app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE");
+    app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE")->check([](const std::string& word) {
+        return std::string(word.empty() ? "\"\" names neither folder nor file" : "");
+    });
     app.add_flag("--force", options.force, "replace what diptych did not write, too");
 }
 
@@ -394,6 +398,18 @@ std::span<const Command> allCommands() {
 
 namespace {
 
+// CLI11 reads numbers as C does: "0x10" would be 16.
+void refuseHexadecimals(CLI::App& app) {
+    constexpr std::array<std::string_view, 9> numbers{"F",      "N",     "K",     "T",     "E",
+                                                      "PIXELS", "STOPS", "SHARE", "ID,..."};
+    for (CLI::Option* option : app.get_options())
+        if (std::ranges::count(numbers, option->get_type_name()) > 0)
+            option->check([](const std::string& word) {
+                return word.find_first_of("xX") == word.npos ? std::string()
+                                                             : word + " is no decimal number, as 0.5";
+            });
+}
+
 void addAll(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
     if (command == "devices") {
         addSettings(app, parsed);
@@ -578,6 +594,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
 
 void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
     addAll(app, command, options, parsed);
+    refuseHexadecimals(app);
     hideUnread(app, command);
 }
 

@@ -2,6 +2,7 @@
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/explain/pixel_words.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ int runPixel(const Options& options) {
     checkValidation(device);
     wipeProgress();
     if (options.json)
-        fmt::print("{}\n", toJson(story).dump(2));
+        printOut("{}\n", toJson(story).dump(2));
     else if (!options.quiet)
         printColored(options, inWords(story));
     return 0;

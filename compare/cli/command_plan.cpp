@@ -4,6 +4,7 @@
 #include "compare/cli/compiled_words.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/path_plan.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -65,16 +66,15 @@ Json jsonOf(const ScenePlan& plan, const FrameWork& work) {
 }
 
 void print(const ScenePlan& plan, const FrameWork& work) {
-    fmt::print("  {} asks for\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n",
-               nameOf(work.path), "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute",
-               "MB");
+    printOut("  {} asks for\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n", nameOf(work.path),
+             "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute", "MB");
     for (const PassWork& pass : work.passes)
-        fmt::print("    {:<26} {:>10} {:>10} {:>10} {:>10.0f} {:>10.0f} {:>10} {:>9.2f}\n", pass.counts.name,
-                   pass.counts.vertices, pass.counts.triangles, pass.counts.fragments, pass.texels,
-                   pass.lights, pass.counts.compute,
-                   (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
+        printOut("    {:<26} {:>10} {:>10} {:>10} {:>10.0f} {:>10.0f} {:>10} {:>9.2f}\n", pass.counts.name,
+                 pass.counts.vertices, pass.counts.triangles, pass.counts.fragments, pass.texels, pass.lights,
+                 pass.counts.compute,
+                 (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
     for (const bench::FrameEstimate& estimate : estimatesOf(plan, work))
-        fmt::print("    on paper, {}\n", bench::inWords(estimate));
+        printOut("    on paper, {}\n", bench::inWords(estimate));
 }
 
 Json jsonOf(const ScenePlan& plan) {
@@ -129,29 +129,29 @@ std::string bytesInWords(const PathPlan& path) {
 
 void print(const ScenePlan& plan) {
     const Requirements& needs = plan.needs;
-    fmt::print("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
-               needs.triangles, needs.materials, needs.textures, needs.lights());
+    printOut("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
+             needs.triangles, needs.materials, needs.textures, needs.lights());
     for (const bool modelled : {true, false}) {
-        fmt::print("  {}\n", modelled ? "modelled" : "left out");
+        printOut("  {}\n", modelled ? "modelled" : "left out");
         for (const auto& line : plan.lines)
-            if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
+            if (line.modelled == modelled) printOut("    {:<26} {}\n", line.what, line.why);
     }
     for (const PathPlan& path : plan.paths) {
-        fmt::print(
+        printOut(
             "  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
                 : "");
-        fmt::print(
+        printOut(
             "    {} of {} triangles are in view and {} drawn, with {} vertices, by {} draws of {} "
             "instances\n",
             path.drawn.in_view, needs.triangles, path.drawn.drawn, path.drawn.vertices, path.drawn.draws,
             path.drawn.instances);
-        for (const std::string& line : path.notes) fmt::print("    {}\n", line);
+        for (const std::string& line : path.notes) printOut("    {}\n", line);
     }
-    if (plan.compiler != nullptr) fmt::print("{}", compiledText(plan.compiled, *plan.compiler));
+    if (plan.compiler != nullptr) printOut("{}", compiledText(plan.compiled, *plan.compiler));
     for (const FrameWork& work : plan.work) print(plan, work);
-    for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);
+    for (const std::string& line : plan.notes) printOut("  note: {}\n", line);
 }
 
 }  // namespace
@@ -194,8 +194,8 @@ int runPlan(const Options& options) {
     }
     checkValidation(device);
     if (options.json)
-        fmt::print("{}\n", Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false,
-                                                                        Json::error_handler_t::replace));
+        printOut("{}\n",
+                 Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false, Json::error_handler_t::replace));
     return compiles ? 0 : 1;
 }
 

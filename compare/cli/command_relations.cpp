@@ -5,6 +5,7 @@
 #include "compare/audit/relations.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/commands.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ int runRelations(const Options& options, const Settings& settings) {
     opened.progress().wipe();
     opened.print(audit::inWords(audited));
     for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
-    if (options.json) fmt::print("{}", json);
+    if (options.json) printText(json);
     opened.print((opened.folder() / "index.html").string() + "\n");
     return audited.holds() ? 0 : 1;
 }

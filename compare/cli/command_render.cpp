@@ -5,6 +5,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
+#include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
 
@@ -26,9 +27,9 @@ int listScenes(const Options& options) {
         const std::string name =
             "builtin:" + scene.name + (scene.parameter.empty() ? "" : "?" + scene.parameter);
         names.push_back({{"name", name}, {"shows", scene.shows}, {"for_tests", scene.for_tests}});
-        if (!options.json && !options.quiet) fmt::print("{:<30} {}\n", name, scene.shows);
+        if (!options.json && !options.quiet) printOut("{:<30} {}\n", name, scene.shows);
     }
-    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"scenes", names}}.dump(2));
+    if (options.json) printOut("{}\n", Json{{"schema", 1}, {"scenes", names}}.dump(2));
     return 0;
 }
 
@@ -138,14 +139,14 @@ int runRender(const Options& options) {
     noteLeftByOthers(options, kept);
     for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
         const Frame& frame = frames[i];
-        fmt::print("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
-                   frame.settings.size.height,
-                   frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
-        if (output.kind != OutputKind::exr) fmt::print("  picture: {}\n", exposureLine(frame, picture));
-        for (const std::string& line : frame.notes) fmt::print("  note: {}\n", line);
-        for (const std::string& line : repairedInWords(frame)) fmt::print("  note: {}\n", line);
+        printOut("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
+                 frame.settings.size.height,
+                 frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
+        if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, picture));
+        for (const std::string& line : frame.notes) printOut("  note: {}\n", line);
+        for (const std::string& line : repairedInWords(frame)) printOut("  note: {}\n", line);
     }
-    if (options.json) fmt::print("{}", jsonText(result));
+    if (options.json) printText(jsonText(result));
     return 0;
 }
 

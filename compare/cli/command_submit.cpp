@@ -2,6 +2,7 @@
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
 #include "compare/files/scene_folders.h"
+#include "compare/run/print.h"
 #include "compare/shards/slurm.h"
 
 #include <fmt/format.h>
@@ -65,15 +66,15 @@ int runSubmit(const Options& options) {
     job.at_once = options.submit.at_once;
     job.options = options.submit.options;
     if (options.submit.dry_run) {
-        fmt::print("# {}\n{}\n# {}, behind it\n{}", (shards::slurmFolder(job.out) / "array.sh").string(),
-                   arrayScript(job), (shards::slurmFolder(job.out) / "merge.sh").string(), mergeScript(job));
+        printOut("# {}\n{}\n# {}, behind it\n{}", (shards::slurmFolder(job.out) / "array.sh").string(),
+                 arrayScript(job), (shards::slurmFolder(job.out) / "merge.sh").string(), mergeScript(job));
         return 0;
     }
     const shards::Submitted jobs = submit(job);
     if (!options.quiet)
-        fmt::print("job {}: {} shards of {} scenes{}\njob {}: joins them in {}\nlogs: {}\n", jobs.array,
-                   job.shards, scenes, job.at_once > 0 ? fmt::format(", {} at a time", job.at_once) : "",
-                   jobs.merge, (job.out / "index.html").string(), shards::slurmFolder(job.out).string());
+        printOut("job {}: {} shards of {} scenes{}\njob {}: joins them in {}\nlogs: {}\n", jobs.array,
+                 job.shards, scenes, job.at_once > 0 ? fmt::format(", {} at a time", job.at_once) : "",
+                 jobs.merge, (job.out / "index.html").string(), shards::slurmFolder(job.out).string());
     return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/run/color.h"
 #include "compare/run/interruption.h"
+#include "compare/run/print.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
@@ -153,7 +154,7 @@ public:
         state.remove();
         progress_.wipe();
         noteLeftByOthers(options_, references_);
-        if (options_.json) fmt::print("{}", json);
+        if (options_.json) printText(json);
         if (prints()) print(tradeoffEnd(tradeoff_) + (folder_ / "index.html").string() + "\n");
         sayErrors(errors_);
         return errors_.empty() ? 0 : 2;
@@ -225,7 +226,7 @@ private:
     void print(const std::string& line) {
         if (std::ferror(stdout)) return;
         progress_.wipe();
-        fmt::print("{}", line);
+        printText(line);
         std::fflush(stdout);
     }
 

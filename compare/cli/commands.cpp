@@ -4,13 +4,12 @@
 #include "compare/files/output.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
-#include "compare/run/color.h"
+#include "compare/run/print.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -26,11 +25,11 @@ int listChannels(const Options& options) {
                             {"name", mode.name},
                             {"metric", nameOf(mode.metric)},
                             {"shows", mode.shows}});
-        fmt::print("{}\n", list.dump(2));
+        printOut("{}\n", list.dump(2));
         return 0;
     }
     for (const DebugMode& mode : debugModes())
-        fmt::print("{:>3}  {:<20} {:<9} {}\n", mode.number, mode.name, nameOf(mode.metric), mode.shows);
+        printOut("{:>3}  {:<20} {:<9} {}\n", mode.number, mode.name, nameOf(mode.metric), mode.shows);
     return 0;
 }
 
@@ -128,7 +127,7 @@ double loadingShare(const std::string& scene, const RenderOptions& render, std::
 void note(const Options& options, const std::string& line) {
     if (options.quiet) return;
     wipeProgress();
-    std::fprintf(stderr, "diptych: %s\n", line.c_str());
+    printMessage(line);
 }
 
 void say(const Options& options, const std::string& line) {
@@ -138,12 +137,12 @@ void say(const Options& options, const std::string& line) {
 void sayErrors(const std::vector<SceneError>& errors) {
     if (errors.empty()) return;
     wipeProgress();
-    std::fprintf(stderr, "diptych: %s%s\n", errorText(errors.front()).c_str(),
-                 errors.size() == 1 ? "" : fmt::format("; and {} more like it", errors.size() - 1).c_str());
+    printMessage(errorText(errors.front()) +
+                 (errors.size() == 1 ? "" : fmt::format("; and {} more like it", errors.size() - 1)));
 }
 
 void printColored(const Options& options, const std::string& text) {
-    fmt::print("{}", hasColor(options.color, stdout) ? colored(text) : text);
+    printText(text, options.color);
 }
 
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,

@@ -13,6 +13,7 @@
 #include "compare/report/parts.h"
 #include "compare/report/report.h"
 #include "compare/run/interruption.h"
+#include "compare/run/print.h"
 #include "compare/shards/manifest.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
@@ -20,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -249,9 +249,7 @@ void showWhole(const Options& options, const WholeReport& whole, const Report& s
                const fs::path& folder, const Trends* since, bool all) {
     if (options.json) {
         std::ifstream stream(folder / "report.json", std::ios::binary);
-        std::string piece(1 << 16, '\0');
-        while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0)
-            std::fwrite(piece.data(), 1, static_cast<std::size_t>(stream.gcount()), stdout);
+        for (std::string line; std::getline(stream, line);) printText(line.append("\n"));
     } else if (!options.quiet) {
         const std::string exposures = wholeExposureLine(whole);
         printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),

@@ -2,8 +2,11 @@
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
 #include "compare/run/interruption.h"
+#include "compare/run/print.h"
+#include "shared/text/one_line.h"
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -21,12 +24,11 @@ namespace {
 
 // Everything that goes wrong ends here: one line on stderr, exit code 2; with --json an object on stdout as
 // well.
-int fail(std::string what, bool json) {
-    std::ranges::replace(what, '\n', ' ');
-    std::fprintf(stderr, "diptych: %s\n", what.c_str());
+int fail(const std::string& what, bool json) {
+    diptych::printMessage(what);
     if (json) {
-        const nlohmann::ordered_json object{{"schema", 1}, {"error", what}};
-        std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        const nlohmann::ordered_json object{{"schema", 1}, {"error", diptych::messageLine(what)}};
+        diptych::printOut("{}\n", object.dump(2));
         std::fflush(stdout);
     }
     return 2;
@@ -38,15 +40,26 @@ int fail(std::string what, bool json) {
     diptych::dieOf(SIGPIPE);
 }
 
+// Whoever starts the program may have closed descriptor 0, 1 or 2, and the next file that is opened would get
+// its number and the messages. Opened the wrong way round, so that reading and writing fail as on a closed
+// one.
+void holdStandardDescriptors() {
+    for (const int descriptor : {0, 1, 2})
+        if (::fcntl(descriptor, F_GETFD) == -1 &&
+            ::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor)
+            ::_exit(2);
+}
+
 int run(const diptych::cli::Options& options) {
     if (options.help.empty()) return diptych::cli::runCommand(options);
-    fmt::print("{}", options.help);
+    diptych::printText(options.help);
     return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    holdStandardDescriptors();
     const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     try {
         std::signal(SIGPIPE, SIG_IGN);

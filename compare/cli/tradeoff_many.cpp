@@ -11,6 +11,7 @@
 #include "compare/page/text.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
+#include "compare/run/print.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/tradeoff.h"
 
@@ -138,9 +139,9 @@ int finish(const Options& options, const fs::path& folder, const shards::Manifes
            const std::vector<const shards::Item*>& done) {
     const std::string text = writePage(options, folder, manifest, done);
     if (options.json)
-        fmt::print("{}", text);
+        printText(text);
     else if (!options.quiet)
-        fmt::print("{} scenes: {}\n", done.size(), (folder / "index.html").string());
+        printOut("{} scenes: {}\n", done.size(), (folder / "index.html").string());
     sayErrors(manifest.errors);
     return manifest.errors.empty() ? 0 : 2;
 }

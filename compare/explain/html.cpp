@@ -198,7 +198,7 @@ std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, c
         "<style>{1}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{0}</h1><p "
         "class=\"soft\">{2} against {3}, {4}\u00d7{5}, on {6}</p></header>\n{7}{8}{9}<footer><p><a "
         "href=\"explain.json\">explain.json</a></p></footer><script>{10}</script>\n</body></html>\n",
-        markup(of.scene), page::style, markup(of.test), markup(of.baseline), e.dominant.width,
+        markup(of.scene), page::style, page::isolated(of.test), page::isolated(of.baseline), e.dominant.width,
         e.dominant.height, markup(device),
         explanationSection(e, of, [](const std::string& name) { return name; }), pictures, commands(of),
         page::tables);

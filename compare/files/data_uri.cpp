@@ -2,9 +2,6 @@
 #include "compare/files/data_uri.h"
 
 namespace diptych {
-namespace {
-
-// RFC 4648, section 4.
 std::string base64(std::string_view bytes) {
     constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const auto byte = [&](std::size_t i) {
@@ -19,8 +16,6 @@ std::string base64(std::string_view bytes) {
     for (std::size_t i = bytes.size(); i % 3 != 0; ++i) out[out.size() - (3 - i % 3)] = '=';
     return out;
 }
-
-}  // namespace
 
 std::string dataUri(std::string_view png) {
     return "data:image/png;base64," + base64(png);

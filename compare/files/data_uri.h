@@ -6,6 +6,8 @@
 
 namespace diptych {
 
+std::string base64(std::string_view bytes);  // RFC 4648, section 4
+
 // "data:image/png;base64,...", of a PNG's bytes.
 std::string dataUri(std::string_view png);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/picture_folders.h"
 
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,6 +38,7 @@ std::vector<std::string> picturesIn(const fs::path& folder) {
             names.push_back(at->path().lexically_relative(folder).generic_string());
     }
     if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
+    std::ranges::for_each(names, refuseLineBreak);
     std::ranges::sort(names);
     return names;
 }

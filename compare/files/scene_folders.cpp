@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/scene_folders.h"
 
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -128,6 +130,7 @@ private:
     }
 
     void addOne(const std::string& scene) {
+        refuseLineBreak(scene);
         if (seen_.insert(scene).second) scenes.push_back(scene);
     }
 

@@ -1,46 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "compare/page/text.h"
 
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace diptych::page {
-namespace {
-
-// The code point that begins at text[at] and its length in bytes; U+FFFD and 1 where there is none.
-std::pair<std::uint32_t, std::size_t> decodeUtf8(std::string_view text, std::size_t at) {
-    const auto byte = [&](std::size_t i) {
-        return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
-    };
-    constexpr std::pair<std::uint32_t, std::size_t> none{0xfffd, 1};
-    const std::uint32_t first = byte(at);
-    if (first < 0x80) return {first, 1};
-    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4 || at + length > text.size()) return none;
-    std::uint32_t code = first & (0x7fu >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(at + i) & 0xc0) != 0x80) return none;
-        code = code << 6 | (byte(at + i) & 0x3f);
-    }
-    const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-    return overlong || code > 0x10ffff ? none : std::pair{code, length};
-}
-
-bool isXmlCharacter(std::uint32_t c) {
-    return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0xd800) || (c > 0xdfff && c < 0xfffe) ||
-           c > 0xffff;
-}
-
-}  // namespace
 
 std::string markup(std::string_view text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto [code, length] = decodeUtf8(text, i);
+    while (!text.empty()) {
+        const auto [code, size] = characterAt(text);
+        const bool shown = code == '\t' || code == '\n' || code == '\r' || !isControl(code);
         if (code == '&')
             out += "&amp;";
         else if (code == '<')
@@ -51,13 +26,17 @@ std::string markup(std::string_view text) {
             out += "&quot;";
         else if (code == '\'')
             out += "&#39;";
-        else if (code == 0xfffd || !isXmlCharacter(code))
-            out += "\xef\xbf\xbd";
+        else if (size == 0 || !shown || code == 0xfffe || code == 0xffff)
+            out += "\ufffd";
         else
-            out += text.substr(i, length);
-        i += length;
+            out += text.substr(0, size);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
     }
     return out;
+}
+
+std::string isolated(std::string_view text) {
+    return "<bdi>" + markup(text) + "</bdi>";
 }
 
 std::string number(double value) {

@@ -12,9 +12,13 @@
 
 namespace diptych::page {
 
-// Escapes text for elements and attributes of HTML and XML. Bytes that are not UTF-8, and characters that
-// XML 1.0 does not allow, become U+FFFD.
+// Escapes text for elements and attributes of HTML and XML. Bytes that are not UTF-8, controls (isControl())
+// but for tabs and line breaks, and characters that XML 1.0 does not allow, become U+FFFD.
 std::string markup(std::string_view text);
+
+// The same for text from outside within a sentence or a row of a page: letters that are written from right to
+// left stay within it.
+std::string isolated(std::string_view text);
 
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
 std::string percent(double share);       // "2.31 %"

@@ -85,9 +85,11 @@ window.diptychValues = async (name, file) => {
   waiting.delete(name);
 };
 
+// The name stands in the page's text, which may be another machine's: a script beside the page or below, and no other.
 function addScript(name, failed) {
-  const script = document.createElement('script');
-  script.src = name;
+  const script = document.createElement('script'), url = new URL(name, location);
+  if (!url.href.startsWith(new URL('.', location).href) || !url.pathname.endsWith('.js')) return failed();
+  script.src = url;
   script.onerror = failed;
   document.head.append(script);
 }

@@ -3,6 +3,7 @@
 
 #include "compare/page/page.h"
 #include "compare/report/folders.h"
+#include "compare/report/policy.h"
 #include "compare/report/titles.h"
 #include "compare/report/trends.h"
 
@@ -17,6 +18,7 @@ namespace diptych {
 
 using page::breakable;
 using page::inFolder;
+using page::isolated;
 using page::markup;
 using page::number;
 
@@ -43,7 +45,7 @@ std::string header(const Report& report, const ReportLayout& layout, const Repor
     std::string drawn;
     if (count == 1) {
         const Frame& frame = report.baseline(report.comparisons[0]);
-        drawn = fmt::format("{} \u00b7 {}\u00d7{}", titleOf(report, layout, report.comparisons[0]),
+        drawn = fmt::format("{} \u00b7 {}\u00d7{}", isolated(titleOf(report, layout, report.comparisons[0])),
                             frame.settings.size.width, frame.settings.size.height);
         if (!report.device.name.empty())
             drawn += fmt::format(" \u00b7 {} G-buffer \u00b7 ", nameOf(frame.settings.gbuffer));
@@ -56,11 +58,11 @@ std::string header(const Report& report, const ReportLayout& layout, const Repor
     if (!report.against.name.empty())
         devices +=
             fmt::format("; and {} ({}), {}", report.against.name, report.against.type, report.against.driver);
-    drawn += devices;
+    drawn += markup(devices);
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
         "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
-        verdict, markup(title), markup(drawn), markup(verdictLine(report)));
+        verdict, markup(title), drawn, markup(verdictLine(report)));
 }
 
 double total(const ReportTexts& texts, double DrawnOn::*ms) {
@@ -77,7 +79,7 @@ std::string listBox(const char* style, const char* heading, const std::string& i
 
 // "builtin:gallery \u00b7 entrance: ", where there are others.
 std::string whereOf(const Report& report, const ReportLayout& layout, const Comparison& comparison) {
-    return report.comparisons.size() > 1 ? markup(titleOf(report, layout, comparison)) + ": " : "";
+    return report.comparisons.size() > 1 ? isolated(titleOf(report, layout, comparison)) + ": " : "";
 }
 
 // The first of `items` as a list; if there are more, their number and where to find them.
@@ -100,7 +102,7 @@ std::string firstNotes(const Report& report) {
 std::string saidBefore(const SceneError& error) {
     if (error.output.empty()) return {};
     return fmt::format("<details><summary>what {} said</summary><pre>{}</pre></details>",
-                       markup(error.renderer), markup(error.output));
+                       isolated(error.renderer), isolated(error.output));
 }
 
 // The failures of all comparisons: where to look first.
@@ -148,7 +150,7 @@ std::string notes(const Report& report, const ReportLayout& layout) {
             : names.size() == all.size()
                 ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", other numbers each" : "")
                 : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", other numbers each" : "");
-        items.push_back(fmt::format("<b>{}</b>{}", markup(about), markup(note.text)));
+        items.push_back(fmt::format("<b>{}</b>{}", isolated(about), isolated(note.text)));
     }
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
 }
@@ -352,13 +354,14 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += texts.section(layout.order[at]);
     body += "</div>\n" + laterSections(layout, texts);
+    const std::string script = fmt::format("{}{}{}", page::tables, page::copying, page::script);
     return fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{}<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
         "</head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
-        "channels</a>{}{}<script>{}{}{}</script>\n</body></html>\n",
-        markup(verdictLine(report)), page::style, body, footer(report, layout, texts), page::tables,
-        page::copying, page::script);
+        "channels</a>{}{}<script>{}</script>\n</body></html>\n",
+        pagePolicy(script), markup(verdictLine(report)), page::style, body, footer(report, layout, texts),
+        script);
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {

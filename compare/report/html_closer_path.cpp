@@ -8,6 +8,7 @@
 
 namespace diptych {
 
+using page::isolated;
 using page::markup;
 using page::number;
 
@@ -104,9 +105,9 @@ std::string closerPathSection(const Report& report, const ReportLayout& layout, 
         const Frame& reference = report.frames[closer.reference];
         out += "<section class=\"box closer\">\n";
         if (report.closer_paths.size() > 1)
-            out +=
-                fmt::format("<h3>{} \u00b7 {}</h3>\n", markup(page::inFolder(reference.scene, layout.folder)),
-                            markup(viewTitle(report, reference)));
+            out += fmt::format("<h3>{} \u00b7 {}</h3>\n",
+                               isolated(page::inFolder(reference.scene, layout.folder)),
+                               isolated(viewTitle(report, reference)));
         out += texts.closer_boxes[i] + "</section>\n";
     }
     return out;

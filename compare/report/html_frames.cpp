@@ -124,8 +124,8 @@ std::string camera(const Report& report, const Frame& frame) {
         "<p class=\"soft camera\">Scene {}. Camera {}{}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, "
         "{:.5g}; {}; "
         "near {:.4g}, far {:.4g} m</p>\n",
-        markup(frame.scene), markup(viewTitle(report, frame)),
-        c.choice.empty() ? "" : fmt::format(" ({})", markup(c.choice)), c.eye[0], c.eye[1], c.eye[2],
+        page::isolated(frame.scene), page::isolated(viewTitle(report, frame)),
+        c.choice.empty() ? "" : fmt::format(" ({})", page::isolated(c.choice)), c.eye[0], c.eye[1], c.eye[2],
         c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
 }
 

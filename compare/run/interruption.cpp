@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/run/interruption.h"
 
+#include "compare/run/print.h"
 #include "compare/run/progress.h"
 #include "shared/image/temporary.h"
 
@@ -78,7 +79,7 @@ void watchInterruption() {
         wipeProgress();
         {
             const std::lock_guard lock(lastWordsMutex);
-            if (!lastWords.empty()) std::fprintf(stderr, "diptych: %s\n", lastWords.c_str());
+            if (!lastWords.empty()) printMessage(lastWords);
         }
         dieOf(signal);
     }).detach();

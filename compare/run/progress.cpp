@@ -2,6 +2,7 @@
 #include "compare/run/progress.h"
 
 #include "compare/run/color.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -75,10 +76,12 @@ void Progress::at(const std::string& what, double fraction, const std::string& s
     const std::string words = withTime(step, timeLeft(now - start_, furthest_));
     if (!output_->terminal)
         return output_->write(
-            fmt::format("diptych: {}: {:.0f} % {}\n", what, std::floor(furthest_ * 100), words));
+            messageLine(fmt::format("diptych: {}: {:.0f} % {}", what, std::floor(furthest_ * 100), words)) +
+            "\n");
     shown_ = true;
     // One column stays free: a full line would wrap.
-    output_->write(wipeLine + progressLine(what, furthest_, words, output_->columns() - 1));
+    const std::size_t columns = output_->columns() - 1;
+    output_->write(wipeLine + oneLine(progressLine(what, furthest_, words, columns), columns));
 }
 
 void Progress::wipe() {

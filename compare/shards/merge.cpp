@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/merge.h"
 
+#include "compare/report/policy.h"
+#include "shared/image/file_bytes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,12 +74,18 @@ std::string chosenOf(const std::vector<Found>& all) {
     return best->identity;
 }
 
-// Whether every file that the part names is there.
+// Whether every file that the part names is there, and those that the joined page runs are data.
 void checkFiles(const fs::path& root, const ReportPart& part) {
     for (const std::vector<std::string>& names : {part.files, part.sections, part.texts()})
-        for (const std::string& name : names)
-            if (!fs::exists(root / name))
-                throw std::runtime_error(fmt::format("{}: is missing", (root / name).string()));
+        for (const std::string& name : names) {
+            const fs::path file = root / name;
+            if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: is missing", file.string()));
+            if (!name.ends_with(".js")) continue;
+            const std::vector<unsigned char> bytes = diptych::bytesOf(file);
+            if (!isDataScript({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+                throw std::runtime_error(
+                    fmt::format("{}: is a script that holds more than data", file.string()));
+        }
 }
 
 }  // namespace

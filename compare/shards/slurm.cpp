@@ -4,6 +4,7 @@
 #include "compare/files/open_folder.h"
 #include "compare/run/command_text.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/one_line.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -27,16 +28,14 @@ namespace fs = std::filesystem;
 
 // A path in a line of #SBATCH: Slurm reads quotes there, and % begins a pattern.
 std::string directivePath(const fs::path& path) {
+    const std::string name = path.string();
+    if (name.find_first_of("\"\\") != name.npos || oneLine(name, name.size()) != name)
+        throw std::runtime_error(
+            fmt::format("-o {}: Slurm's scripts cannot name a log in such a folder; use one without "
+                        "quotes, backslashes, line breaks and other controls",
+                        name));
     std::string text;
-    for (const char c : path.string()) {
-        if (c == '\n' || c == '"' || c == '\\')
-            throw std::runtime_error(
-                fmt::format("-o {}: Slurm's scripts cannot name a log in such a folder; use one without "
-                            "quotes, backslashes and "
-                            "line breaks",
-                            path.string()));
-        text += c == '%' ? "%%" : std::string(1, c);
-    }
+    for (const char c : name) text += c == '%' ? "%%" : std::string(1, c);
     return text;
 }
 

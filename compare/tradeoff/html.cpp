@@ -46,9 +46,9 @@ std::string header(const Tradeoff& tradeoff) {
         "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} Settings "
         "at {}x{} "
         "on {} ({}), {} timed frame{} each; {}; errors of lit against the reference</p></header>\n",
-        markup(tradeoff.scene), tradeoff.rows.size(), size.width, size.height, markup(tradeoff.device.name),
-        markup(tradeoff.device.driver), tradeoff.runs, tradeoff.runs == 1 ? "" : "s",
-        markup(fmt::format("{}", fmt::join(cameras, "; "))));
+        page::isolated(tradeoff.scene), tradeoff.rows.size(), size.width, size.height,
+        markup(tradeoff.device.name), markup(tradeoff.device.driver), tradeoff.runs,
+        tradeoff.runs == 1 ? "" : "s", page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
 }
 
 std::string switches() {

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shared/text/one_line.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
 
 namespace diptych {
 
@@ -11,8 +16,9 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;
 }
 
-// Length in bytes of the UTF-8 character that `text` begins with; 0 if it is invalid (RFC 3629, 4).
-std::size_t characterAt(std::string_view text) {
+}  // namespace
+
+Character characterAt(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0x80   ? 1
                              : byte(0) < 0xc2 ? 0
@@ -20,17 +26,24 @@ std::size_t characterAt(std::string_view text) {
                              : byte(0) < 0xf0 ? 3
                              : byte(0) < 0xf5 ? 4
                                               : 0;
-    if (size > text.size()) return 0;
-    for (std::size_t i = 1; i < size; ++i)
-        if (!continues(text[i])) return 0;
-    if (size < 3) return size;
+    if (size == 0 || size > text.size()) return {};
+    char32_t code = size == 1 ? byte(0) : byte(0) & (0x7fu >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if (!continues(text[i])) return {};
+        code = code << 6 | (byte(i) & 0x3fu);
+    }
     // Overlong encodings, surrogates, and code points beyond U+10FFFF.
-    const bool wrong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
-                       (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f);
-    return wrong ? 0 : size;
+    const bool wrong = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000) ||
+                       (code >= 0xd800 && code < 0xe000) || code > 0x10ffff;
+    return wrong ? Character{} : Character{code, size};
 }
 
-}  // namespace
+bool isControl(char32_t code) {
+    constexpr std::pair<char32_t, char32_t> ranges[] = {{0x00, 0x1f},     {0x7f, 0x9f},     {0x061c, 0x061c},
+                                                        {0x200e, 0x200f}, {0x2028, 0x202e}, {0x2066, 0x2069}};
+    return std::ranges::any_of(
+        ranges, [&](const auto& range) { return range.first <= code && code <= range.second; });
+}
 
 std::string oneLine(std::string_view text, std::size_t most) {
     const bool cut = text.size() > most;
@@ -41,15 +54,50 @@ std::string oneLine(std::string_view text, std::size_t most) {
     std::string line;
     line.reserve(text.size());
     while (!text.empty()) {
-        const std::size_t size = characterAt(text);
-        const auto first = static_cast<unsigned char>(text[0]);
-        if (size == 0 || first < 0x20 || first == 0x7f)
+        const auto [code, size] = characterAt(text);
+        if (size == 0 || isControl(code))
             line += '?';
         else
             line += text.substr(0, size);
         text.remove_prefix(std::max<std::size_t>(size, 1));
     }
     return cut ? line + "..." : line;
+}
+
+std::string messageLine(std::string_view text) {
+    // The longest that the program says of itself, all names of a list, has about 1,500 bytes; a screen of 24
+    // lines of 80 columns shows 1,920.
+    constexpr std::size_t head = 1400, tail = 500;
+    const auto spaced = [](std::string_view part) {
+        std::string line(part);
+        std::ranges::replace(line, '\n', ' ');
+        return line;
+    };
+    if (text.size() <= head + tail) return oneLine(spaced(text), head + tail);
+    std::size_t from = text.size() - tail;
+    while (from < text.size() && continues(text[from])) ++from;
+    return oneLine(spaced(text.substr(0, head + 1)), head) + oneLine(spaced(text.substr(from)), tail);
+}
+
+std::string shownText(std::string_view text) {
+    std::string shown;
+    shown.reserve(text.size());
+    while (!text.empty()) {
+        const auto [code, size] = characterAt(text);
+        if (size == 0)
+            shown += '?';
+        else if (isControl(code) && code != '\n')
+            shown += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code));
+        else
+            shown += text.substr(0, size);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return shown;
+}
+
+void refuseLineBreak(std::string_view name) {
+    if (name.find('\n') != name.npos)
+        throw std::runtime_error(oneLine(name) + ": has a line break in its name; rename it");
 }
 
 }  // namespace diptych

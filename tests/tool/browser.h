@@ -3,6 +3,7 @@
 // it: the tests that need it are then skipped, and say so.
 #pragma once
 
+#include "compare/report/policy.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -42,10 +43,13 @@ const at = (element, x, y) => { const box = element.getBoundingClientRect(); ret
 const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new PointerEvent(type, { bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse', ...at(element, x, y), ...more }));
 )";
     std::string text = contentsOf(page);
-    const std::string own =
-        "<script>(async () => {" + tools + "try {" + script +
-        "} catch (error) { console.error(error.stack); tell('threw ' + error); } })();</script>";
-    text.insert(text.rfind("</body>"), own);
+    const std::string own = "(async () => {" + tools + "try {" + script +
+                            "} catch (error) { console.error(error.stack); tell('threw ' + error); } })();";
+    text.insert(text.rfind("</body>"), "<script>" + own + "</script>");
+    // The page's policy is kept, and lets this script run beside the page's own.
+    constexpr std::string_view policy = "script-src ";
+    if (const std::size_t at = text.find(policy); at != text.npos)
+        text.insert(at + policy.size(), scriptSource(own) + " ");
     const fs::path copy = page.parent_path() / "visited.html";
     std::ofstream(copy, std::ios::binary) << text;
     const fs::path frame = page.parent_path() / "frame.html";

@@ -126,7 +126,7 @@ TEST(Package, WhatIsInstalledIsWhole) {
     for (const char* file :
          {"bin/diptych", "share/man/man1/diptych.1", "share/bash-completion/completions/diptych",
           "share/zsh/vendor-completions/_diptych", "share/fish/vendor_completions.d/diptych.fish",
-          "share/doc/diptych/LICENSE", "share/doc/diptych/CHANGELOG.md",
+          "share/doc/diptych/LICENSE", "share/doc/diptych/CHANGELOG.md", "share/doc/diptych/SECURITY.md",
           "share/diptych/schemas/tolerances.schema.json", "share/diptych/schemas/job.schema.json",
           "share/diptych/schemas/renderer.schema.json", "share/diptych/adapters/three.json",
           "share/diptych/adapters/three.mjs", "share/diptych/adapters/template.sh",

@@ -321,7 +321,7 @@ Faults documentationFaults(const Files& files) {
         if (exists && !isThere(folder + "/README.md")) faults.push_back(module.path + " has no README.md");
     }
     for (const auto& [path, text] : files) {
-        if (fs::path(path).filename() != "README.md") continue;
+        if (fs::path(path).filename() != "README.md" && path != "SECURITY.md") continue;
         const long lines = std::ranges::count(text, '\n');
         if (path == "README.md" && lines > most_lines)
             faults.push_back(path + " has " + std::to_string(lines) + " lines");

@@ -130,6 +130,37 @@ TEST(Conventions, APlantedQuestionToVulkanIsFound) {
     EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
 }
 
+// What is printed passes the filter of compare/run/print.h. The line of progress passes it itself.
+Faults otherPrinters(const Files& files) {
+    static const std::regex prints(
+        "fmt::print\\((?!\\w+\\.stream)|std::(cout|cerr|clog)|\\b(printf|puts|putchar|perror)\\(|"
+        "\\bf(printf|puts|putc|write)\\([^;]*\\b(stdout|stderr)\\b");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
+            !path.starts_with("shaders/tool/") && !path.starts_with("shared/light/fit/") &&
+            !path.starts_with("compare/library/example/") && !path.starts_with("compare/run/print.") &&
+            path != "compare/run/progress.cpp" && std::regex_search(text, prints))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, OnePlacePrints) {
+    EXPECT_EQ(joined(otherPrinters(sources())), "");
+}
+
+TEST(Conventions, APlantedPrinterIsFound) {
+    for (const char* line :
+         {"fmt::print(\"{}\", name);", "fmt::print(stderr, \"{}\", name);", "std::cerr << name;",
+          "std::fprintf(stderr, \"%s\", name);", "printf(\"%s\", n);", "std::fputs(name, stderr);",
+          "std::fwrite(at, 1, size, stdout);", "puts(name);"})
+        EXPECT_EQ(otherPrinters({{"compare/cli/planted.cpp", line}}).size(), 1u) << line;
+    for (const char* line :
+         {"fmt::print(out.stream(), \"PF\");", "std::fwrite(at, 1, size, file.stream());", "printText(text);",
+          "std::snprintf(at, size, \"%d\", number);", "featuresNeedingInputs(inputs)"})
+        EXPECT_TRUE(otherPrinters({{"compare/cli/planted.cpp", line}}).empty()) << line;
+}
+
 TEST(Conventions, LibpngIsUsedInOnePlace) {
     EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
 }

@@ -36,12 +36,19 @@ TEST(PageText, NumbersHaveThreeDigits) {
 TEST(PageText, MarkupIsTextForElementsAndAttributes) {
     EXPECT_EQ(markup("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
     EXPECT_EQ(markup("a\tb\nc\rd"), "a\tb\nc\rd") << "XML 1.0 allows these three";
-    EXPECT_EQ(markup("\x01\x1f\x7f"), "\ufffd\ufffd\x7f");
+    EXPECT_EQ(markup("\x01\x1f\x7f"), "\ufffd\ufffd\ufffd");
     EXPECT_EQ(markup("\u00e4\u20ac\U0001f600"), "\u00e4\u20ac\U0001f600");
     EXPECT_EQ(markup("\xef\xbf\xbe|\xef\xbf\xbf"), "\ufffd|\ufffd") << "U+FFFE and U+FFFF";
     EXPECT_EQ(markup("\xff|\xc0\xaf|\xe2\x82"), "\ufffd|\ufffd\ufffd|\ufffd\ufffd")
         << "no UTF-8, a byte each";
-    EXPECT_EQ(markup("\xed\xa0\x80"), "\ufffd") << "half a pair of UTF-16";
+    EXPECT_EQ(markup("\xed\xa0\x80"), "\ufffd\ufffd\ufffd") << "half a pair of UTF-16";
+    EXPECT_EQ(markup("a\u009b1m|\u202eb\u2066c\u200fd"), "a\ufffd1m|\ufffdb\ufffdc\ufffdd")
+        << "C1, and what reorders text";
+    EXPECT_EQ(markup("\xef\xbf\xbd"), "\ufffd");
+}
+
+TEST(PageText, TextFromOutsideKeepsItsDirectionToItself) {
+    EXPECT_EQ(isolated("a<\u05d0\u202e"), "<bdi>a&lt;\u05d0\ufffd</bdi>");
 }
 
 TEST(PageText, NamesLeaveOutTheFoldersThatAllShare) {

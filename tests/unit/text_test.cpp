@@ -4,8 +4,11 @@
 #include "shared/text/one_line.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -28,6 +31,71 @@ TEST(OneLine, LongTextIsCutBetweenCharacters) {
     EXPECT_EQ(oneLine("abcdefg", 6), "abcdef...");
     EXPECT_EQ(oneLine("aö", 2), "a...") << "ö takes the bytes 1 and 2";
     EXPECT_EQ(oneLine("\x80\x80\x80", 2), "...") << "no character begins here";
+}
+
+// What a terminal obeys or what reorders text, character by character, in UTF-8.
+std::vector<std::string> controls() {
+    std::vector<std::string> all;
+    for (int code = 0; code < 0x20; ++code) all.emplace_back(1, static_cast<char>(code));
+    all.emplace_back("\x7f");
+    for (int code = 0x80; code < 0xa0; ++code) all.push_back(std::string("\xc2") + static_cast<char>(code));
+    for (const char* text : {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202b", "\u202c",
+                             "\u202d", "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"})
+        all.emplace_back(text);
+    return all;
+}
+
+TEST(Controls, NoneReachesALine) {
+    for (const std::string& control : controls()) {
+        const std::string text = "a" + control + "b";
+        EXPECT_EQ(oneLine(text), "a?b");
+        EXPECT_EQ(messageLine(text), control == "\n" ? "a b" : "a?b");
+    }
+    EXPECT_EQ(controls().size(), 32u + 1 + 32 + 14);
+}
+
+TEST(Controls, StandInLinesAsJsonWritesThem) {
+    EXPECT_EQ(shownText("a\x1b[1m\nb\u009b\u202e\t\x7f"), "a\\u001b[1m\nb\\u009b\\u202e\\u0009\\u007f");
+    EXPECT_EQ(shownText("\xff\xc3"), "??") << "no UTF-8";
+    EXPECT_EQ(shownText("größer\U0001f600"), "größer\U0001f600");
+    for (const std::string& control : controls()) {
+        // As it comes out of a report, in which the library escapes C0 alone.
+        const nlohmann::json value = {{"scene", "a" + control + "b"}};
+        const std::string shown = shownText(value.dump(2));
+        EXPECT_EQ(nlohmann::json::parse(shown), value) << shown;
+        for (const std::string& other : controls())
+            EXPECT_TRUE(other == "\n" || shown.find(other) == shown.npos) << shown;
+    }
+}
+
+TEST(Controls, NeighboursArePlainText) {
+    for (const char* text : {" ", "~", "\u00a0", "\u061b", "\u061d", "\u200d", "\u2010", "\u2027", "\u202f",
+                             "\u2065", "\u206a", "\u05d0"}) {
+        EXPECT_EQ(oneLine(text), text);
+        EXPECT_EQ(shownText(text), text);
+    }
+}
+
+TEST(MessageLine, OfALongOneBeginningAndEndStay) {
+    EXPECT_EQ(messageLine(std::string(1900, 'a')), std::string(1900, 'a'));
+    const std::string line = messageLine("a.gltf: " + std::string(5'000'000, 'x') + ": rename it");
+    EXPECT_TRUE(line.starts_with("a.gltf: xxx")) << line;
+    EXPECT_TRUE(line.ends_with("xxx: rename it")) << line;
+    EXPECT_NE(line.find("x...x"), line.npos);
+    EXPECT_EQ(line.size(), 1903u);
+    std::string wide;
+    for (int i = 0; i < 2000; ++i) wide += "€";
+    EXPECT_EQ(messageLine(wide).find('?'), std::string::npos) << "cut between characters";
+}
+
+TEST(LineBreaks, InANameAreRefused) {
+    EXPECT_NO_THROW(refuseLineBreak("a b\x1b.gltf"));
+    try {
+        refuseLineBreak("a\nb.gltf");
+        FAIL() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "a?b.gltf: has a line break in its name; rename it");
+    }
 }
 
 TEST(JsonShape, DepthIsWhatIsOpenAtOnce) {

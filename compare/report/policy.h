@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace diptych {
+
+// The Content-Security-Policy of a page whose one inline script is `script`, as an element of its head: that
+// script runs, and scripts that it adds itself; none that stands in the text of the page, which may come from
+// the report of a shard. Nothing but pictures is loaded.
+std::string pagePolicy(std::string_view script);
+
+// What a policy calls an inline script by: 'sha256-...'.
+std::string scriptSource(std::string_view script);
+
+// Whether a script beside a page is data: one call of a function of the page with JSON.
+bool isDataScript(std::string_view script);
+
+}  // namespace diptych
