@@ -2,13 +2,13 @@
 #include "compare/choose/calibration.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 namespace diptych::choose {
@@ -49,10 +49,8 @@ std::filesystem::path calibrationFile(const std::filesystem::path& folder, const
 Calibration readCalibration(const std::filesystem::path& file, const std::string& device,
                             const std::string& driver, const std::string& program) {
     Calibration result{device, driver, program, {}};
-    std::ifstream stream(file);
-    if (!stream) return result;
     try {
-        const Json json = Json::parse(stream);
+        const Json json = orderedJsonIn(file);
         if (json.at("schema") != 1 || json.at("device") != device || json.at("driver") != driver ||
             json.at("program") != program)
             return result;

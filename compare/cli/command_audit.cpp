@@ -11,6 +11,7 @@
 #include "compare/files/our_files.h"
 #include "compare/run/interruption.h"
 #include "compare/run/version.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -124,7 +125,7 @@ private:
                 {"truth", measurer.fingerprint()},
                 {"lights", audit::lightsFileOf(subject.given)},
                 {"file", fileFacts(audit_.scene)},
-                {"settings", Json::parse(toJson(settings_))},
+                {"settings", parseOrderedJson(toJson(settings_))},
                 {"device", audit_.device.name},
                 {"driver", audit_.device.driver}};
     }

@@ -3,6 +3,7 @@
 
 #include "compare/files/our_files.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -98,8 +98,11 @@ std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
 }
 
 FileMoves readMoves(const fs::path& file) {
-    std::ifstream stream(file);
-    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    nlohmann::json json;
+    try {
+        json = jsonIn(file);
+    } catch (const std::runtime_error&) {  // said below
+    }
     if (!json.is_object() || !json.contains("files"))
         throw std::runtime_error(
             file.string() + ": left by a program that was killed, and cannot be read; remove its folder");

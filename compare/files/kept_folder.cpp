@@ -4,6 +4,7 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -30,9 +30,12 @@ std::string pageOfJson(const Json& json) {
 }
 
 Json readJson(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const Json json = Json::parse(stream, nullptr, false);
-    return json.is_object() ? json : Json();
+    try {
+        Json json = orderedJsonIn(file);
+        return json.is_object() ? json : Json();
+    } catch (const std::runtime_error&) {  // none, or cut short
+        return {};
+    }
 }
 
 }  // namespace
@@ -42,7 +45,11 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) throw std::runtime_error(writingFailed(folder_, error.value()));
-    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // What a link leads to is not ours to empty.
+    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (fs::is_symlink(fs::symlink_status(folder_)))
+        throw std::runtime_error(folder_.string() +
+                                 ": is a link, and only a folder of diptych's own is used; remove it");
     if (lock_ < 0) throw std::runtime_error(writingFailed(folder_, errno));
     // On a file system without locks nothing is locked.
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)

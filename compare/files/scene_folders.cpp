@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/scene_folders.h"
 
+#include "shared/text/input_file.h"
+#include "shared/text/named.h"
+
 #include <fmt/format.h>
 #include <fnmatch.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A list of half a million scenes.
+constexpr std::uint64_t most_list_bytes = std::uint64_t(64) << 20;
+constexpr std::size_t longest_line = 4096;  // as a path, PATH_MAX
 
 bool isSceneFile(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -152,16 +159,18 @@ private:
         const std::string identity = fs::weakly_canonical(name).string();
         if (!open_.insert(identity).second)
             throw std::runtime_error(fmt::format("@{}: is a list that contains itself", name));
-        std::ifstream stream(name);
-        if (!stream || fs::is_directory(name))
-            throw std::runtime_error(fmt::format("@{}: a list of scenes, which cannot be read", name));
+        std::istringstream stream(diptych::named("@" + name, [&] { return textIn(name, most_list_bytes); }));
         const std::size_t before = scenes.size();
         bool any = false;
-        for (std::string line; std::getline(stream, line);)
+        for (std::string line; std::getline(stream, line);) {
+            if (line.size() > longest_line)
+                throw std::runtime_error(
+                    fmt::format("@{}: has a line of {} bytes: at most {}", name, line.size(), longest_line));
             if (const std::string word = wordOf(line, fs::path(name).parent_path()); !word.empty()) {
                 add(word);
                 any = true;
             }
+        }
         open_.erase(identity);
         if (!any && scenes.size() == before)
             throw std::runtime_error(fmt::format("@{}: names no scene; a line each", name));

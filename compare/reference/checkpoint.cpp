@@ -66,9 +66,10 @@ std::vector<fs::path> filesOf(const fs::path& stem) {
     return files;
 }
 
-// Opened for reading and writing, because some file systems only lock such files.
+// Opened for reading and writing, because some file systems only lock such files. What a link leads to is not
+// ours to write to, and a FIFO would wait.
 std::FILE* opened(const fs::path& file, int how) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | how, 0666);
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | how, 0666);
     if (descriptor < 0) return nullptr;
     std::FILE* stream = ::fdopen(descriptor, "r+b");
     if (!stream) ::close(descriptor);

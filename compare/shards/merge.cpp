@@ -49,7 +49,7 @@ std::string differenceOf(const Manifest& other, const Manifest& ours) {
             return "is of scenes whose files have other sizes";
         }
         // Of Settings the first that differs.
-        if (value.is_object())
+        if (value.is_object() && there.is_object())
             for (const auto& [name, setting] : value.items())
                 if (!there.contains(name) || there[name] != setting)
                     return fmt::format("was asked for another {}: {} (the others: {})", name,
@@ -69,14 +69,6 @@ std::string chosenOf(const std::vector<Found>& all) {
     for (const Found& found : all)
         if (counts[found.identity] > counts[best->identity]) best = &found;
     return best->identity;
-}
-
-// Whether every file that the part names is there.
-void checkFiles(const fs::path& root, const ReportPart& part) {
-    for (const std::vector<std::string>& names : {part.files, part.sections, part.texts()})
-        for (const std::string& name : names)
-            if (!fs::exists(root / name))
-                throw std::runtime_error(fmt::format("{}: is missing", (root / name).string()));
 }
 
 }  // namespace
@@ -145,9 +137,7 @@ Joined join(const std::vector<fs::path>& folders) {
         }
         const fs::path& from = chosen.folders.at(item.shard);
         try {
-            ReportPart part = readPart(from, item.folder);
-            checkFiles(from, part);
-            joined.report.parts.push_back({std::move(part), from});
+            joined.report.parts.push_back({readPart(from, item.folder), from});
         } catch (const std::runtime_error& problem) {
             chosen.problems.push_back(
                 fmt::format("{}: the report is incomplete: {}", from.string(), problem.what()));

@@ -2,6 +2,7 @@
 #include "shared/environment/map_cache.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/text/input_file.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +12,8 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <span>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -125,18 +126,21 @@ fs::path mapCacheFile(const fs::path& folder, std::uint64_t key) {
 }
 
 std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key) {
-    std::ifstream stream(file, std::ios::binary);
     MapFileHead head;
-    if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
+    std::vector<float> floats;
+    try {
+        InputFile cache(file);
+        cache.read(std::as_writable_bytes(std::span(&head, 1)));
+        const std::uint64_t size = cache.size();
+        if (head.magic != MapFileHead{}.magic || head.key != key || head.floats > size / sizeof(float) ||
+            size != sizeof head + head.floats * sizeof(float))
+            return {};
+        floats.resize(head.floats);
+        cache.read(std::as_writable_bytes(std::span(floats)));
+    } catch (const std::runtime_error&) {  // none, or none of ours: the maps are made
+        return {};
+    }
     std::error_code failed;
-    const std::uintmax_t size = fs::file_size(file, failed);
-    if (head.magic != MapFileHead{}.magic || head.key != key || failed ||
-        head.floats > size / sizeof(float) || size != sizeof head + head.floats * sizeof(float))
-        return {};
-    std::vector<float> floats(head.floats);
-    if (!stream.read(reinterpret_cast<char*>(floats.data()),
-                     static_cast<std::streamsize>(floats.size() * sizeof(float))))
-        return {};
     MapHash hash;
     hash.add(head.maps);
     hash.add(floats);

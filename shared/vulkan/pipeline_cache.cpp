@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/pipeline_cache.h"
 
+#include "shared/text/input_file.h"
 #include "shared/vulkan/spirv.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -53,6 +55,9 @@ struct CacheFileHead {
 };
 static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // every byte is written by us
 
+// Of all modules a driver keeps some tens of megabytes.
+constexpr std::uint64_t most_cache_bytes = std::uint64_t(1) << 30;
+
 // A driver that keeps nothing gives the header that Vulkan demands (VkPipelineCacheHeaderVersionOne).
 constexpr std::size_t emptyCacheBytes = sizeof(VkPipelineCacheHeaderVersionOne);
 
@@ -75,18 +80,19 @@ fs::path pipelineCacheFile(const fs::path& folder, const PipelineCacheKey& key) 
 }
 
 std::vector<std::byte> readPipelineCache(const fs::path& file, const PipelineCacheKey& key) {
-    std::ifstream stream(file, std::ios::binary);
-    CacheFileHead head;
-    if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
-    std::error_code failed;
-    const std::uintmax_t size = fs::file_size(file, failed);
-    if (head.magic != CacheFileHead{}.magic || head.key != key || failed || size != sizeof head + head.bytes)
-        return {};
-    std::vector<std::byte> data(head.bytes);
-    if (!stream.read(reinterpret_cast<char*>(data.data()), static_cast<std::streamsize>(data.size())) ||
-        hashOf(data) != head.hash)
-        return {};
-    return data;
+    try {
+        InputFile cache(file, most_cache_bytes);
+        CacheFileHead head;
+        cache.read(std::as_writable_bytes(std::span(&head, 1)));
+        if (head.magic != CacheFileHead{}.magic || head.key != key ||
+            head.bytes != cache.size() - sizeof head)
+            return {};
+        std::vector<std::byte> data(head.bytes);
+        cache.read(data);
+        if (hashOf(data) == head.hash) return data;
+    } catch (const std::runtime_error&) {  // none, or none of ours: pipelines are compiled
+    }
+    return {};
 }
 
 bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::span<const std::byte> data) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The conventions of the project's own files: one pi, a licence line, one user of libpng, no folder of one
-// machine, the columns of shaders, a line of shader for every channel. Each check has a negative control.
+// The conventions of the project's own files: one pi, a licence line, one reader of JSON, one user of libpng,
+// no folder of one machine, the columns of shaders, a line of shader for every channel. Each check has a
+// negative control.
 #include "shared/frame/debug_modes.h"
 #include "tests/unit/sources.h"
 
@@ -128,6 +129,34 @@ TEST(Conventions, APlantedQuestionToVulkanIsFound) {
     EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 1u);
     EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceSurfaceSupportKHR(d, 0, s, &b);"), 0u);
     EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
+}
+
+// Limits of depth, size and kind hold only where nobody goes round them.
+Faults readersOfTheirOwn(const Files& files) {
+    static const std::regex reader("\\b(json|Json)::(parse|accept)\\(|\\bifstream\\b|\\bistream_iterator\\b");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!isCode(path) || path.starts_with("tests/") || path == "shared/text/json.cpp") continue;
+        for (std::sregex_iterator it(text.begin(), text.end(), reader), end; it != end; ++it)
+            faults.push_back(path + " calls " + it->str());
+    }
+    return faults;
+}
+
+TEST(Conventions, JsonAndFilesAreReadInOnePlaceEach) {
+    EXPECT_EQ(joined(readersOfTheirOwn(sources())), "");
+}
+
+TEST(Conventions, APlantedReaderIsFound) {
+    for (const char* line : {"const auto a = nlohmann::json::parse(text);",
+                             "nlohmann::ordered_json::parse(stream, nullptr, false)", "Json::parse(text)",
+                             "std::ifstream stream(file);", "json::accept(text)"})
+        for (const char* path : {"compare/cli/planted.cpp", "shared/scene/planted.h"})
+            EXPECT_EQ(readersOfTheirOwn({{path, line}}).size(), 1u) << line;
+    EXPECT_TRUE(readersOfTheirOwn({{"shared/text/json.cpp", "Json::parse(text)"},
+                                   {"tests/unit/planted.cpp", "std::ifstream stream(file);"},
+                                   {"compare/a.cpp", "parseJson(text); Json::parse_event_t e; ofstream o;"}})
+                    .empty());
 }
 
 TEST(Conventions, LibpngIsUsedInOnePlace) {
