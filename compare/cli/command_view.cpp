@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -84,9 +85,10 @@ ReportedView readReport(const Options& options) {
     return named("--report " + options.view.report.string(), [&] {
         if (!isOurManifest(file))
             fail("is no folder that compare has written: no report.json of ours is there");
-        const nlohmann::json report =
-            parseJson(textIn(file, json_bytes),
-                      [](int depth, const std::string& key) { return depth > 1 || key == "comparisons"; });
+        static const std::set<std::string> wanted{"comparisons", "scene", "command", "channels",
+                                                  "number",      "name",  "verdict", "worst_pixel"};
+        const nlohmann::json report = parseJson(
+            textIn(file, json_bytes), [](int, const std::string& key) { return wanted.contains(key); });
         const Place comparison = chosenComparison(Place(report).at("comparisons"), options);
         const Place channel = chosenChannel(comparison.at("channels"), options);
         ReportedView view{
