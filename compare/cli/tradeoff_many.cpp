@@ -144,13 +144,18 @@ std::string writePage(const Options& options, const fs::path& folder, const shar
     return out.finish(std::move(json));
 }
 
-int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
-           const std::vector<const shards::Item*>& done) {
+void showMany(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+              const std::vector<const shards::Item*>& done) {
     const std::string text = writePage(options, folder, manifest, done);
     if (options.json)
         fmt::print("{}", text);
     else if (!options.quiet)
         fmt::print("{} scenes: {}\n", done.size(), (folder / "index.html").string());
+}
+
+int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+           const std::vector<const shards::Item*>& done) {
+    showMany(options, folder, manifest, done);
     sayErrors(manifest.errors);
     return manifest.errors.empty() ? 0 : 2;
 }
@@ -230,8 +235,8 @@ int mergeTradeoffs(const Options& options) {
         done.push_back(&item);
     }
     const shards::Manifest manifest = chosen.manifest;
-    const int code = finish(options, folder, manifest, done);
-    if (chosen.problems.empty()) return code;
+    if (chosen.problems.empty()) return finish(options, folder, manifest, done);
+    showMany(options, folder, manifest, done);
     sayProblems(options, chosen.problems, folder / "index.html");
     return 2;
 }

@@ -3,6 +3,7 @@
 
 #include "shared/text/input_file.h"
 #include "shared/text/named.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -43,7 +44,7 @@ std::vector<std::string> sceneFilesIn(const std::string& folder) {
         if (!isHidden(at->path()) && isSceneFile(at->path()) && at->is_regular_file(ignored))
             files.push_back(at->path().generic_string());
     }
-    if (error) throw std::runtime_error(fmt::format("{}: {}", folder, error.message()));
+    if (error) throw std::runtime_error(fmt::format("{}: {}", oneLine(folder), error.message()));
     std::ranges::sort(files);
     return files;
 }
@@ -139,7 +140,7 @@ private:
     }
 
     void addAll(const std::vector<std::string>& files, const std::string& word, const char* where_none) {
-        if (files.empty()) throw std::runtime_error(fmt::format("{}: {}", word, where_none));
+        if (files.empty()) throw std::runtime_error(fmt::format("{}: {}", oneLine(word), where_none));
         for (const std::string& file : files) addOne(file);
     }
 
@@ -158,14 +159,15 @@ private:
     void addList(const std::string& name) {
         const std::string identity = fs::weakly_canonical(name).string();
         if (!open_.insert(identity).second)
-            throw std::runtime_error(fmt::format("@{}: is a list that contains itself", name));
-        std::istringstream stream(diptych::named("@" + name, [&] { return textIn(name, most_list_bytes); }));
+            throw std::runtime_error(fmt::format("@{}: is a list that contains itself", oneLine(name)));
+        std::istringstream stream(
+            diptych::named("@" + oneLine(name), [&] { return textIn(name, most_list_bytes); }));
         const std::size_t before = scenes.size();
         bool any = false;
         for (std::string line; std::getline(stream, line);) {
             if (line.size() > longest_line)
-                throw std::runtime_error(
-                    fmt::format("@{}: has a line of {} bytes: at most {}", name, line.size(), longest_line));
+                throw std::runtime_error(fmt::format("@{}: has a line of {} bytes: at most {}", oneLine(name),
+                                                     line.size(), longest_line));
             if (const std::string word = wordOf(line, fs::path(name).parent_path()); !word.empty()) {
                 add(word);
                 any = true;
@@ -173,7 +175,7 @@ private:
         }
         open_.erase(identity);
         if (!any && scenes.size() == before)
-            throw std::runtime_error(fmt::format("@{}: names no scene; a line each", name));
+            throw std::runtime_error(fmt::format("@{}: names no scene; a line each", oneLine(name)));
     }
 
     std::set<std::string> seen_, open_;

@@ -251,6 +251,57 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
     }
 }
 
+// Of tradeoff: absurd counts are a line, and a scene that is none, or whose file is a link, is named.
+TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
+    const fs::path root = folder();
+    const Json figures{{"ms", {{"median", 1}}}, {"errors", {{"flip", 0.5}}}};
+    const Json tradeoff{{"schema", 1},
+                        {"software", softwareName},
+                        {"device", {{"name", "a CPU"}}},
+                        {"rows", Json::array({figures})},
+                        {"fronts", Json::array({{{"error", "flip"}, {"path", nullptr}, {"rows", {0}}}})},
+                        {"files", {"row-001.png", "../secret.png"}}};
+    Json plan{{"asked", Json::object()}};
+    shards::Manifest manifest{
+        "build", "tradeoff", plan, {1, 1}, {{"a", "a/", 1}, {"b", "b/", 1}, {"c", "c/", 1}}, {}};
+    for (const char* scene : {"a", "b", "c"}) {
+        fs::create_directories(root / "shard" / scene);
+        std::ofstream(root / "shard" / scene / "tradeoff.json") << tradeoff.dump();
+        std::ofstream(root / "shard" / scene / "row-001.png") << "picture";
+    }
+    std::ofstream(root / "secret.png") << "secret";
+    std::ofstream(root / "shard/b/tradeoff.json") << R"({"software": "diptych", "device": {}, "rows": [1]})";
+    fs::remove(root / "shard/c/row-001.png");
+    fs::create_symlink("../../secret.png", root / "shard/c/row-001.png");
+    std::ofstream(root / "shard/tradeoffs.json") << textOf(manifest);
+    cli::Options options;
+    options.command = "merge";
+    options.scenes = {(root / "shard").string()};
+    options.scene_given = options.quiet = true;
+    options.out = root / "out";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(cli::runMerge(options), 2);
+    const std::string line = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::ranges::count(line, '\n'), 1) << line;
+    EXPECT_NE(line.find("b/tradeoff.json"), std::string::npos) << line;
+    const Json joined = Json::parse(contentsOf(root / "out/tradeoffs.json"));
+    EXPECT_EQ(joined["scenes"].size(), 1u);
+    EXPECT_EQ(joined["errors"].size(), 2u) << joined["errors"].dump();
+    EXPECT_EQ(filesIn(root / "out/a"), (std::vector<std::string>{"row-001.png", "tradeoff.json"}));
+
+    Json text = Json::parse(textOf(manifest));
+    text["shard"]["count"] = 2147483647;
+    std::ofstream(root / "shard/tradeoffs.json") << text.dump();
+    try {
+        cli::runMerge(options);
+        ADD_FAILURE() << "merged";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("count: is no whole number from 1 to 65536"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 // What every reader promises of any bytes.
 void expectALine(const std::function<void()>& read, const std::string& text) {
     try {
