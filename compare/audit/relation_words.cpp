@@ -4,6 +4,7 @@
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -150,7 +151,7 @@ Json toJson(const RelationAudit& audit) {
               {"verdict", audit.holds() ? "pass" : "fail"},
               {"scene", audit.scene},
               {"camera", audit.camera},
-              {"settings", Json::parse(diptych::toJson(audit.settings))},
+              {"settings", parseOrderedJson(diptych::toJson(audit.settings))},
               {"device",
                {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
               {"notes", audit.notes},

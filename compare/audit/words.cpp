@@ -2,6 +2,7 @@
 #include "compare/audit/words.h"
 
 #include "compare/page/text.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -213,7 +214,7 @@ Json toJson(const Audit& audit) {
     Json json{{"schema", 1},
               {"scene", audit.scene},
               {"camera", audit.camera},
-              {"settings", Json::parse(diptych::toJson(audit.settings))},
+              {"settings", parseOrderedJson(diptych::toJson(audit.settings))},
               {"device",
                {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
               {"notes", audit.notes},

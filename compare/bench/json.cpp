@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/text/json.h"
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
@@ -35,7 +36,7 @@ Json jsonOf(const BenchRow& row) {
             {"camera", row.camera},
             {"size", jsonOf(row.settings.size)},
             {"light_count", orNull(row.requested_lights)},
-            {"settings", Json::parse(toJson(row.settings))},
+            {"settings", parseOrderedJson(toJson(row.settings))},
             {"ms",
              {{"median", row.time.median},
               {"min", row.time.min},

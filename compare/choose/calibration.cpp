@@ -2,6 +2,7 @@
 #include "compare/choose/calibration.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 #include "shared/vulkan/user_cache.h"
 
 #include <nlohmann/json.hpp>
@@ -57,7 +58,7 @@ Calibration readCalibration(const std::filesystem::path& file, const std::string
     try {
         std::string text(opened.bytes, '\0');
         if (std::fread(text.data(), 1, text.size(), opened.stream.get()) != text.size()) return result;
-        const Json json = Json::parse(text);
+        const Json json = parseOrderedJson(text);
         if (json.at("schema") != 1 || json.at("device") != device || json.at("driver") != driver ||
             json.at("program") != program)
             return result;

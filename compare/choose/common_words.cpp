@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/report.h"
 #include "compare/page/text.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -56,7 +57,7 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
                                      {"high", choice.slower[scene]->high}};
             scenes.push_back(std::move(one));
         }
-        Json json{{"settings", Json::parse(toJson(candidate.settings))},
+        Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
                   {"words", report.words[i]},
                   {"command", report.commands[i]},
                   {"fits", candidate.fits},
@@ -79,7 +80,7 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
               {"frames_timed", choice.timings},
               {"seconds", report.seconds}};
     json["settings"] =
-        choice.chosen ? Json::parse(toJson(choice.candidates[*choice.chosen].settings)) : Json();
+        choice.chosen ? parseOrderedJson(toJson(choice.candidates[*choice.chosen].settings)) : Json();
     json["candidates"] = std::move(candidates);
     return json;
 }
@@ -151,7 +152,7 @@ nlohmann::ordered_json toJson(const Choices& choices) {
     for (const ChoiceReport& report : choices.scenes) scenes.push_back(toJson(report));
     const std::optional<Settings> settings = chosenSettings(choices);
     Json json{{"schema", 1}};
-    json["settings"] = settings ? Json::parse(toJson(*settings)) : Json();
+    json["settings"] = settings ? parseOrderedJson(toJson(*settings)) : Json();
     json["all"] = commonJson(*choices.all);
     json["scenes"] = std::move(scenes);
     return json;

@@ -2,6 +2,7 @@
 #include "compare/choose/report.h"
 
 #include "compare/page/text.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -119,7 +120,7 @@ const char* nameOf(Fate fate) {
 
 nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
-    Json json{{"settings", Json::parse(toJson(candidate.settings))},
+    Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
               {"words", report.words[i]},
               {"command", report.commands[i]},
               {"fate", nameOf(candidate.fate)},
@@ -251,7 +252,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
           {"ms", limit(report.budget.ms)},
           {"bytes", limit(report.budget.bytes)}}}};
     json["settings"] =
-        choice.chosen ? Json::parse(toJson(choice.candidates[*choice.chosen].settings)) : Json();
+        choice.chosen ? parseOrderedJson(toJson(choice.candidates[*choice.chosen].settings)) : Json();
     json["chosen"] = place(choice.chosen);
     json["runner_up"] = place(choice.runner_up);
     json["nearest"] = place(choice.nearest);

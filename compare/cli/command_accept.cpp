@@ -5,14 +5,17 @@
 #include "compare/run/print.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -31,65 +34,63 @@ struct Failing {
 };
 using AllFailing = std::map<std::pair<std::string, std::string>, Failing>;  // by scene and channel
 
-// The comparisons of a report, without what is large and says nothing here.
-nlohmann::json comparisonsOf(const fs::path& where) {
+using Place = JsonAt<nlohmann::json>;
+
+// A report, with what says something here.
+nlohmann::json reportIn(const fs::path& where) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
-    std::ifstream stream(file, std::ios::binary);
-    static const std::set<std::string> left_out{"frames", "explanation", "marks", "figures",
-                                                "notes",  "truth",       "files"};
-    const nlohmann::json json = nlohmann::json::parse(
-        stream,
-        [](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-            return event != nlohmann::json::parse_event_t::key ||
-                   !left_out.contains(value.get<std::string>());
-        },
-        false);
-    if (!json.is_object() || json.value("software", "") != softwareName || !json.contains("comparisons"))
-        throw std::runtime_error(fmt::format(
-            "accept {}: is no report that compare wrote; give its folder or report.json", where.string()));
-    return json["comparisons"];
+    static const std::set<std::string> wanted{"software", "comparisons", "scene",   "baseline", "test",
+                                              "channels", "name",        "verdict", "max",      "failures"};
+    return parseJson(textIn(file, json_bytes),
+                     [](int, const std::string& key) { return wanted.contains(key); });
 }
 
-AllFailing failingOf(const nlohmann::json& comparisons, const std::string& scene,
-                     const std::string& channel) {
+AllFailing failingOf(const Place& comparisons, const std::string& scene, const std::string& channel) {
     AllFailing all;
     bool met = scene.empty();
-    for (const nlohmann::json& comparison : comparisons) {
-        const std::string name = comparison.value("scene", "");
+    for (const Place& comparison : comparisons.each()) {
+        const std::string name = comparison.textOr("scene", "");
         if (!scene.empty() && name != scene) continue;
         met = true;
-        for (const nlohmann::json& of : comparison.value("channels", nlohmann::json::array())) {
-            const std::string its = of.value("name", "");
-            if (of.value("verdict", "") != "fail" || (!channel.empty() && its != channel)) continue;
-            if (!of.contains("max") || !of["max"].is_number())
-                throw std::runtime_error(
-                    fmt::format("{}, {}: differs by NaN or infinity, which no rule can grant", name, its));
+        for (const Place& of : comparison.at("channels").each()) {
+            const std::string its = of.textOr("name", "");
+            if (of.textOr("verdict", "") != "fail" || (!channel.empty() && its != channel)) continue;
+            if (!of.has("max") || !of.at("max").json().is_number())
+                fail(fmt::format("{}, {}: differs by NaN or infinity, which no rule can grant", name, its));
             Failing& failing = all[{name, its}];
-            if (of["max"] < failing.max) continue;
-            failing = {of["max"], fmt::format("{} against {}", comparison.value("test", ""),
-                                              comparison.value("baseline", ""))};
+            if (of.at("max").number() < failing.max) continue;
+            failing = {of.at("max").number(), fmt::format("{} against {}", comparison.textOr("test", ""),
+                                                          comparison.textOr("baseline", ""))};
         }
-        if (const auto failures = comparison.value("failures", nlohmann::json::array());
-            !failures.empty() && channel.empty())
-            throw std::runtime_error(
-                fmt::format("{}: fails by what is no channel's and cannot be accepted: {}", name,
-                            failures.front().get<std::string>()));
+        if (!comparison.has("failures") || !channel.empty()) continue;
+        if (const std::vector<std::string> failures = comparison.at("failures").texts(); !failures.empty())
+            fail(fmt::format("{}: fails by what is no channel's and cannot be accepted: {}", name,
+                             failures.front()));
     }
-    if (!met) throw std::runtime_error(fmt::format("accept {}: the report has no such scene", scene));
+    if (!met) fail(fmt::format("accept {}: the report has no such scene", scene));
     if (all.empty())
-        throw std::runtime_error(fmt::format("accept{}{}: nothing fails there",
-                                             scene.empty() ? "" : " " + scene,
-                                             channel.empty() ? "" : " --channel " + channel));
+        fail(fmt::format("accept{}{}: nothing fails there", scene.empty() ? "" : " " + scene,
+                         channel.empty() ? "" : " --channel " + channel));
     return all;
+}
+
+AllFailing failingIn(const fs::path& where, const std::string& scene, const std::string& channel) {
+    const nlohmann::json json = named("accept " + where.string(), [&] {
+        nlohmann::json report = reportIn(where);
+        const Place top(report);
+        if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
+            fail("is no report that compare wrote; give its folder or report.json");
+        return report;
+    });
+    return failingOf(Place(json).at("comparisons"), scene, channel);
 }
 
 // An earlier file's rules stay, but for one that was accepted for the same before.
 Json rulesIn(const fs::path& file) {
     if (!fs::exists(file)) return {{"rules", Json::array()}};
     readRules(file);  // throws where they are none
-    std::ifstream stream(file, std::ios::binary);
-    return Json::parse(stream);
+    return orderedJsonIn(file);
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ int runAccept(const Options& options) {
     if (out.extension() != ".json")
         throw std::runtime_error(fmt::format("-o {}: rules are a .json file", out.string()));
     Json rules = rulesIn(out);
-    const AllFailing failing = failingOf(comparisonsOf(report), scene, options.accept.channel);
+    const AllFailing failing = failingIn(report, scene, options.accept.channel);
     for (const auto& [of, how] : failing) {
         const auto& [name, channel] = of;
         auto& all = rules["rules"];

@@ -12,6 +12,7 @@
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/run/version.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -125,7 +126,7 @@ private:
                 {"truth", measurer.fingerprint()},
                 {"lights", audit::lightsFileOf(subject.given)},
                 {"file", fileFacts(audit_.scene)},
-                {"settings", Json::parse(toJson(settings_))},
+                {"settings", parseOrderedJson(toJson(settings_))},
                 {"device", audit_.device.name},
                 {"driver", audit_.device.driver}};
     }

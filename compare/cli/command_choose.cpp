@@ -7,11 +7,12 @@
 #include "compare/files/scene_folders.h"
 #include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -26,10 +27,10 @@ bool isSettingsFile(const std::filesystem::path& out) {
 
 // Settings that an earlier choice left may be replaced, and nothing else without --force.
 void checkSettingsFile(const std::filesystem::path& file, bool force) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || force) return;
+    std::error_code ignored;
+    if (force || !std::filesystem::exists(file, ignored)) return;
     try {
-        settingsFromJson({std::istreambuf_iterator<char>(stream), {}});
+        settingsFromJson(textIn(file, json_bytes));
     } catch (const std::exception&) {
         throw std::runtime_error(
             fmt::format("-o {}: is there and holds no Settings; --force replaces it", file.string()));

@@ -10,6 +10,9 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -18,8 +21,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -65,15 +66,8 @@ std::vector<int> channelNumbers(const std::string& list) {
 }
 
 Settings settingsFromFile(const std::string& file) {
-    if (std::filesystem::is_directory(file)) throw std::runtime_error("--settings " + file + ": is a folder");
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream.is_open()) throw std::runtime_error("--settings " + file + ": cannot be read");
-    try {
-        return settingsFromJson(text);
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(file + ": " + error.what());
-    }
+    const std::string text = named("--settings " + file, [&] { return textIn(file, json_bytes); });
+    return named(file, [&] { return settingsFromJson(text); });
 }
 
 Settings settingsOf(const ParsedOptions& parsed) {

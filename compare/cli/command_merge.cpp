@@ -3,6 +3,7 @@
 #include "compare/cli/compare_many.h"
 #include "compare/cli/tradeoff_many.h"
 #include "compare/shards/merge.h"
+#include "shared/text/json_at.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,15 @@
 #include <stdexcept>
 
 namespace diptych::cli {
+
+namespace {
+
+Keep keepOf(const nlohmann::ordered_json& plan) {
+    const JsonAt asked = JsonAt(plan, "merge: the plan of the shards").at("asked");
+    return asked.has("keep") ? static_cast<Keep>(asked.at("keep").whole(0, 2)) : Keep::all;
+}
+
+}  // namespace
 
 int runMerge(const Options& options) {
     if (!options.scene_given)
@@ -29,7 +39,7 @@ int runMerge(const Options& options) {
                                              joined.manifest.items.size(),
                                              joined.report.errors.front().message));
     ReportOptions report;
-    report.keep = static_cast<Keep>(joined.manifest.plan.at("asked").value("keep", 0));
+    report.keep = keepOf(joined.manifest.plan);
     report.force = options.force;
     const Report summary = summaryOf(joined.report);
     report.since = sinceOf(options, summary, rowsOf(joined.report));
@@ -39,13 +49,7 @@ int runMerge(const Options& options) {
         sayErrors(summary.errors);
         return exitCodeOf(summary);
     }
-    // The first in a line of its own, which is what stderr has of exit code 2; all with -v.
-    for (std::size_t i = 1; i < joined.problems.size(); ++i) say(options, joined.problems[i]);
-    sayErrors({{"", fmt::format("{}{}; {} has what is there", joined.problems.front(),
-                                joined.problems.size() == 1
-                                    ? ""
-                                    : fmt::format(" (and {} more, see -v)", joined.problems.size() - 1),
-                                (folder / "index.html").string())}});
+    sayProblems(options, joined.problems, folder / "index.html");
     return 2;
 }
 

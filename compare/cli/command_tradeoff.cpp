@@ -18,6 +18,7 @@
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/depth_storage.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFram
             {"scene", scene},
             {"file", file},
             {"truth", fingerprint(references)},
-            {"settings", Json::parse(toJson(tradeoff.reference))},
+            {"settings", parseOrderedJson(toJson(tradeoff.reference))},
             {"cameras", options.cameras},
             {"exposure", references.exposure.factor},
             {"tonemap", references.exposure.tonemap},

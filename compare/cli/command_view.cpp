@@ -6,15 +6,19 @@
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/load.h"
-#include "shared/text/one_line.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -24,7 +28,7 @@ namespace diptych::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Place = JsonAt<nlohmann::json>;
 
 // What a report says of one comparison and one of its channels.
 struct ReportedView {
@@ -33,71 +37,71 @@ struct ReportedView {
     std::optional<Options::Pixel> pixel;
 };
 
-[[noreturn]] void failReport(const std::filesystem::path& file, const std::string& what) {
-    throw std::runtime_error(fmt::format("--report {}: {}", file.parent_path().string(), what));
+constexpr int most_side = 65536;  // pixels a side of a picture
+
+bool fails(const Place& of) {
+    return of.at("verdict").text() == "fail";
+}
+
+bool isOf(const Place& channel, int number) {
+    return channel.at("number").json() == number;
 }
 
 // Whether it fails, and by the channel asked for, if one was.
-bool failsHere(const Json& comparison, const Options& options) {
-    if (!options.debug_given) return comparison.at("verdict") == "fail";
-    return std::ranges::any_of(comparison.at("channels"), [&](const Json& channel) {
-        return channel.at("number") == options.shown && channel.at("verdict") == "fail";
+bool failsHere(const Place& comparison, const Options& options) {
+    if (!options.debug_given) return fails(comparison);
+    return std::ranges::any_of(comparison.at("channels").each(), [&](const Place& channel) {
+        return isOf(channel, options.shown) && fails(channel);
     });
 }
 
 // The first that fails, or else the first; of the scene, if one was given.
-const Json& chosenComparison(const Json& comparisons, const Options& options,
-                             const std::filesystem::path& file) {
-    const Json* first = nullptr;
-    for (const Json& comparison : comparisons) {
-        if (options.scene_given && comparison.at("scene") != options.scenes.front()) continue;
-        if (!first) first = &comparison;
+Place chosenComparison(const Place& comparisons, const Options& options) {
+    std::optional<Place> first;
+    for (const Place& comparison : comparisons.each()) {
+        if (options.scene_given && comparison.at("scene").text() != options.scenes.front()) continue;
+        if (!first) first = comparison;
         if (failsHere(comparison, options)) return comparison;
     }
     if (!first)
-        failReport(file, options.scene_given ? "has no comparison of " + options.scenes.front()
-                                             : "has no comparison");
+        fail(options.scene_given ? "has no comparison of " + options.scenes.front() : "has no comparison");
     return *first;
 }
 
 // The channel asked for; else the first that fails, or lit.
-const Json& chosenChannel(const Json& channels, const Options& options, const std::filesystem::path& file) {
-    const Json* best = nullptr;
-    for (const Json& channel : channels) {
-        if (options.debug_given && channel.at("number") == options.shown) return channel;
-        if (channel.at("verdict") == "fail" && (!best || best->at("verdict") != "fail")) best = &channel;
-        if (!best && channel.at("number") == 0) best = &channel;
+Place chosenChannel(const Place& channels, const Options& options) {
+    std::optional<Place> best;
+    for (const Place& channel : channels.each()) {
+        if (options.debug_given && isOf(channel, options.shown)) return channel;
+        if (fails(channel) && (!best || !fails(*best))) best = channel;
+        if (!best && isOf(channel, 0)) best = channel;
     }
-    if (options.debug_given)
-        failReport(file, fmt::format("has no channel {}", debugMode(options.shown).name));
-    if (!best) {
-        if (channels.empty()) failReport(file, "has no channels");
-        best = &channels.front();
-    }
-    return *best;
+    if (options.debug_given) fail(fmt::format("has no channel {}", debugMode(options.shown).name));
+    return best ? *best : channels[0];
 }
 
 ReportedView readReport(const Options& options) {
     const std::filesystem::path file = options.view.report / "report.json";
-    if (!isOurManifest(file))
-        failReport(file, "is no folder that compare has written: no report.json of ours is there");
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    try {
-        const Json report = Json::parse(text);
-        const Json& comparison = chosenComparison(report.at("comparisons"), options, file);
-        const Json& channel = chosenChannel(comparison.at("channels"), options, file);
-        ReportedView view{.command = comparison.at("command").get<std::vector<std::string>>(),
-                          .channel = channel.at("name").get<std::string>(),
-                          .pixel = {}};
+    return named("--report " + options.view.report.string(), [&] {
+        if (!isOurManifest(file))
+            fail("is no folder that compare has written: no report.json of ours is there");
+        static const std::set<std::string> wanted{"comparisons", "scene", "command", "channels",
+                                                  "number",      "name",  "verdict", "worst_pixel"};
+        const nlohmann::json report = parseJson(
+            textIn(file, json_bytes), [](int, const std::string& key) { return wanted.contains(key); });
+        const Place comparison = chosenComparison(Place(report).at("comparisons"), options);
+        const Place channel = chosenChannel(comparison.at("channels"), options);
+        ReportedView view{
+            .command = comparison.at("command").texts(), .channel = channel.at("name").text(), .pixel = {}};
         if (view.command.empty() || view.command.front() != "compare")
-            failReport(file, "is not of two paths: view shows those of compare");
-        if (const Json& worst = channel.at("worst_pixel"); worst.is_array() && worst.at(0).get<int>() >= 0)
-            view.pixel = Options::Pixel{worst.at(0).get<int>(), worst.at(1).get<int>()};
+            fail("is not of two paths: view shows those of compare");
+        if (!findDebugMode(view.channel)) channel.at("name").fail("is no channel");
+        if (const Place worst = channel.at("worst_pixel"); worst.json().is_array()) {
+            const int x = worst[0].whole(-1, most_side), y = worst[1].whole(-1, most_side);
+            if (x >= 0 && y >= 0) view.pixel = Options::Pixel{x, y};
+        }
         return view;
-    } catch (const Json::exception& error) {
-        failReport(file, oneLine(error.what()));
-    }
+    });
 }
 
 // The options that the report's comparison was made with, and what of this command line goes beyond them.

@@ -141,6 +141,16 @@ void sayErrors(const std::vector<SceneError>& errors) {
                  (errors.size() == 1 ? "" : fmt::format("; and {} more like it", errors.size() - 1)));
 }
 
+void sayProblems(const Options& options, const std::vector<std::string>& problems,
+                 const std::filesystem::path& page) {
+    for (std::size_t i = 1; i < problems.size(); ++i) say(options, problems[i]);
+    sayErrors(
+        {{"",
+          fmt::format("{}{}; {} has what is there", problems.front(),
+                      problems.size() == 1 ? "" : fmt::format(" (and {} more, see -v)", problems.size() - 1),
+                      page.string())}});
+}
+
 void printColored(const Options& options, const std::string& text) {
     printText(text, options.color);
 }

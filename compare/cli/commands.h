@@ -85,6 +85,10 @@ void say(const Options& options, const std::string& line);
 // With exit code 2 although something was done: the first of what was not, in one line on stderr, also with
 // --quiet.
 void sayErrors(const std::vector<SceneError>& errors);
+// What keeps a merge from being all of its command: the first in a line of its own, which is what stderr has
+// of exit code 2; all with -v.
+void sayProblems(const Options& options, const std::vector<std::string>& problems,
+                 const std::filesystem::path& page);
 
 // Prints on stdout what people read, in colour where --color or the terminal says so.
 void printColored(const Options& options, const std::string& text);

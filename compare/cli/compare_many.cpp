@@ -17,16 +17,16 @@
 #include "compare/shards/manifest.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
+#include "shared/text/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <future>
-#include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -98,7 +98,11 @@ private:
         for (const shards::Item* item : items_.mine) {
             if (kept_.find(nameOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
                 continue;
-            parts_.emplace(item, readPart(kept_.path(), item->folder));
+            try {
+                parts_.emplace(item, readPart(kept_.path(), item->folder));
+            } catch (const std::runtime_error& problem) {
+                note(options_, fmt::format("{}; the scene is compared again", problem.what()));
+            }
         }
         if (!parts_.empty())
             note(options_, fmt::format("{} of {} scenes were compared before the last run ended",
@@ -248,8 +252,13 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
 void showWhole(const Options& options, const WholeReport& whole, const Report& summary,
                const fs::path& folder, const Trends* since, bool all) {
     if (options.json) {
-        std::ifstream stream(folder / "report.json", std::ios::binary);
-        for (std::string line; std::getline(stream, line);) printText(line.append("\n"));
+        InputFile report(folder / "report.json");
+        std::string piece(1 << 16, '\0');
+        for (std::uint64_t left = report.size(); left > 0; left -= piece.size()) {
+            piece.resize(std::min<std::uint64_t>(left, piece.size()));
+            report.read(std::as_writable_bytes(std::span(piece)));
+            printText(piece);
+        }
     } else if (!options.quiet) {
         const std::string exposures = wholeExposureLine(whole);
         printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),

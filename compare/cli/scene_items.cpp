@@ -4,10 +4,12 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
 #include "compare/report/folders.h"
+#include "shared/image/limits.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -18,8 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string contentsHash(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return shards::hashOf({std::istreambuf_iterator<char>(stream), {}});
+    return named(file.string(), [&] { return shards::hashOf(textIn(file, limits::imageBytes())); });
 }
 
 Json fileStamp(const fs::path& file) {
@@ -32,7 +33,7 @@ Json fileStamp(const fs::path& file) {
 // What the command was asked for beside its scenes, by name.
 Json askedOf(const Options& options, const std::vector<Settings>& settings) {
     Json asked = Json::object();
-    const Json first = Json::parse(toJson(settings.front()));
+    const Json first = parseOrderedJson(toJson(settings.front()));
     for (const auto& [name, value] : first.items())
         if (name != "camera" && name != "time" && name != "path") asked[name] = value;
     asked["cameras"] = options.cameras;

@@ -14,13 +14,16 @@
 #include "compare/run/print.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -40,30 +43,37 @@ struct Swept {
     double fastest_ms = 0, fastest_flip = 0, best_ms = 0, best_flip = 0;
 };
 
-nlohmann::json tradeoffIn(const fs::path& folder) {
-    std::ifstream stream(folder / tradeoff::tradeoffManifest, std::ios::binary);
-    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-    if (!json.is_object() || json.value("software", "") != softwareName)
-        throw std::runtime_error(fmt::format("{}: is no tradeoff", folder.string()));
-    return json;
-}
+using Place = JsonAt<nlohmann::json>;
 
-Swept sweptOf(const shards::Item& item, const nlohmann::json& json) {
-    Swept swept{item.scene, item.folder, json.at("device").value("name", "")};
-    swept.rows = json.at("rows").size();
-    for (const auto& front : json.at("fronts"))
-        if (front.at("error") == "flip" && front.at("path").is_null()) swept.front = front.at("rows").size();
+Swept sweptOf(const shards::Item& item, const Place& json) {
+    Swept swept{item.scene, item.folder, json.at("device").textOr("name", "")};
+    const std::vector<Place> rows = json.at("rows").each();
+    swept.rows = rows.size();
+    for (const Place& front : json.at("fronts").each())
+        if (front.at("error").text() == "flip" && front.at("path").json().is_null())
+            swept.front = front.at("rows").size();
     bool first = true;
-    for (const auto& row : json.at("rows")) {
-        const double ms = row.at("ms").at("median");
-        const auto& error = row.at("errors").at("flip");
-        const double flip = error.is_number() ? error.get<double>() : 1e300;
+    for (const Place& row : rows) {
+        const double ms = row.at("ms").at("median").number();
+        const Place error = row.at("errors").at("flip");
+        const double flip = error.json().is_number() ? error.number() : 1e300;
         if (first || ms < swept.fastest_ms)
             std::tie(swept.fastest_ms, swept.fastest_flip) = std::pair(ms, flip);
         if (first || flip < swept.best_flip) std::tie(swept.best_ms, swept.best_flip) = std::pair(ms, flip);
         first = false;
     }
     return swept;
+}
+
+// Of the tradeoff of a scene below `root`; throws where it is none.
+Swept sweptIn(const fs::path& root, const shards::Item& item) {
+    const std::string name = item.folder + tradeoff::tradeoffManifest;
+    return named((root / name).string(), [&] {
+        const nlohmann::json json = parseJson(textBelow(root, name, json_bytes));
+        const Place top(json);
+        if (top.textOr("software", "") != softwareName) fail("is no tradeoff");
+        return sweptOf(item, top);
+    });
 }
 
 std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>& errors) {
@@ -119,10 +129,10 @@ std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>&
 std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
                       const std::vector<const shards::Item*>& done) {
     std::vector<Swept> swept;
-    for (const shards::Item* item : done) swept.push_back(sweptOf(*item, tradeoffIn(folder / item->folder)));
+    for (const shards::Item* item : done) swept.push_back(sweptIn(folder, *item));
     ListedFolder out(folder, tradeoffsManifest, options.force);
     out.put("index.html", pageOf(swept, manifest.errors));
-    nlohmann::ordered_json json = nlohmann::ordered_json::parse(textOf(manifest));
+    nlohmann::ordered_json json = parseOrderedJson(textOf(manifest));
     json["scenes"] = nlohmann::ordered_json::array();
     for (const Swept& one : swept)
         json["scenes"].push_back({{"scene", one.scene},
@@ -135,13 +145,18 @@ std::string writePage(const Options& options, const fs::path& folder, const shar
     return out.finish(std::move(json));
 }
 
-int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
-           const std::vector<const shards::Item*>& done) {
+void showMany(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+              const std::vector<const shards::Item*>& done) {
     const std::string text = writePage(options, folder, manifest, done);
     if (options.json)
         printText(text);
     else if (!options.quiet)
         printOut("{} scenes: {}\n", done.size(), (folder / "index.html").string());
+}
+
+int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
+           const std::vector<const shards::Item*>& done) {
+    showMany(options, folder, manifest, done);
     sayErrors(manifest.errors);
     return manifest.errors.empty() ? 0 : 2;
 }
@@ -194,27 +209,37 @@ int mergeTradeoffs(const Options& options) {
     std::vector<const shards::Item*> done;
     writePage(options, folder, chosen.manifest, {});
     for (const shards::Item& item : chosen.manifest.items) {
-        const auto from = chosen.folders.find(item.shard);
         if (const std::optional<SceneError> error = chosen.errorOf(item)) {
             chosen.manifest.errors.push_back(*error);
             continue;
         }
-        const fs::path scene = from->second / item.folder;
-        const nlohmann::json json = tradeoffIn(scene);
+        const fs::path& from = chosen.folders.at(item.shard);
+        const std::string manifest = item.folder + tradeoff::tradeoffManifest;
+        std::vector<std::string> names = listedIn(from / manifest);
+        std::erase(names, tradeoff::tradeoffManifest);
+        try {
+            sweptIn(from, item);
+            for (const std::string& name : names)
+                named((from / item.folder / name).string(), [&] { InputFile(from, item.folder + name); });
+        } catch (const std::runtime_error& problem) {
+            chosen.problems.push_back(
+                fmt::format("{}: the tradeoff is incomplete: {}", from.string(), problem.what()));
+            chosen.manifest.errors.push_back({item.scene, problem.what()});
+            continue;
+        }
         ListedFolder out(folder / item.folder, tradeoff::tradeoffManifest, options.force);
-        for (const std::string& name : listedIn(scene / tradeoff::tradeoffManifest)) {
-            if (name == tradeoff::tradeoffManifest) continue;
-            linkOrCopy(scene / name, out / name);
+        for (const std::string& name : names) {
+            linkOrCopy(from, item.folder + name, out / name);
             out.list(name);
         }
-        std::ifstream stream(scene / tradeoff::tradeoffManifest, std::ios::binary);
-        out.finish(std::string(std::istreambuf_iterator<char>(stream), {}));
+        out.finish(textBelow(from, manifest, json_bytes));
         done.push_back(&item);
     }
     const shards::Manifest manifest = chosen.manifest;
-    const int code = finish(options, folder, manifest, done);
-    for (const std::string& problem : chosen.problems) note(options, problem);
-    return chosen.problems.empty() ? code : 2;
+    if (chosen.problems.empty()) return finish(options, folder, manifest, done);
+    showMany(options, folder, manifest, done);
+    sayProblems(options, chosen.problems, folder / "index.html");
+    return 2;
 }
 
 }  // namespace diptych::cli

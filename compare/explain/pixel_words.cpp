@@ -3,6 +3,7 @@
 
 #include "compare/files/frame_json.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -413,7 +414,8 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
             {"size", {story.size.width, story.size.height}},
             {"baseline", story.names[0]},
             {"test", story.names[1]},
-            {"settings", {Json::parse(toJson(story.settings[0])), Json::parse(toJson(story.settings[1]))}},
+            {"settings",
+             {parseOrderedJson(toJson(story.settings[0])), parseOrderedJson(toJson(story.settings[1]))}},
             {"background", !story.shown},
             {"blended", story.blended},
             {"material",

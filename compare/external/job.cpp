@@ -10,6 +10,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
@@ -159,7 +160,7 @@ public:
                           {"origin", "top left"},
                           {"primaries", "rec709"},
                           {"transfer", "linear"}}},
-                        {"settings", Json::parse(toJson(settings_))}};
+                        {"settings", parseOrderedJson(toJson(settings_))}};
         job.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
         writeFile(job.file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         return job;

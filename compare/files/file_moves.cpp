@@ -4,6 +4,7 @@
 #include "compare/files/open_folder.h"
 #include "compare/files/our_files.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -109,7 +110,7 @@ std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
 FileMoves readMoves(const OpenFolder& begun) {
     const nlohmann::json json = [&] {
         try {
-            return nlohmann::json::parse(begun.read(listName, mostOfList), nullptr, false);
+            return parseJson(begun.read(listName, mostOfList));
         } catch (const std::runtime_error&) {
             return nlohmann::json();
         }

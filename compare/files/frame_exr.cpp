@@ -10,6 +10,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
 #include "shared/text/json.h"
+#include "shared/text/json_at.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -39,7 +40,8 @@ void readOrigin(const PictureFile& file, Frame& frame) {
     frame.origin.driver = valueOr(a, "driver");
     frame.origin.commit = valueOr(a, "commit");
     frame.settings = settingsFromJson(a.at("settings"));
-    if (a.contains("camera")) frame.camera = cameraFromJson(parseJson(a.at("camera")));
+    if (a.contains("camera"))
+        frame.camera = cameraFrom(JsonAt<nlohmann::json>(parseJson(a.at("camera")), "camera"));
 }
 
 bool isOurs(const PictureFile& file) {

@@ -2,6 +2,7 @@
 #include "compare/files/frame_json.h"
 
 #include "shared/frame/debug_modes.h"
+#include "shared/text/json.h"
 
 #include <algorithm>
 #include <array>
@@ -23,23 +24,22 @@ Json jsonOf(const FrameCamera& camera) {
             {"ymag", camera.ymag},     {"near", camera.near},     {"far", finiteOrNull(camera.far)}};
 }
 
-FrameCamera cameraFromJson(const nlohmann::json& json) {
+FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json) {
     FrameCamera camera;
-    camera.name = json.value("name", "");
-    camera.choice = json.value("choice", "");
+    camera.name = json.textOr("name", "");
+    camera.choice = json.textOr("choice", "");
     const auto vector = [&](const char* key, double(&out)[3]) {
-        const auto values = json.at(key).get<std::array<double, 3>>();
-        std::copy(values.begin(), values.end(), out);
+        for (std::size_t i = 0; i < 3; ++i) out[i] = json.at(key)[i].number();
     };
     vector("eye", camera.eye);
     vector("target", camera.target);
     vector("up", camera.up);
-    camera.fov_degrees = json.value("fov_degrees", 0.0);
-    camera.ymag = json.value("ymag", 0.0);
-    camera.near = json.value("near", 0.0);
-    const auto far = json.find("far");
-    camera.far =
-        far != json.end() && far->is_number() ? far->get<double>() : std::numeric_limits<double>::infinity();
+    camera.fov_degrees = json.numberOr("fov_degrees", 0);
+    camera.ymag = json.numberOr("ymag", 0);
+    camera.near = json.numberOr("near", 0);
+    camera.far = json.has("far") && json.at("far").json().is_number()
+                     ? json.at("far").number()
+                     : std::numeric_limits<double>::infinity();
     return camera;
 }
 
@@ -71,7 +71,7 @@ Json jsonOf(const Frame& frame) {
         {"scene", frame.scene},
         {"camera", jsonOf(frame.camera)},
         {"size", {frame.settings.size.width, frame.settings.size.height}},
-        {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
+        {"settings", isUnknown ? Json(nullptr) : parseOrderedJson(toJson(frame.settings))},
         {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
         {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
         {"made_in_ms", frame.made_in_ms},

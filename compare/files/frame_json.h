@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/frame/frame.h"
+#include "shared/text/json_at.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,9 +12,9 @@ namespace diptych {
 // Everything but the pixels, as in the "frames" of a report.
 nlohmann::ordered_json jsonOf(const Frame& frame);
 nlohmann::ordered_json jsonOf(const FrameCamera& camera);
-// Without "far" the camera has no far plane. Throws nlohmann::json::exception where a vector is missing or of
-// another size.
-FrameCamera cameraFromJson(const nlohmann::json& json);
+// Without "far" the camera has no far plane. Throws std::runtime_error naming the place where a vector is
+// missing or too short.
+FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json);
 
 // JSON has no infinity and no NaN: null stands for both.
 nlohmann::ordered_json finiteOrNull(double value);

@@ -4,12 +4,12 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace diptych {
@@ -26,9 +26,12 @@ std::string pageOfJson(const Json& json) {
 }
 
 Json readJson(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const Json json = Json::parse(stream, nullptr, false);
-    return json.is_object() ? json : Json();
+    try {
+        Json json = orderedJsonIn(file);
+        return json.is_object() ? json : Json();
+    } catch (const std::runtime_error&) {  // none, or cut short
+        return {};
+    }
 }
 
 OpenFolder made(const fs::path& folder) {

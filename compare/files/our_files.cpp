@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/our_files.h"
 
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <span>
+#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -13,29 +17,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file's JSON; null if it was not written by diptych.
+// What marks the file as ours, and what it lists; null if it was not written by diptych.
 nlohmann::json ourJson(const fs::path& file) {
-    std::ifstream stream(file);
-    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-    const auto says = [&](const char* key, const auto& value) {
-        return json.contains(key) && json[key] == value;
-    };
-    return json.is_object() && says("software", softwareName) && says("schema", 1) ? json : nlohmann::json();
+    try {
+        nlohmann::json json = jsonIn(file, [](int depth, const std::string& key) {
+            return depth > 1 || key == "software" || key == "schema" || key == "files";
+        });
+        const auto says = [&](const char* key, const auto& value) {
+            return json.contains(key) && json[key] == value;
+        };
+        if (json.is_object() && says("software", softwareName) && says("schema", 1)) return json;
+    } catch (const std::runtime_error&) {  // whatever it is
+    }
+    return {};
 }
+
+// Ours are far shorter; a file system takes no longer ones.
+constexpr std::size_t longest_name = 255, longest_path = 1024;  // bytes
 
 bool isPlainFile(const fs::path& name) {
     constexpr const char* endings[] = {".png", ".exr", ".html",      ".xml",       ".json",
                                        ".csv", ".svg", ".values.js", ".section.js"};
-    return name.filename() == name && std::ranges::any_of(endings, [&](const char* ending) {
-               return name.native().ends_with(ending) && !name.stem().empty() && name.native().front() != '.';
-           });
+    return name.filename() == name &&
+           std::ranges::any_of(endings,
+                               [&](const char* ending) {
+                                   return name.native().ends_with(ending) && !name.stem().empty() &&
+                                          name.native().front() != '.';
+                               }) &&
+           std::ranges::none_of(name.native(), [](unsigned char c) { return std::iscntrl(c); });
 }
 
 // As nameOfFolder() in compare/report makes them, and "1" of several Frames.
 bool isPlainFolder(const fs::path& name) {
-    return !name.empty() && std::ranges::all_of(name.native(), [](unsigned char c) {
-        return std::isalnum(c) || c == '-' || c == '_';
-    });
+    return !name.empty() && name.native().size() <= longest_name &&
+           std::ranges::all_of(name.native(),
+                               [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
 }
 
 }  // namespace
@@ -44,10 +60,14 @@ bool isPlainFolder(const fs::path& name) {
 // chunk (size, type, keyword, text), byte for byte as they are written.
 bool isOurPicture(const fs::path& file) {
     using namespace std::string_literals;
-    std::string head(1 << 16, '\0');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string head;
+    try {
+        InputFile picture(file);
+        head.resize(std::min<std::uint64_t>(picture.size(), 1 << 16));
+        picture.read(std::as_writable_bytes(std::span(head)));
+    } catch (const std::runtime_error&) {
+        return false;
+    }
     const auto says = [&](const std::string& magic, const std::string& software) {
         return head.starts_with(magic) && head.find(software + softwareName) != std::string::npos;
     };
@@ -61,6 +81,7 @@ bool isOurManifest(const fs::path& file) {
 
 bool isOurName(const fs::path& name) {
     const fs::path folders = name.parent_path();
+    if (name.native().size() > longest_path || name.filename().native().size() > longest_name) return false;
     return isPlainFile(name.filename()) && std::ranges::all_of(folders, isPlainFolder);
 }
 

@@ -7,8 +7,11 @@
 #include "compare/files/our_files.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/text/input_file.h"
+#include "shared/text/named.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -17,6 +20,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -31,6 +35,30 @@ fs::path nameOf(const fs::path& folder) {
     fs::path path = fs::absolute(folder).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
     return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
+}
+
+void copy(InputFile& from, const fs::path& to) {
+    const int file = ::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) throw std::runtime_error(writingFailed(finalName(to), errno));
+    std::vector<std::byte> piece(std::size_t(1) << 20);
+    int error = 0;
+    for (std::uint64_t left = from.size(); left > 0 && error == 0;) {
+        const std::span<std::byte> bytes(piece.data(), std::min<std::uint64_t>(left, piece.size()));
+        try {
+            from.read(bytes);
+        } catch (...) {  // cut short meanwhile
+            ::close(file);
+            throw;
+        }
+        left -= bytes.size();
+        for (std::size_t at = 0; at < bytes.size() && error == 0;) {
+            const ssize_t put = ::write(file, bytes.data() + at, bytes.size() - at);
+            if (put > 0) at += static_cast<std::size_t>(put);
+            if (put < 0 && errno != EINTR) error = errno;
+        }
+    }
+    if (::close(file) != 0 && error == 0) error = errno;
+    if (error != 0) throw std::runtime_error(writingFailed(finalName(to), error));
 }
 
 // Whether the folder holds nothing but the regular files `ours`, the folders that they need, and `aside`.
@@ -149,12 +177,14 @@ void OutputFolder::put(const std::vector<std::string>& files,
     moveFiles(folder_, *temporary_, {files, old});
 }
 
-void linkOrCopy(const fs::path& from, const fs::path& to) {
-    const auto held = holdTemporaries();  // or an interruption could not remove the folder
-    std::error_code error;
-    fs::create_hard_link(from, to, error);
-    if (error) fs::copy_file(from, to, error);
-    if (error) throw std::runtime_error(writingFailed(finalName(to), error.value()));
+void linkOrCopy(const fs::path& root, const std::string& name, const fs::path& to) {
+    named((root / name).string(), [&] {
+        const auto held = holdTemporaries();  // or an interruption could not remove the folder
+        InputFile from(root, name);
+        // By what was opened: nothing else can have taken its place.
+        const std::string opened = fmt::format("/proc/self/fd/{}", from.descriptor());
+        if (::linkat(AT_FDCWD, opened.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) != 0) copy(from, to);
+    });
 }
 
 void finishOutput(const fs::path& folder) {

@@ -42,9 +42,9 @@ private:
     std::unique_ptr<Temporary> temporary_;
 };
 
-// Gives a finished file a second name, which shares its bytes where the file system has hard links, else
-// copies it. Throws std::runtime_error naming the file.
-void linkOrCopy(const std::filesystem::path& from, const std::filesystem::path& to);
+// Gives the finished file `name` below `root` a second name, which shares its bytes where the file system has
+// hard links, else copies it. No link below `root` is followed. Throws std::runtime_error naming the file.
+void linkOrCopy(const std::filesystem::path& root, const std::string& name, const std::filesystem::path& to);
 
 // Finishes the moves of a program that was killed in put(), if there are any.
 void finishOutput(const std::filesystem::path& folder);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/scene_folders.h"
 
+#include "shared/text/input_file.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -9,14 +11,18 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A list of half a million scenes.
+constexpr std::uint64_t most_list_bytes = std::uint64_t(64) << 20;
+constexpr std::size_t longest_line = 4096;  // as a path, PATH_MAX
 
 bool isSceneFile(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -38,7 +44,7 @@ std::vector<std::string> sceneFilesIn(const std::string& folder) {
         if (!isHidden(at->path()) && isSceneFile(at->path()) && at->is_regular_file(ignored))
             files.push_back(at->path().generic_string());
     }
-    if (error) throw std::runtime_error(fmt::format("{}: {}", folder, error.message()));
+    if (error) throw std::runtime_error(fmt::format("{}: {}", oneLine(folder), error.message()));
     std::ranges::sort(files);
     return files;
 }
@@ -135,7 +141,7 @@ private:
     }
 
     void addAll(const std::vector<std::string>& files, const std::string& word, const char* where_none) {
-        if (files.empty()) throw std::runtime_error(fmt::format("{}: {}", word, where_none));
+        if (files.empty()) throw std::runtime_error(fmt::format("{}: {}", oneLine(word), where_none));
         for (const std::string& file : files) addOne(file);
     }
 
@@ -154,20 +160,23 @@ private:
     void addList(const std::string& name) {
         const std::string identity = fs::weakly_canonical(name).string();
         if (!open_.insert(identity).second)
-            throw std::runtime_error(fmt::format("@{}: is a list that contains itself", name));
-        std::ifstream stream(name);
-        if (!stream || fs::is_directory(name))
-            throw std::runtime_error(fmt::format("@{}: a list of scenes, which cannot be read", name));
+            throw std::runtime_error(fmt::format("@{}: is a list that contains itself", oneLine(name)));
+        std::istringstream stream(
+            diptych::named("@" + oneLine(name), [&] { return textIn(name, most_list_bytes); }));
         const std::size_t before = scenes.size();
         bool any = false;
-        for (std::string line; std::getline(stream, line);)
+        for (std::string line; std::getline(stream, line);) {
+            if (line.size() > longest_line)
+                throw std::runtime_error(fmt::format("@{}: has a line of {} bytes: at most {}", oneLine(name),
+                                                     line.size(), longest_line));
             if (const std::string word = wordOf(line, fs::path(name).parent_path()); !word.empty()) {
                 add(word);
                 any = true;
             }
+        }
         open_.erase(identity);
         if (!any && scenes.size() == before)
-            throw std::runtime_error(fmt::format("@{}: names no scene; a line each", name));
+            throw std::runtime_error(fmt::format("@{}: names no scene; a line each", oneLine(name)));
     }
 
     std::set<std::string> seen_, open_;

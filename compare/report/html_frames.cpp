@@ -2,6 +2,7 @@
 // Times, memory, counters, Settings and camera of both Frames, side by side.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -98,7 +99,7 @@ std::string costs(const Frame& a, const Frame& b) {
 
 std::string settings(const Frame& a, const Frame& b) {
     using Json = nlohmann::ordered_json;
-    const Json left = Json::parse(toJson(a.settings)), right = Json::parse(toJson(b.settings));
+    const Json left = parseOrderedJson(toJson(a.settings)), right = parseOrderedJson(toJson(b.settings));
     std::string out = fmt::format(
         "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all of them; what "
         "differs is "

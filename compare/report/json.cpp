@@ -4,6 +4,7 @@
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/report/trends.h"
+#include "shared/text/json.h"
 
 namespace diptych {
 namespace {
@@ -156,7 +157,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"failures", comparison.failures},
         {"notes", comparison.notes},
         {"channels", channels},
-        {"explanation", comparison.explained ? Json::parse(comparison.explained->json) : Json(nullptr)},
+        {"explanation", comparison.explained ? parseOrderedJson(comparison.explained->json) : Json(nullptr)},
         {"marks", checks},
         {"marks_found", found}};
 }

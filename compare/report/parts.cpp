@@ -8,17 +8,23 @@
 #include "compare/report/exposure_line.h"
 #include "compare/report/html.h"
 #include "compare/report/json.h"
+#include "compare/report/policy.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -30,10 +36,15 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+using Place = JsonAt<nlohmann::json>;
+
 constexpr const char* partFile = "part.json";
 // Arrays of report.json and the suites of junit.xml, as they stand there.
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
+
+// Of pixels, checks and tests: sums of several stay exact in 64 bits and in a double.
+constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 std::string partText(const Json& json) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -45,23 +56,24 @@ std::string_view kept(const std::string& name) {
     return *names.insert(name).first;
 }
 
+constexpr const char* summarySettings[] = {"camera", "time", "size", "gbuffer"};
+
 Json summaryOf(const Frame& frame) {
     Json settings = Json::object();
-    for (const char* option : {"camera", "time", "size", "gbuffer"})
-        settings[option] = frame.settings.valueOf(option);
+    for (const char* option : summarySettings) settings[option] = frame.settings.valueOf(option);
     return {{"name", frame.name},   {"scene", frame.scene},          {"camera", frame.camera.name},
             {"settings", settings}, {"device", frame.origin.device}, {"notes", frame.notes}};
 }
 
-Frame frameFrom(const nlohmann::json& json) {
+Frame frameFrom(const Place& json) {
     Frame frame;
-    frame.name = json.at("name");
-    frame.scene = json.at("scene");
-    frame.camera.name = json.at("camera");
-    frame.origin.device = json.at("device");
-    for (const auto& [option, value] : json.at("settings").items())
-        frame.settings.set(option, value.get<std::string>());
-    frame.notes = json.at("notes").get<std::vector<std::string>>();
+    frame.name = json.at("name").text();
+    frame.scene = json.at("scene").text();
+    frame.camera.name = json.at("camera").text();
+    frame.origin.device = json.at("device").text();
+    for (const char* option : summarySettings)
+        frame.settings.set(option, json.at("settings").at(option).text());
+    frame.notes = json.at("notes").texts();
     return frame;
 }
 
@@ -81,28 +93,34 @@ Json summaryOf(const Comparison& comparison) {
             {"checks", checks}};
 }
 
-Comparison comparisonFrom(const nlohmann::json& json) {
+Verdict verdictFrom(const Place& json) {
+    const auto found = std::ranges::find(verdicts, json.text(), [](Verdict v) { return nameOf(v); });
+    if (found == std::end(verdicts)) json.fail("is no verdict");
+    return *found;
+}
+
+Comparison comparisonFrom(const Place& json, std::size_t frames) {
     Comparison comparison;
-    comparison.baseline = json.at("frames").at(0);
-    comparison.test = json.at("frames").at(1);
-    comparison.failures = json.at("failures").get<std::vector<std::string>>();
-    comparison.notes = json.at("notes").get<std::vector<std::string>>();
-    comparison.emptiness = json.at("emptiness");
-    for (const auto& c : json.at("channels")) {
+    comparison.baseline = json.at("frames")[0].index(frames);
+    comparison.test = json.at("frames")[1].index(frames);
+    comparison.failures = json.at("failures").texts();
+    comparison.notes = json.at("notes").texts();
+    comparison.emptiness = json.at("emptiness").text();
+    for (const Place& c : json.at("channels").each()) {
         ChannelDiff& channel = comparison.channels.emplace_back();
-        channel.mode = &debugMode(c.at(0).get<int>());
-        for (const Verdict verdict : verdicts)
-            if (nameOf(verdict) == c.at(1).get<std::string>()) channel.verdict = verdict;
-        channel.reason = c.at(2);
-        channel.warning = c.at(3);
+        channel.mode = &debugModeFrom(c[0]);
+        channel.verdict = verdictFrom(c[1]);
+        channel.reason = c[2].text();
+        channel.warning = c[3].text();
     }
-    for (const auto& check : json.at("checks"))
-        comparison.visual_checks.push_back({kept(check.at(0).get<std::string>()), check.at(1), {}});
+    for (const Place& check : json.at("checks").each())
+        comparison.visual_checks.push_back(
+            {kept(check[0].text()), check[1].whole<std::uint64_t>(0, most_counted), {}});
     return comparison;
 }
 
-ReportDevice deviceFrom(const nlohmann::json& json) {
-    return {json.at("name"), json.at("driver"), json.at("type")};
+ReportDevice deviceFrom(const Place& json) {
+    return {json.at("name").text(), json.at("driver").text(), json.at("type").text()};
 }
 
 Json jsonOf(const ReportPart& part) {
@@ -134,44 +152,73 @@ Json jsonOf(const ReportPart& part) {
             {"junit", {part.junit.tests, part.junit.failures, part.junit.seconds}}};
 }
 
-ReportPart partFrom(const nlohmann::json& json) {
+// Files that the part names, each once and by one of our own names in the scene's folder.
+std::vector<std::string> namesFrom(const Place& json, const std::string& scene_folder,
+                                   std::set<std::string>& taken) {
+    for (const Place& place : json.each()) {
+        const std::string& name = place.text();
+        if (!isOurName(name) || !name.starts_with(scene_folder))
+            place.fail(
+                fmt::format("\"{}\" is no file of a report's folder \"{}\"", oneLine(name), scene_folder));
+        if (!taken.insert(name).second) place.fail(fmt::format("\"{}\" stands twice", name));
+    }
+    return json.texts();
+}
+
+// As many as `count`, one for each `of`.
+template <class List>
+void checkCount(const Place& json, const char* key, const List& list, std::size_t count, const char* of) {
+    if (list.size() != count)
+        json.at(key).fail(fmt::format("has {} elements, and there are {} {}", list.size(), count, of));
+}
+
+// Everything that is an index or belongs to a comparison is checked here: what joins parts relies on it.
+ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     ReportPart part;
+    part.scene_folder = scene_folder;
     Report& report = part.report;
     report.device = deviceFrom(json.at("device"));
     report.against = deviceFrom(json.at("against"));
-    for (const auto& frame : json.at("frames")) report.frames.push_back(frameFrom(frame));
-    for (const auto& comparison : json.at("comparisons"))
-        report.comparisons.push_back(comparisonFrom(comparison));
-    for (const auto& closer : json.at("closer")) {
+    for (const Place& frame : json.at("frames").each()) report.frames.push_back(frameFrom(frame));
+    const std::size_t frames = report.frames.size();
+    for (const Place& comparison : json.at("comparisons").each())
+        report.comparisons.push_back(comparisonFrom(comparison, frames));
+    for (const Place& closer : json.at("closer").each()) {
         CloserPath& of = report.closer_paths.emplace_back();
-        of.reference = closer.at(0);
-        of.paths = {closer.at(1).get<std::size_t>(), closer.at(2).get<std::size_t>()};
+        of.reference = closer[0].index(frames);
+        of.paths = {closer[1].index(frames), closer[2].index(frames)};
     }
-    report.diff_ms = json.at("compare_ms");
-    part.encode_ms = json.at("encode_ms");
-    const auto strings = [&](const char* key) { return json.at(key).get<std::vector<std::string>>(); };
-    part.tables = strings("tables");
-    part.closer_tables = strings("closer_tables");
-    part.closer_boxes = strings("closer_boxes");
-    for (const auto& row : json.at("rows")) part.rows.push_back(indexRowFromJson(row));
-    for (const auto& exposure : json.at("exposures")) {
+    report.diff_ms = json.at("compare_ms").number();
+    part.encode_ms = json.at("encode_ms").number();
+    part.tables = json.at("tables").texts();
+    part.closer_tables = json.at("closer_tables").texts();
+    part.closer_boxes = json.at("closer_boxes").texts();
+    for (const Place& row : json.at("rows").each()) part.rows.push_back(indexRowFrom(row));
+    for (const Place& exposure : json.at("exposures").each()) {
         Exposure& of = part.exposures.emplace_back();
-        of.factor = exposure.at(0);
-        of.because = exposure.at(1);
+        of.factor = exposure[0].number();
+        of.because = exposure[1].text();
     }
-    part.sections = strings("sections");
-    part.files = strings("files");
-    part.junit.tests = json.at("junit").at(0);
-    part.junit.failures = json.at("junit").at(1);
-    part.junit.seconds = json.at("junit").at(2);
+    const std::vector<std::string> texts = part.texts();
+    std::set<std::string> taken(texts.begin(), texts.end());
+    part.sections = namesFrom(json.at("sections"), scene_folder, taken);
+    part.files = namesFrom(json.at("files"), scene_folder, taken);
+    part.junit.tests = json.at("junit")[0].whole<std::size_t>(0, most_counted);
+    part.junit.failures = json.at("junit")[1].whole<std::size_t>(0, most_counted);
+    part.junit.seconds = json.at("junit")[2].number();
+    const std::size_t comparisons = report.comparisons.size(), closer = report.closer_paths.size();
+    checkCount(json, "tables", part.tables, comparisons, "comparisons");
+    checkCount(json, "rows", part.rows, comparisons, "comparisons");
+    checkCount(json, "exposures", part.exposures, comparisons, "comparisons");
+    checkCount(json, "sections", part.sections, comparisons, "comparisons");
+    checkCount(json, "closer_tables", part.closer_tables, closer, "paths compared with a reference");
+    checkCount(json, "closer_boxes", part.closer_boxes, closer, "paths compared with a reference");
     return part;
 }
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream.is_open()) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
-    return text;
+// A text of a part.
+std::string readText(const fs::path& root, const std::string& name) {
+    return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
 }
 
 void makeFolders(const fs::path& root, const std::vector<std::string>& files) {
@@ -189,16 +236,33 @@ void replaceAll(std::string& text, std::string_view what, const std::string& by)
 }
 
 // The section that a part's script holds.
-std::string sectionIn(const fs::path& script) {
-    const std::string text = readText(script);
-    const std::size_t open = text.find('('), close = text.rfind(')');
-    const nlohmann::json words =
-        open < close && close != text.npos
-            ? nlohmann::json::parse("[" + text.substr(open + 1, close - open - 1) + "]", nullptr, false)
-            : nlohmann::json();
-    if (!words.is_array() || words.size() != 2 || !words[1].is_string())
-        throw std::runtime_error(fmt::format("{}: is no section of a report", script.string()));
-    return words[1];
+std::string sectionIn(const fs::path& root, const std::string& script) {
+    return named((root / script).string(), [&]() -> std::string {
+        const std::string text = textBelow(root, script, json_bytes);
+        const std::size_t open = text.find('('), close = text.rfind(')');
+        if (open >= close || close == text.npos) fail("is no section of a report");
+        const nlohmann::json words = parseJson("[" + text.substr(open + 1, close - open - 1) + "]");
+        if (words.size() != 2 || !words[1].is_string()) fail("is no section of a report");
+        return words[1];
+    });
+}
+
+// Whether what the part consists of is there and is what a report is put together of: from here on nothing
+// in it ends a command.
+void checkFiles(const fs::path& root, const ReportPart& part) {
+    for (const std::string& name : part.files)
+        named((root / name).string(), [&] {
+            // The joined page runs these, as data alone.
+            if (name.ends_with(".js") && !isDataScript(textBelow(root, name, json_bytes)))
+                fail("is a script that holds more than data");
+            return InputFile(root, name).size();
+        });
+    for (const std::string& name : part.sections) sectionIn(root, name);
+    for (const char* text : partTexts) {
+        const std::string name = part.scene_folder + text;
+        const std::string inner = readText(root, name);
+        if (name.ends_with(".json")) named((root / name).string(), [&] { checkJson("[" + inner + "]"); });
+    }
 }
 
 // The parts' devices, in their order.
@@ -303,9 +367,8 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     whole.report = report;
     const Json json = jsonOf(whole);
     writeFile(root / (part.scene_folder + partFile), partText(json));
-    ReportPart read = partFrom(json);
-    read.scene_folder = part.scene_folder;
-    return read;
+    const nlohmann::json written = json;
+    return partFrom(Place(written), part.scene_folder);
 }
 
 bool isPartThere(const fs::path& root, const std::string& scene_folder) {
@@ -313,15 +376,12 @@ bool isPartThere(const fs::path& root, const std::string& scene_folder) {
 }
 
 ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
-    const fs::path file = root / (scene_folder + partFile);
-    try {
-        ReportPart part = partFrom(nlohmann::json::parse(readText(file)));
-        part.scene_folder = scene_folder;
-        return part;
-    } catch (const nlohmann::json::exception&) {
-        throw std::runtime_error(
-            fmt::format("{}: is no part of a report, or of another version", file.string()));
-    }
+    const std::string name = scene_folder + partFile;
+    ReportPart part = named((root / name).string(), [&] {
+        return partFrom(Place(parseJson(textBelow(root, name, json_bytes))), scene_folder);
+    });
+    checkFiles(root, part);
+    return part;
 }
 
 std::vector<IndexRow> rowsOf(const WholeReport& whole) {
@@ -379,7 +439,7 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         totals.seconds += part.junit.seconds;
     }
     texts.section = [&](std::size_t index) {
-        std::string text = sectionIn(places[index].part->root / places[index].section);
+        std::string text = sectionIn(places[index].part->root, places[index].section);
         replaceAll(text, numberLater, layout.ids[index]);
         replaceAll(text, titleLater, sectionTitle(summary, layout, index));
         return text;
@@ -387,7 +447,7 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
     // A text of each part, one after the other; `inner`: as it stands in there.
     const auto each = [&](std::size_t text, const std::function<void(std::string)>& give) {
         for (const PlacedPart& placed : whole.parts)
-            give(readText(placed.root / (placed.part.scene_folder + partTexts[text])));
+            give(readText(placed.root, placed.part.scene_folder + partTexts[text]));
     };
     const auto array = [&](std::size_t text) {
         return
@@ -402,7 +462,7 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         for (const std::vector<std::string>& names :
              {placed.part.files, placed.part.sections, placed.part.texts()})
             for (const std::string& name : names)
-                if (listed.contains(name)) linkOrCopy(placed.root / name, folder / name);
+                if (listed.contains(name)) linkOrCopy(placed.root, name, folder / name);
     const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
         AtomicFile file(folder / name);
         make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });

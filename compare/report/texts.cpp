@@ -2,6 +2,8 @@
 #include "compare/report/texts.h"
 
 #include "compare/files/frame_json.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/text/json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +35,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
 // The first of the causes, which are ranked.
 std::string firstCause(const Comparison& comparison) {
     if (!comparison.explained) return {};
-    const Json json = Json::parse(comparison.explained->json, nullptr, false);
+    const Json json = parseOrderedJson(comparison.explained->json);
     if (!json.is_object() || !json.contains("causes") || json["causes"].empty()) return {};
     return json["causes"][0].value("name", "");
 }
@@ -87,20 +89,26 @@ Json jsonOf(const IndexRow& row) {
             {"channels", channels}};
 }
 
-IndexRow indexRowFromJson(const nlohmann::json& json) {
+const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& number) {
+    const DebugMode* mode = findDebugMode(std::to_string(number.whole(0, 1 << 20)));
+    if (!mode) number.fail("is no channel's number");
+    return *mode;
+}
+
+IndexRow indexRowFrom(const JsonAt<nlohmann::json>& json) {
     IndexRow row;
-    if (!json.at("worst").is_null()) row.worst = &debugMode(json.at("worst").get<int>());
-    row.used = json.at("used");
-    row.left_ms = json.at("ms").at(0);
-    row.right_ms = json.at("ms").at(1);
-    row.left_timed = json.at("timed").at(0);
-    row.right_timed = json.at("timed").at(1);
-    row.cause = json.at("cause");
-    row.device = json.at("device");
-    row.key = json.at("key");
-    for (const auto& c : json.at("channels"))
-        row.channels.push_back(
-            {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), c.at(6), c.at(7), c.at(8), c.at(9)});
+    if (!json.at("worst").json().is_null()) row.worst = &debugModeFrom(json.at("worst"));
+    row.used = json.at("used").number();
+    row.left_ms = json.at("ms")[0].number();
+    row.right_ms = json.at("ms")[1].number();
+    row.left_timed = json.at("timed")[0].flag();
+    row.right_timed = json.at("timed")[1].flag();
+    row.cause = json.at("cause").text();
+    row.device = json.at("device").text();
+    row.key = json.at("key").text();
+    for (const auto& c : json.at("channels").each())
+        row.channels.push_back({c[0].text(), c[1].text(), c[2].number(), c[3].number(), c[4].number(),
+                                c[5].number(), c[6].number(), c[7].number(), c[8].number(), c[9].number()});
     return row;
 }
 

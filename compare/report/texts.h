@@ -5,6 +5,7 @@
 
 #include "compare/report/layout.h"
 #include "compare/verdict/comparison.h"
+#include "shared/text/json_at.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,7 +37,9 @@ struct IndexRow {
     std::vector<IndexChannel> channels;  // that were compared
 };
 nlohmann::ordered_json jsonOf(const IndexRow& row);
-IndexRow indexRowFromJson(const nlohmann::json& json);  // throws nlohmann::json::exception
+// Of a file's. Throw std::runtime_error naming the place.
+IndexRow indexRowFrom(const JsonAt<nlohmann::json>& json);
+const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& number);
 
 // Of junit.xml.
 struct JunitSuite {

@@ -5,13 +5,16 @@
 #include "compare/files/our_files.h"
 #include "compare/page/text.h"
 #include "compare/report/titles.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -21,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using Place = JsonAt<nlohmann::json>;
 
 // Of a comparison in the earlier report.
 struct Earlier {
@@ -50,58 +54,50 @@ bool isLeftOut(const std::string& key) {
 }
 
 // JSON has null for what is infinite.
-double figureIn(const nlohmann::json& json, const char* name) {
-    const auto found = json.find(name);
-    return found != json.end() && found->is_number() ? found->get<double>() : 1e300;
+double figureIn(const Place& json, const char* name) {
+    return json.has(name) && json.at(name).json().is_number() ? json.at(name).number() : 1e300;
 }
 
-void addComparison(EarlierReport& report, std::map<std::string, int>& again, const nlohmann::json& json) {
-    std::string key = rowKey(json.value("scene", ""), json.value("baseline", ""), json.value("test", ""),
-                             jsonOf(cameraFromJson(json.at("camera"))).dump());
+void addComparison(EarlierReport& report, std::map<std::string, int>& again, const Place& json) {
+    std::string key = rowKey(json.textOr("scene", ""), json.textOr("baseline", ""), json.textOr("test", ""),
+                             jsonOf(cameraFrom(json.at("camera"))).dump());
     key += fmt::format("\n{}", ++again[key]);
     Earlier& earlier = report.comparisons[key];
-    earlier.scene = json.value("scene", "");
-    earlier.verdict = json.value("verdict", "");
-    for (const nlohmann::json& channel : json.at("channels")) {
-        const std::string verdict = channel.value("verdict", "");
+    earlier.scene = json.textOr("scene", "");
+    earlier.verdict = json.textOr("verdict", "");
+    for (const Place& channel : json.at("channels").each()) {
+        const std::string verdict = channel.textOr("verdict", "");
         if (verdict != "pass" && verdict != "fail") continue;
-        auto& figures = earlier.channels[channel.value("name", "")];
+        auto& figures = earlier.channels[channel.textOr("name", "")];
         for (const auto& [name, member] : judged) figures[name] = figureIn(channel, name);
     }
 }
 
-void addNoise(EarlierReport& report, const nlohmann::json& frame) {
-    if (!frame.contains("noise")) return;
-    for (const auto& [channel, of] : frame["noise"].items()) {
-        double& most = report.noise[frame.value("scene", "") + "\n" + channel];
-        most = std::max(most, 2 * figureIn(of, "max"));
+void addNoise(EarlierReport& report, const Place& frame) {
+    if (!frame.has("noise")) return;
+    for (const auto& [channel, of] : frame.at("noise").json().items()) {
+        double& most = report.noise[frame.textOr("scene", "") + "\n" + channel];
+        most = std::max(most, 2 * figureIn(Place(of), "max"));
     }
 }
 
 EarlierReport readEarlier(const fs::path& where) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
-    std::ifstream stream(file, std::ios::binary);
-    // Not of ordered_json, whose elements move while others are left out.
-    const auto filter = [](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-        return event != nlohmann::json::parse_event_t::key || !isLeftOut(value.get<std::string>());
-    };
-    const nlohmann::json json = nlohmann::json::parse(stream, filter, false);
-    if (!json.is_object() || json.value("software", "") != softwareName || !json.contains("comparisons"))
-        throw std::runtime_error(fmt::format(
-            "--since {}: is no report that compare wrote; give its folder or report.json", where.string()));
-    EarlierReport report;
-    try {
-        const nlohmann::json& device = json.at("device");
-        report.device = device.value("name", "") + ", " + device.value("driver", "");
+    return named("--since " + where.string(), [&] {
+        const nlohmann::json json =
+            parseJson(textIn(file, json_bytes), [](int, const std::string& key) { return !isLeftOut(key); });
+        const Place top(json);
+        if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
+            fail("is no report that compare wrote; give its folder or report.json");
+        EarlierReport report;
+        const Place device = top.at("device");
+        report.device = device.textOr("name", "") + ", " + device.textOr("driver", "");
         std::map<std::string, int> again;
-        for (const nlohmann::json& comparison : json.at("comparisons"))
-            addComparison(report, again, comparison);
-        for (const nlohmann::json& frame : json.at("frames")) addNoise(report, frame);
-    } catch (const nlohmann::json::exception&) {
-        throw std::runtime_error(fmt::format("--since {}: is a report of another version", where.string()));
-    }
-    return report;
+        for (const Place& comparison : top.at("comparisons").each()) addComparison(report, again, comparison);
+        for (const Place& frame : top.at("frames").each()) addNoise(report, frame);
+        return report;
+    });
 }
 
 std::vector<MovedFigure> movedSince(const Earlier& earlier, const EarlierReport& report,

@@ -3,12 +3,17 @@
 
 #include "compare/files/our_files.h"
 #include "compare/run/version.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -18,9 +23,33 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string contents(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+// This program: a hash of all of it.
+constexpr std::uint64_t most_program_bytes = std::uint64_t(4) << 30;
+
+// Where a scene's files stand: "" or folders as diptych names them.
+std::string folderFrom(const JsonAt<Json>& json) {
+    const std::string& folder = json.text();
+    if (!folder.empty() && (!folder.ends_with('/') || !isOurName(folder + "part.json")))
+        json.fail(fmt::format("\"{}\" is no folder as diptych names them", oneLine(folder)));
+    return folder;
+}
+
+Manifest manifestFrom(const JsonAt<Json>& json) {
+    Manifest manifest;
+    manifest.build = json.at("build").text();
+    manifest.command = json.at("command").text();
+    manifest.plan = json.at("plan").json();
+    const int count = json.at("shard").at("count").whole(1, most_shards);
+    manifest.shard = {json.at("shard").at("index").whole(1, count), count};
+    std::set<std::string> folders;
+    for (const auto& item : json.at("items").each()) {
+        manifest.items.push_back({item[0].text(), folderFrom(item[1]), item[2].whole(1, count)});
+        if (!folders.insert(manifest.items.back().folder).second)
+            item.fail("has the folder of another scene");
+    }
+    for (const auto& error : json.at("errors").each())
+        manifest.errors.push_back({error[0].text(), error[1].text()});
+    return manifest;
 }
 
 }  // namespace
@@ -38,9 +67,9 @@ std::string planHash(const Json& plan) {
 std::string buildName() {
     static const std::string name = [] {
         const std::string commit = commitName();
-        return commit != "unknown"
-                   ? fmt::format("{}, commit {}", versionName(), commit)
-                   : fmt::format("{}, program {}", versionName(), hashOf(contents("/proc/self/exe")));
+        return commit != "unknown" ? fmt::format("{}, commit {}", versionName(), commit)
+                                   : fmt::format("{}, program {}", versionName(),
+                                                 hashOf(textIn("/proc/self/exe", most_program_bytes)));
     }();
     return name;
 }
@@ -69,25 +98,20 @@ std::string textOf(const Manifest& manifest) {
 }
 
 Manifest readManifest(const fs::path& folder, const char* file) {
-    const std::string none = fmt::format(
-        "{}: is no report of a shard ({} is missing or not ours); give the folders that --shard I/N wrote",
-        folder.string(), file);
-    const Json json = Json::parse(contents(folder / file), nullptr, false);
-    if (!json.is_object() || json.value("software", "") != softwareName || json.value("schema", 0) != 1)
-        throw std::runtime_error(none);
-    try {
-        Manifest manifest;
-        manifest.build = json.at("build");
-        manifest.command = json.at("command");
-        manifest.plan = json.at("plan");
-        manifest.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
-        for (const Json& item : json.at("items"))
-            manifest.items.push_back({item.at(0), item.at(1), item.at(2)});
-        for (const Json& error : json.at("errors")) manifest.errors.push_back({error.at(0), error.at(1)});
-        return manifest;
-    } catch (const Json::exception&) {
-        throw std::runtime_error(none);
-    }
+    return named(folder.string(), [&] {
+        Json json;
+        try {
+            json = parseOrderedJson(textBelow(folder, file, json_bytes));
+        } catch (const std::runtime_error& error) {
+            fail(fmt::format("is no report of a shard ({} {}); give the folders that --shard I/N wrote", file,
+                             error.what()));
+        }
+        const JsonAt top(json, file);
+        if (top.textOr("software", "") != softwareName || top.numberOr("schema", 0) != 1)
+            fail(fmt::format(
+                "is no report of a shard ({} is not ours); give the folders that --shard I/N wrote", file));
+        return manifestFrom(top);
+    });
 }
 
 }  // namespace diptych::shards

@@ -52,7 +52,7 @@ std::string differenceOf(const Manifest& other, const Manifest& ours) {
             return "is of scenes whose files have other sizes";
         }
         // Of Settings the first that differs.
-        if (value.is_object())
+        if (value.is_object() && there.is_object())
             for (const auto& [name, setting] : value.items())
                 if (!there.contains(name) || there[name] != setting)
                     return fmt::format("was asked for another {}: {} (the others: {})", name,
@@ -72,20 +72,6 @@ std::string chosenOf(const std::vector<Found>& all) {
     for (const Found& found : all)
         if (counts[found.identity] > counts[best->identity]) best = &found;
     return best->identity;
-}
-
-// Whether every file that the part names is there, and those that the joined page runs are data.
-void checkFiles(const fs::path& root, const ReportPart& part) {
-    for (const std::vector<std::string>& names : {part.files, part.sections, part.texts()})
-        for (const std::string& name : names) {
-            const fs::path file = root / name;
-            if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: is missing", file.string()));
-            if (!name.ends_with(".js")) continue;
-            const std::vector<unsigned char> bytes = diptych::bytesOf(file);
-            if (!isDataScript({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
-                throw std::runtime_error(
-                    fmt::format("{}: is a script that holds more than data", file.string()));
-        }
 }
 
 }  // namespace
@@ -154,9 +140,7 @@ Joined join(const std::vector<fs::path>& folders) {
         }
         const fs::path& from = chosen.folders.at(item.shard);
         try {
-            ReportPart part = readPart(from, item.folder);
-            checkFiles(from, part);
-            joined.report.parts.push_back({std::move(part), from});
+            joined.report.parts.push_back({readPart(from, item.folder), from});
         } catch (const std::runtime_error& problem) {
             chosen.problems.push_back(
                 fmt::format("{}: the report is incomplete: {}", from.string(), problem.what()));

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/partition.h"
 
+#include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/resources.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_at.h"
+#include "shared/text/named.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -65,45 +71,30 @@ Shard shardOfArray(const std::string& word, const Variables& environment) {
     return {(task.id - task.first) / task.step + 1, count};
 }
 
-// The JSON of a .gltf, or of a .glb's first chunk; discarded where there is none.
-nlohmann::json gltfJson(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::array<unsigned char, 20> head{};
-    stream.read(reinterpret_cast<char*>(head.data()), head.size());
-    const auto word = [&](std::size_t at) {
-        return std::uint32_t{head[at]} | std::uint32_t{head[at + 1]} << 8 |
-               std::uint32_t{head[at + 2]} << 16 | std::uint32_t{head[at + 3]} << 24;
-    };
-    std::string text;
-    if (stream && std::equal(head.begin(), head.begin() + 4, "glTF")) {
-        std::error_code error;
-        const auto size = fs::file_size(file, error);
-        if (error || word(12) > size) return nlohmann::json::value_t::discarded;
-        text.resize(word(12));
-        stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    } else {
-        stream.clear();
-        stream.seekg(0);
-        text.assign(std::istreambuf_iterator<char>(stream), {});
+// The buffers and images of a .gltf's JSON, or of a .glb's first chunk; null where there is none.
+nlohmann::json gltfJson(const fs::path& path) {
+    try {
+        InputFile file(path, gltf::MAX_FILE_BYTES);
+        std::string text(std::min<std::uint64_t>(file.size(), 20), '\0');
+        file.read(std::as_writable_bytes(std::span(text)));
+        const auto byte = [&](std::size_t at) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(text[at]));
+        };
+        const bool binary = text.size() == 20 && text.starts_with("glTF");
+        const std::uint64_t left = file.size() - text.size();
+        const std::uint64_t length =
+            binary ? byte(12) | byte(13) << 8 | byte(14) << 16 | byte(15) << 24 : left;
+        if (length > left || length > gltf::MAX_JSON_BYTES) return {};
+        if (binary) text.clear();
+        const std::size_t read = text.size();
+        text.resize(read + length);
+        file.read(std::as_writable_bytes(std::span(text).subspan(read)));
+        return parseJson(text, [](int depth, const std::string& key) {
+            return depth > 1 ? key == "uri" : key == "buffers" || key == "images";
+        });
+    } catch (const std::runtime_error&) {  // loading says what is wrong
+        return {};
     }
-    return nlohmann::json::parse(text, nullptr, false);
-}
-
-// "a%20b.png" as the file is called.
-std::string decoded(const std::string& uri) {
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned byte = 0;
-        const char* const digits = uri.data() + i + 1;
-        if (uri[i] == '%' && i + 2 < uri.size() + 0 &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            name += static_cast<char>(byte);
-            i += 2;
-        } else {
-            name += uri[i];
-        }
-    }
-    return name;
 }
 
 std::string fileName(const std::string& scene) {
@@ -123,6 +114,8 @@ Shard shardOf(const std::string& word, const Variables& environment) {
     if (!count || !index)
         throw std::runtime_error(
             fmt::format("--shard {}: is I/N, the I-th of N from 1, as 2/16; or slurm, or slurm/N", word));
+    if (*count > most_shards)
+        throw std::runtime_error(fmt::format("--shard {}: at most {} shards", word, most_shards));
     if (*count < 1 || *index < 1 || *index > *count)
         throw std::runtime_error(
             fmt::format("--shard {}: there is no shard {} of {}; the first is 1", word, *index, *count));
@@ -140,7 +133,8 @@ std::vector<fs::path> filesOf(const std::string& scene) {
             for (const auto& one : *all)
                 if (one.is_object() && one.contains("uri") && one["uri"].is_string()) {
                     const std::string uri = one["uri"];
-                    if (!uri.starts_with("data:")) files.push_back(file.parent_path() / decoded(uri));
+                    if (!uri.starts_with("data:"))
+                        files.push_back(file.parent_path() / gltf::percentDecoded(uri));
                 }
     return files;
 }
@@ -158,18 +152,20 @@ std::uint64_t bytesOf(const std::string& scene) {
 std::map<std::string, double> timingsOf(const fs::path& report) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(report, ignored) ? report / "report.json" : report;
-    std::ifstream stream(file, std::ios::binary);
-    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-    std::map<std::string, double> timings;
-    if (json.is_object() && json.contains("frames") && json["frames"].is_array())
-        for (const auto& frame : json["frames"])
-            if (frame.is_object() && frame.value("made_in_ms", 0.0) > 0)
-                timings[frame.value("scene", "")] += frame["made_in_ms"].get<double>();
-    if (timings.empty())
-        throw std::runtime_error(
-            fmt::format("--timings {}: is no report.json with frames that were drawn, nor a folder of one",
-                        report.string()));
-    return timings;
+    return named("--timings " + report.string(), [&] {
+        const nlohmann::json json =
+            parseJson(textIn(file, json_bytes), [](int depth, const std::string& key) {
+                return depth > 1 ? key == "scene" || key == "made_in_ms" : key == "frames";
+            });
+        std::map<std::string, double> timings;
+        const JsonAt top(json);
+        if (top.has("frames"))
+            for (const auto& frame : top.at("frames").each())
+                if (const double ms = frame.numberOr("made_in_ms", 0); ms > 0)
+                    timings[frame.textOr("scene", "")] += ms;
+        if (timings.empty()) fail("is no report.json with frames that were drawn, nor a folder of one");
+        return timings;
+    });
 }
 
 std::vector<double> weightsOf(const std::vector<std::string>& scenes,

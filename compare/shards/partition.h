@@ -20,6 +20,10 @@ struct Shard {
     bool operator==(const Shard&) const = default;
 };
 
+// Each has an entry where shares are counted and a line where it is missing. Slurm's arrays have 1,001 tasks
+// unless a cluster is set up for more.
+inline constexpr int most_shards = 1 << 16;
+
 // An environment variable, where it is set.
 using Variables = std::function<std::optional<std::string>(const char*)>;
 

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/grid.h"
 
-#include "shared/text/json_shape.h"
+#include "shared/text/input_file.h"
+#include "shared/text/json.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <set>
 #include <stdexcept>
 
 namespace diptych::tradeoff {
@@ -21,39 +18,6 @@ using Json = nlohmann::ordered_json;
 
 std::string quotedLine(const Json& json) {
     return oneLine(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-std::string textIn(const std::string& file) {
-    if (std::filesystem::is_directory(file)) throw std::runtime_error("is a folder");
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream.is_open()) throw std::runtime_error("cannot be read");
-    return text;
-}
-
-// Rejects a key that stands twice in an object: the JSON library would silently keep one of them.
-Json parse(const std::string& text) {
-    if (jsonShape(text).depth > json_depth)
-        throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
-    std::vector<std::set<std::string>> open;
-    std::string twice;
-    const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) open.emplace_back();
-        if (event == Json::parse_event_t::object_end) open.pop_back();
-        if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
-            twice = parsed.get<std::string>();
-        return true;
-    };
-    Json json;
-    try {
-        json = Json::parse(text, watch);
-    } catch (const Json::parse_error& error) {
-        throw std::runtime_error(fmt::format("is not JSON at byte {}", error.byte));
-    } catch (const Json::out_of_range&) {
-        throw std::runtime_error("a number beyond a double's range");
-    }
-    if (!twice.empty()) throw std::runtime_error(fmt::format("\"{}\" stands twice", oneLine(twice)));
-    return json;
 }
 
 // The option of a Setting that may be swept.
@@ -113,7 +77,7 @@ std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given
     const bool isText = fileOrText.starts_with('{') || fileOrText.starts_with('[');
     const std::string name = isText ? "--grid" : "--grid " + fileOrText;
     try {
-        const Json json = parse(isText ? fileOrText : textIn(fileOrText));
+        const Json json = parseUniqueJson(isText ? fileOrText : textIn(fileOrText, json_bytes));
         std::vector<Grid> grids;
         if (!json.is_array()) return {gridOf(json, given)};
         for (const Json& one : json) grids.push_back(gridOf(one, given));

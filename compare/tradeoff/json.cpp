@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/text/json.h"
 #include "compare/files/our_files.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -73,9 +74,10 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
         {"scene", tradeoff.scene},
         {"cameras", tradeoff.cameras},
         {"runs", tradeoff.runs},
-        {"settings", Json::parse(toJson(tradeoff.given))},
+        {"settings", parseOrderedJson(toJson(tradeoff.given))},
         {"reference",
-         {{"settings", Json::parse(toJson(tradeoff.reference))}, {"picture", tradeoff.reference_picture}}},
+         {{"settings", parseOrderedJson(toJson(tradeoff.reference))},
+          {"picture", tradeoff.reference_picture}}},
         {"errors", figures},
         {"shadow_figures", shadows},
         {"sample_figures", samples},

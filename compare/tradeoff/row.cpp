@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/row.h"
 
+#include "shared/text/json.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -172,7 +174,7 @@ Json jsonOf(const TradeoffRow& row) {
     for (const CameraRow& camera : row.cameras) cameras.push_back(jsonOf(camera));
     const Spread time = timeOf(row);
     const FrameBytes bytes = bytesOf(row);
-    return {{"settings", Json::parse(toJson(row.settings))},
+    return {{"settings", parseOrderedJson(toJson(row.settings))},
             {"renderer", row.renderer.empty() ? Json(nullptr) : Json(row.renderer)},
             {"ms", {{"median", time.value}, {"min", time.low}, {"max", time.high}}},
             {"passes", jsonOf(passesOf(row))},

@@ -4,27 +4,13 @@
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
-#include "shared/image/atomic_file.h"
 #include "shared/image/png.h"
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 namespace diptych::tradeoff {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Copies a kept picture to its final name in the folder.
-void copyPicture(const fs::path& from, const fs::path& to) {
-    const auto held = holdTemporaries();  // or an interruption could not remove the folder
-    std::error_code error;
-    fs::copy_file(from, to, error);
-    if (error) throw std::runtime_error(writingFailed(finalName(to), error.value()));
-}
-
-}  // namespace
 
 std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const fs::path& kept,
                           const Image8& reference, bool force) {
@@ -34,7 +20,7 @@ std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const 
         for (const auto& [member, name] :
              {std::pair{&TradeoffRow::picture, fmt::format("row-{:03}.png", i + 1)},
               {&TradeoffRow::errors_map, fmt::format("row-{:03}.flip.png", i + 1)}}) {
-            copyPicture(kept / (tradeoff.rows[i].*member), folder / name);
+            linkOrCopy(kept, tradeoff.rows[i].*member, folder / name);
             tradeoff.rows[i].*member = name;
             folder.list(name);
         }

@@ -7,6 +7,7 @@
 #include "compare/run/version.h"
 #include "compare/verdict/comparison.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,8 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string differing(const Settings& a, const Settings& b) {
-    const auto left = nlohmann::ordered_json::parse(toJson(a)),
-               right = nlohmann::ordered_json::parse(toJson(b));
+    const auto left = parseOrderedJson(toJson(a)), right = parseOrderedJson(toJson(b));
     std::vector<std::string> words;
     for (const auto& [key, value] : left.items())
         if (key != "path" && value != right.at(key))

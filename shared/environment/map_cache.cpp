@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <span>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 

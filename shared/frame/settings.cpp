@@ -2,7 +2,8 @@
 #include "shared/frame/settings.h"
 
 #include "shared/text/did_you_mean.h"
-#include "shared/text/json_shape.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -221,16 +222,7 @@ std::string sortedOrNot(const std::string& value) {
 }  // namespace
 
 Settings settingsFromJson(const std::string& text, const Settings& base) {
-    if (jsonShape(text).depth > json_depth)
-        throw std::runtime_error(fmt::format("settings: nests deeper than {}", json_depth));
-    Json object;
-    try {
-        object = Json::parse(text);
-    } catch (const Json::parse_error& error) {
-        throw std::runtime_error(fmt::format("settings: not JSON at byte {}", error.byte));
-    } catch (const Json::out_of_range&) {
-        throw std::runtime_error("settings: a number beyond a double's range");
-    }
+    Json object = named("settings", [&] { return parseOrderedJson(text); });
     if (!object.is_object()) throw std::runtime_error("settings: not a JSON object");
     if (object.size() == 1 && object.contains("settings") && object["settings"].is_object())
         object = Json(object["settings"]);

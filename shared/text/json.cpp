@@ -1,26 +1,106 @@
 // SPDX-License-Identifier: MIT
 #include "shared/text/json.h"
 
-#include "shared/text/json_shape.h"
+#include "shared/text/fail.h"
+#include "shared/text/input_file.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <stdexcept>
-#include <string>
+#include <limits>
+#include <set>
+#include <vector>
 
 namespace diptych {
+namespace {
 
-nlohmann::json parseJson(std::string_view text) {
-    if (jsonShape(text).depth > json_depth)
-        throw std::runtime_error("nests deeper than " + std::to_string(json_depth));
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+void checkCount(std::size_t count, std::size_t most, const char* what) {
+    if (count > most) fail(fmt::format("has {} {}: at most {} are read", count, what, most));
+}
+
+void check(const JsonShape& shape, const JsonLimits& limits) {
+    if (shape.depth > json_depth) fail(fmt::format("nests deeper than {}", json_depth));
+    checkCount(shape.objects, limits.objects, "objects");
+    checkCount(shape.values, limits.values, "values");
+}
+
+// Of a text of which little is kept.
+constexpr JsonLimits unlimited{std::numeric_limits<std::size_t>::max()};
+
+[[noreturn]] void failNoJson(std::string_view message) {
+    const std::size_t at = message.find("] ");  // "[json.exception.parse_error.101] parse error at ..."
+    fail("is not JSON: " + oneLine(message.substr(at == message.npos ? 0 : at + 2)));
+}
+
+template <class Json>
+Json parse(std::string_view text, const JsonLimits& limits = {},
+           const typename Json::parser_callback_t& watch = nullptr) {
+    check(jsonShape(text), limits);
     try {
-        return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& e) {
-        const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at ..."
-        const std::size_t at = message.find("] ");
-        throw std::runtime_error("is not JSON: " + oneLine(message.substr(at == message.npos ? 0 : at + 2)));
+        return Json::parse(text, watch);
+    } catch (const typename Json::exception& e) {
+        failNoJson(e.what());
     }
+}
+
+}  // namespace
+
+json parseJson(std::string_view text, const JsonLimits& limits) {
+    return parse<json>(text, limits);
+}
+
+ordered_json parseOrderedJson(std::string_view text) {
+    return parse<ordered_json>(text);
+}
+
+ordered_json parseUniqueJson(std::string_view text) {
+    using Event = ordered_json::parse_event_t;
+    std::vector<std::set<std::string>> open;
+    std::string twice;
+    ordered_json parsed = parse<ordered_json>(text, {}, [&](int, Event event, ordered_json& value) {
+        if (event == Event::object_start) open.emplace_back();
+        if (event == Event::object_end) open.pop_back();
+        if (event == Event::key && !open.back().insert(value.get<std::string>()).second)
+            twice = value.get<std::string>();
+        return true;
+    });
+    if (!twice.empty()) fail(fmt::format("\"{}\" stands twice", oneLine(twice)));
+    return parsed;
+}
+
+// Not of ordered_json, whose elements move while others are left out.
+json parseJson(std::string_view text, const WantedKey& wanted) {
+    std::size_t values = 0;
+    return parse<json>(text, unlimited, [&](int depth, json::parse_event_t event, json& value) {
+        if (event == json::parse_event_t::key) return wanted(depth, value.get_ref<const std::string&>());
+        const bool closes =
+            event == json::parse_event_t::object_end || event == json::parse_event_t::array_end;
+        values += closes ? 0 : 1;
+        checkCount(values, JsonLimits{}.values, "values");
+        return true;
+    });
+}
+
+void checkJson(std::string_view text) {
+    check(jsonShape(text), unlimited);
+    if (!json::accept(text)) fail("is not JSON");
+}
+
+json jsonIn(const std::filesystem::path& file) {
+    return named(file.string(), [&] { return parseJson(textIn(file, json_bytes)); });
+}
+
+json jsonIn(const std::filesystem::path& file, const WantedKey& wanted) {
+    return named(file.string(), [&] { return parseJson(textIn(file, json_bytes), wanted); });
+}
+
+ordered_json orderedJsonIn(const std::filesystem::path& file) {
+    return named(file.string(), [&] { return parseOrderedJson(textIn(file, json_bytes)); });
 }
 
 }  // namespace diptych

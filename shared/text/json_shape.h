@@ -22,4 +22,11 @@ JsonShape jsonShape(std::string_view text);
 // takes less than 1 KiB of stack in recursive code.
 inline constexpr std::size_t json_depth = 128;
 
+// A value takes at most some 100 bytes of the tree (16 itself, 48 an empty array, 96 a member of an object
+// with a short key): together below 2 GiB.
+struct JsonLimits {
+    std::size_t values = std::size_t(1) << 24;
+    std::size_t objects = values;
+};
+
 }  // namespace diptych

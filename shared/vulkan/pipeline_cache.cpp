@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/pipeline_cache.h"
 
+#include "shared/text/input_file.h"
 #include "shared/vulkan/spirv.h"
 #include "shared/vulkan/user_cache.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/user_cache.h"
 
+#include "shared/text/one_line.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -51,7 +53,7 @@ fs::path userCacheFolder() {
     const std::string fault = cacheFault(folder);
     if (fault.empty()) return folder;
     static std::once_flag once;
-    std::call_once(once, [&] { std::fprintf(stderr, "diptych: note: %s\n", fault.c_str()); });
+    std::call_once(once, [&] { std::fprintf(stderr, "diptych: note: %s\n", oneLine(fault).c_str()); });
     return {};
 }
 

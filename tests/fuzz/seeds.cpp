@@ -71,6 +71,12 @@ void writeTextSeeds(const fs::path& out) {
  {"type": "disc", "radius": 0.5, "position": [0, 2, 0]}, {"type": "tube", "length": 1.2, "radius": 0.02, "axis": [0, 0, 1]},
  {"type": "directional", "angle": 0.0093, "direction": [0, -1, 0]}]})");
     writeSeed(out, "lights", "none.json", R"({"lights": []})");
+    writeSeed(
+        out, "ours", "list.json",
+        R"({"schema": 1, "software": "diptych", "files": ["index.html", "b/lit.png"], "errors": [[{}]]})");
+    writeSeed(out, "ours", "plan.json", R"({"files": ["a.png", "b/c.png"], "earlier": ["d.section.js"]})");
+    writeSeed(out, "list", "scenes",
+              "# scenes\nbuiltin:points\n  scene.glb # here\n@other\n*.glb\n[a-s]*?scene=1\n");
 }
 
 int copySeeds(const fs::path& assets, const fs::path& out) {

@@ -145,7 +145,7 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     folder.write("mine/notes.txt", "mine");
     const std::pair<const char*, const char*> bad[] = {
         {"--grid grid.json", "grid.json"},
-        {"--grid nowhere.json", "cannot be read"},
+        {"--grid nowhere.json", "no such file"},
         {"--runs 0", "--runs 0"},
         {"-o x.png", "-o x.png"},
         {"-o mine", "--force"},

@@ -34,7 +34,7 @@ const std::vector<Module> modules = {
     {"shared/text", 5},
     {"shared/image", 10},
     {"shared/frame", 20},
-    {"shared/vulkan", 20, {"shared/contract"}},
+    {"shared/vulkan", 20, {"shared/contract", "shared/text"}},
     {"shared/scene/model", 20, belowScene},
     {"shared/scene/image", 21, belowScene},
     {"shared/scene/motion", 21, belowScene},

@@ -85,8 +85,7 @@ TEST(SceneFolders, AListIsRelativeToItsFolder) {
     std::ofstream(root / "none.txt") << "# nothing\n";
     expectFault("@" + (root / "none.txt").string(),
                 "@" + (root / "none.txt").string() + ": names no scene; a line each");
-    expectFault("@" + (root / "gone.txt").string(),
-                "@" + (root / "gone.txt").string() + ": a list of scenes, which cannot be read");
+    expectFault("@" + (root / "gone.txt").string(), "@" + (root / "gone.txt").string() + ": no such file");
     std::ofstream(root / "b/more.txt") << "@scenes.txt\n";
     expectFault("@" + (root / "b/scenes.txt").string(),
                 "@" + (root / "b/scenes.txt").string() + ": is a list that contains itself");

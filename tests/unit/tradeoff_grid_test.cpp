@@ -44,7 +44,7 @@ TEST(TradeoffGrid, AFileSaysTheSame) {
 
 TEST(TradeoffGrid, EveryFaultIsNamed) {
     const std::pair<const char*, const char*> bad[] = {
-        {R"({"settings": )", "not JSON at byte"},
+        {R"({"settings": )", "is not JSON: parse error at line 1, column 15"},
         {R"([])", "asks for nothing"},
         {R"({})", "\"settings\""},
         {R"([7])", "7 is no object"},
@@ -60,7 +60,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
         {R"({"settings": {"camera": ["a"]}})", "--camera says it"},
         {R"({"settings": {"gbuffer": "full", "gbuffer": "compact"}})", "\"gbuffer\" stands twice"},
         {R"({"settings": {"light_cutoff": [0], "light-cutoff": [1]}})", "stands twice"},
-        {"/nowhere/grid.json", "/nowhere/grid.json: cannot be read"},
+        {"/nowhere/grid.json", "/nowhere/grid.json: no such file"},
         {"/tmp", "/tmp: is a folder"},
     };
     for (const auto& [text, fault] : bad) {

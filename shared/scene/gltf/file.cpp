@@ -7,7 +7,7 @@
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
-#include "shared/text/json_shape.h"
+#include "shared/text/json.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -95,20 +95,9 @@ Json parse(std::string_view text) {
     if (text.empty()) fail("is empty");
     if (text.size() > MAX_JSON_BYTES)
         fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), MAX_JSON_BYTES));
-    const JsonShape shape = jsonShape(text);
-    if (shape.depth > json_depth) fail(fmt::format("its JSON nests deeper than {}", json_depth));
-    if (shape.objects > MAX_JSON_OBJECTS)
-        fail(fmt::format("its JSON has {} objects: at most {} are read", shape.objects, MAX_JSON_OBJECTS));
-    if (shape.values > MAX_JSON_VALUES)
-        fail(fmt::format("its JSON has {} values: at most {} are read", shape.values, MAX_JSON_VALUES));
-    try {
-        Json document = Json::parse(text);
-        if (!document.is_object()) fail("its JSON is not an object");
-        return document;
-    } catch (const Json::exception& e) {
-        const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at ..."
-        fail(fmt::format("is not JSON: {}", oneLine(message.substr(message.find("] ") + 2))));
-    }
+    Json document = parseJson(text, {.values = MAX_JSON_VALUES, .objects = MAX_JSON_OBJECTS});
+    if (!document.is_object()) fail("its JSON is not an object");
+    return document;
 }
 
 // Whether a version is newer than the one this reader implements.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "shared/text/input_file.h"
+
+#include "shared/text/fail.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int reading = O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
+
+[[noreturn]] void failToOpen(int error) {
+    if (error == ENOENT || error == ENOTDIR) fail("no such file");
+    if (error == ELOOP) fail("is a link, which is not followed here");
+    if (error == ENXIO) fail("is not a regular file");  // a socket, or a device that is not there
+    fail("cannot be read: " + std::generic_category().message(error));
+}
+
+// Opens every folder on the way without following a link.
+int openBelow(const fs::path& root, const std::string& name) {
+    int folder = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) failToOpen(errno);
+    const auto step = [&](const std::string& part, int flags) {
+        const int next = part.empty() || part == ".." ? (errno = ELOOP, -1)
+                                                      : ::openat(folder, part.c_str(), flags | O_NOFOLLOW);
+        const int error = errno;
+        struct stat there {};
+        // What O_DIRECTORY says of a link is ENOTDIR.
+        const bool link = next < 0 && ::fstatat(folder, part.c_str(), &there, AT_SYMLINK_NOFOLLOW) == 0 &&
+                          S_ISLNK(there.st_mode);
+        ::close(std::exchange(folder, next));
+        if (link) fail(fmt::format("\"{}\" is a link, which is not followed here", part));
+        if (next < 0) failToOpen(error);
+    };
+    std::size_t at = 0;
+    for (std::size_t slash; (slash = name.find('/', at)) != name.npos; at = slash + 1)
+        step(name.substr(at, slash - at), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    step(name.substr(at), reading);
+    return folder;
+}
+
+std::string wholeOf(InputFile& file) {
+    std::string text(file.size(), '\0');
+    file.read(std::as_writable_bytes(std::span(text)));
+    return text;
+}
+
+}  // namespace
+
+InputFile::InputFile(const fs::path& file, std::uint64_t most_bytes)
+    : descriptor_(::open(file.c_str(), reading)) {
+    if (descriptor_ < 0) failToOpen(errno);
+    check(most_bytes);
+}
+
+InputFile::InputFile(const fs::path& root, const std::string& name, std::uint64_t most_bytes)
+    : descriptor_(openBelow(root, name)) {
+    check(most_bytes);
+}
+
+InputFile::~InputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void InputFile::check(std::uint64_t most_bytes) {
+    struct stat status {};
+    const bool known = ::fstat(descriptor_, &status) == 0;
+    const int error = errno;
+    size_ = known ? static_cast<std::uint64_t>(status.st_size) : 0;
+    if (known && S_ISREG(status.st_mode) && size_ <= most_bytes) return;
+    ::close(std::exchange(descriptor_, -1));  // the destructor of what was not made does not run
+    if (!known) failToOpen(error);
+    if (S_ISDIR(status.st_mode)) fail("is a folder");
+    if (!S_ISREG(status.st_mode)) fail("is not a regular file");
+    fail(fmt::format("is {} bytes: at most {} are read", size_, most_bytes));
+}
+
+void InputFile::read(std::span<std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t got = ::read(descriptor_, bytes.data(), bytes.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail("cannot be read: " + std::generic_category().message(errno));
+        if (got == 0) fail("cannot be read to its end");
+        bytes = bytes.subspan(static_cast<std::size_t>(got));
+    }
+}
+
+std::string textIn(const fs::path& path, std::uint64_t most_bytes) {
+    InputFile file(path, most_bytes);
+    return wholeOf(file);
+}
+
+std::string textBelow(const fs::path& root, const std::string& name, std::uint64_t most_bytes) {
+    InputFile file(root, name, most_bytes);
+    return wholeOf(file);
+}
+
+}  // namespace diptych

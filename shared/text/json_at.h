@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/text/fail.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// A value of parsed JSON and its place in the file, for reading what has a fixed shape. Everything that does
+// not fit throws std::runtime_error that names the place: "frames[2]: has no \"name\"".
+template <class Json>
+class JsonAt {
+public:
+    explicit JsonAt(const Json& json, std::string where = {}) : json_(&json), where_(std::move(where)) {}
+
+    const Json& json() const { return *json_; }
+    [[noreturn]] void fail(const std::string& why) const {
+        diptych::fail(where_.empty() ? why : where_ + ": " + why);
+    }
+
+    bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
+    JsonAt at(const char* key) const {
+        if (!has(key)) fail(fmt::format("has no \"{}\"", key));
+        return JsonAt((*json_)[key], where_.empty() ? key : where_ + "." + key);
+    }
+    JsonAt operator[](std::size_t index) const {
+        if (index >= size()) fail(fmt::format("has {} elements: too few", size()));
+        return JsonAt((*json_)[index], fmt::format("{}[{}]", where_, index));
+    }
+
+    // Of an array.
+    std::size_t size() const {
+        if (!json_->is_array()) fail("is no array");
+        return json_->size();
+    }
+    std::vector<JsonAt> each() const {
+        std::vector<JsonAt> elements;
+        elements.reserve(size());
+        for (std::size_t i = 0; i < json_->size(); ++i) elements.push_back((*this)[i]);
+        return elements;
+    }
+
+    const std::string& text() const {
+        if (!json_->is_string()) fail("is no string");
+        return json_->template get_ref<const std::string&>();
+    }
+    std::string textOr(const char* key, const std::string& fallback) const {
+        return has(key) ? at(key).text() : fallback;
+    }
+    std::vector<std::string> texts() const {
+        std::vector<std::string> all;
+        for (const JsonAt& element : each()) all.push_back(element.text());
+        return all;
+    }
+    bool flag() const {
+        if (!json_->is_boolean()) fail("is neither true nor false");
+        return json_->template get<bool>();
+    }
+    double number() const {
+        if (!json_->is_number()) fail("is no number");
+        return json_->template get<double>();
+    }
+    double numberOr(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
+    // A whole number from `least` to `most`.
+    template <class Whole>
+    Whole whole(Whole least, Whole most) const {
+        const bool fits = json_->is_number_unsigned()
+                              ? std::cmp_greater_equal(json_->template get<std::uint64_t>(), least) &&
+                                    std::cmp_less_equal(json_->template get<std::uint64_t>(), most)
+                              : json_->is_number_integer() &&
+                                    std::cmp_greater_equal(json_->template get<std::int64_t>(), least) &&
+                                    std::cmp_less_equal(json_->template get<std::int64_t>(), most);
+        if (!fits) fail(fmt::format("is no whole number from {} to {}", least, most));
+        return json_->template get<Whole>();
+    }
+    // An index into something of `count` elements.
+    std::size_t index(std::size_t count) const {
+        if (count == 0) fail("is an index, and there is nothing");
+        return whole<std::size_t>(0, count - 1);
+    }
+
+private:
+    const Json* json_;
+    std::string where_;
+};
+
+}  // namespace diptych

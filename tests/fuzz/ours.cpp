@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The lists, keys and plans that the program leaves and reads again.
+#include "compare/files/file_moves.h"
+#include "compare/files/kept_folder.h"
+#include "compare/files/our_files.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/scratch_folder.h"
+
+using namespace diptych;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const fuzz::ScratchFolder folder;
+    const std::string_view text = fuzz::textAt(data, size);
+    folder.write("report.json", text);
+    folder.write(".report.json.kept/key.json", text);
+    folder.write("out/.diptych.put/.plan.json", text);
+    fuzz::readOrSayWhy([&] {
+        for (const std::string& name : listedIn(folder / "report.json"))
+            fuzz::require(isOurName(name) && name.find("..") == name.npos && !name.starts_with('/'),
+                          "what is listed is one of our names, inside its folder");
+    });
+    fuzz::readOrSayWhy([&] { KeptFolder(folder / "report.json", "kept", {{"schema", 1}}).find("part"); });
+    fuzz::readOrSayWhy([&] { finishMoves(folder / "out"); });
+    return 0;
+}
