@@ -98,7 +98,7 @@ TEST(HostileParts, AFileOfAnotherFolderIsRefusedByName) {
     const std::string sound = contentsOf(shards.part());
     const std::vector<std::string> before = shards.outside();
     for (const char* name :
-         {"../secret.png", "../home/.config/autostart/evil.desktop", "/etc/shadow", "box-1/../../secret.png",
+         {"../secret.png", "../autostart/evil.desktop", "/etc/shadow", "box-1/../../secret.png",
           "box-2/a.png", "box-1/.hidden.png", "box-1/evil.desktop", "box-1/a.png/", "index.html"})
         for (const char* list : {"files", "sections"}) {
             std::ofstream(shards.part()) << sound;

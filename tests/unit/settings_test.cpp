@@ -333,7 +333,7 @@ TEST(Settings, BadJsonIsRefusedByName) {
         {"[1]", "object"},
         {"{", "JSON"},
         {"", "JSON"},
-        {R"({"time": 1e999})", "range"},
+        {R"({"time": 1e999})", "overflow"},
     };
     for (const auto& [text, name] : bad) {
         const std::string what = whatIsThrown([&] { settingsFromJson(text); });

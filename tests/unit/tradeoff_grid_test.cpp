@@ -44,7 +44,7 @@ TEST(TradeoffGrid, AFileSaysTheSame) {
 
 TEST(TradeoffGrid, EveryFaultIsNamed) {
     const std::pair<const char*, const char*> bad[] = {
-        {R"({"settings": )", "is not JSON: parse error at line 1, column 15"},
+        {R"({"settings": )", "is not JSON: parse error at line 1, column 14"},
         {R"([])", "asks for nothing"},
         {R"({})", "\"settings\""},
         {R"([7])", "7 is no object"},
