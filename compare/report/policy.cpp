@@ -2,15 +2,16 @@
 #include "compare/report/policy.h"
 
 #include "compare/files/data_uri.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace diptych {
 namespace {
@@ -81,7 +82,12 @@ bool isDataScript(std::string_view script) {
         if (script.starts_with(call) && script.ends_with(end)) {
             script.remove_prefix(call.size());
             script.remove_suffix(std::min(end.size(), script.size()));
-            return nlohmann::json::accept(fmt::format("[{}]", script));
+            try {
+                checkJson(fmt::format("[{}]", script));
+                return true;
+            } catch (const std::runtime_error&) {
+                return false;
+            }
         }
     return false;
 }
