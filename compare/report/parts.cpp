@@ -250,13 +250,14 @@ std::string sectionIn(const fs::path& root, const std::string& script) {
 // Whether what the part consists of is there and is what a report is put together of: from here on nothing
 // in it ends a command.
 void checkFiles(const fs::path& root, const ReportPart& part) {
-    for (const std::string& name : part.files)
-        named((root / name).string(), [&] {
-            // The joined page runs these, as data alone.
-            if (name.ends_with(".js") && !isDataScript(textBelow(root, name, json_bytes)))
-                fail("is a script that holds more than data");
-            return InputFile(root, name).size();
-        });
+    for (const std::vector<std::string>& names : {part.files, part.sections})
+        for (const std::string& name : names)
+            named((root / name).string(), [&] {
+                // The joined page runs these, as data alone.
+                if (name.ends_with(".js") && !isDataScript(textBelow(root, name, json_bytes)))
+                    fail("is a script that holds more than data");
+                return InputFile(root, name).size();
+            });
     for (const std::string& name : part.sections) sectionIn(root, name);
     for (const char* text : partTexts) {
         const std::string name = part.scene_folder + text;
