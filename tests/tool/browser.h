@@ -25,6 +25,14 @@ struct Visit {
     std::string dom;
 };
 
+// Ends the page in a script, which the page's policy lets run beside the page's own.
+inline void addScript(std::string& page, const std::string& script) {
+    page.insert(page.rfind("</body>"), "<script>" + script + "</script>");
+    constexpr std::string_view policy = "script-src ";
+    if (const std::size_t at = page.find(policy); at != page.npos)
+        page.insert(at + policy.size(), scriptSource(script) + " ");
+}
+
 // Opens a copy of `page`, beside it, that ends in `script`, and waits until the script has called
 // tell(value). In it, wait(ms) and until(condition) are promises, and $ and $$ find elements. `hash`: what
 // follows the page's name. The page is `width` pixels wide: Chromium's window is at least 500, and a narrower
@@ -45,11 +53,7 @@ const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new Po
     std::string text = contentsOf(page);
     const std::string own = "(async () => {" + tools + "try {" + script +
                             "} catch (error) { console.error(error.stack); tell('threw ' + error); } })();";
-    text.insert(text.rfind("</body>"), "<script>" + own + "</script>");
-    // The page's policy is kept, and lets this script run beside the page's own.
-    constexpr std::string_view policy = "script-src ";
-    if (const std::size_t at = text.find(policy); at != text.npos)
-        text.insert(at + policy.size(), scriptSource(own) + " ");
+    addScript(text, own);
     const fs::path copy = page.parent_path() / "visited.html";
     std::ofstream(copy, std::ios::binary) << text;
     const fs::path frame = page.parent_path() / "frame.html";

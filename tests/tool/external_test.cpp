@@ -92,7 +92,7 @@ TEST(External, JobsAreAsTheSchemaSays) {
 
 TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
     const Folder folder;
-    const std::string odd = "a 'b' \"c\" $(touch oops) \n d";
+    const std::string odd = "a 'b' \"c\" $(touch oops) \t d";
     fs::create_directories(folder / odd);
     // The folder of the renderer's file, of the temporary files, of the scene and of what it is told to keep.
     writeRenderer(folder, "fake", {"keep", (folder / odd / "kept").string(), odd});

@@ -43,7 +43,8 @@ json measured(const Folder& scratch, const fs::path& page, const std::string& pl
                 copy.replace(i, 12, "@media all");
             std::string script = measure;
             script.replace(script.find("WHICH"), 5, "'" + which + "'");
-            copy.insert(copy.rfind("</body>"), planted + "<script>" + script + "</script>");
+            copy.insert(copy.rfind("</body>"), planted);
+            addScript(copy, script);
             std::ofstream(home / (which + ".html"), std::ios::binary) << copy;
             frames += fmt::format("<iframe width={} height=900 src='{}.html'></iframe>", width, which);
         }
