@@ -75,8 +75,8 @@ void addComparison(EarlierReport& report, std::map<std::string, int>& again, con
 
 void addNoise(EarlierReport& report, const Place& frame) {
     if (!frame.has("noise")) return;
-    const nlohmann::json& noise = frame.at("noise").json();
-    for (const auto& [channel, of] : noise.items()) {
+    const Place noise = frame.at("noise");
+    for (const auto& [channel, of] : noise.json().items()) {
         double& most = report.noise[frame.textOr("scene", "") + "\n" + channel];
         most = std::max(most, 2 * figureIn(Place(of), "max"));
     }
