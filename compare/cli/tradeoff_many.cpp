@@ -65,7 +65,7 @@ Swept sweptOf(const shards::Item& item, const Place& json) {
     return swept;
 }
 
-// Of the tradeoff of a scene below `root`; throws where it is none.
+// Reads the tradeoff of a scene below `root`; throws where it is none.
 Swept sweptIn(const fs::path& root, const shards::Item& item) {
     const std::string name = item.folder + tradeoff::tradeoffManifest;
     return named((root / name).string(), [&] {

@@ -112,7 +112,7 @@ struct Pipe {
     std::optional<Descriptor> output, input;
 };
 
-// Two ends of which one hears when the other says something, or is gone with its process.
+// A socket pair: one end hears when the other says something, or is gone with its process.
 struct Lifeline {
     Lifeline() {
         int ends[2];
@@ -145,7 +145,7 @@ bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     }
 }
 
-// What the supervisor says of the program at its own end.
+// The supervisor's report on the program, at its own end.
 struct Told {
     int failed = 0;  // an errno: it did not start
     int status = 0;  // as waitpid() has it
@@ -174,8 +174,8 @@ void killChildren() {
 }
 
 // A process whose parent ends becomes a child of this one, the subreaper: killing children until none is left
-// ends all that the program started, whatever group or session it is in. What has not died after 5 s is stuck
-// in the kernel, or another user's.
+// ends all that the program started, whatever group or session it is in. A process that lives after 5 s is
+// stuck in the kernel, or another user's.
 void killAllBelow() {
     constexpr timespec pause{0, 1'000'000};
     for (int i = 0; i < 5000; ++i) {

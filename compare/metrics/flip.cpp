@@ -87,7 +87,7 @@ FlipPair inspect(const PictureRows& reference, const PictureRows& test, float le
 
 constexpr std::size_t pieceLength = 4096;  // of values that are made for an Order
 
-// Of the errors that count.
+// The errors that count, in order.
 metrics::Order counted(const FlipPair& pair, std::span<const std::uint8_t> covered, const Image& error) {
     if (covered.empty() && pair.holes.empty()) return metrics::Order(error.data);
     return {error.pixels(), [&pair, &error, covered](std::size_t from, std::size_t to, const auto& use) {

@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // What is measured of one row, in memory that serves one row after the other.
+    // The measurements of one row; its memory serves one row after the other.
     struct Row {
         std::vector<float> buffers[2];
         const float *test, *reference;          // uncovered and nonfinite components are 0

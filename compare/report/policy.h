@@ -11,10 +11,10 @@ namespace diptych {
 // the report of a shard. Nothing but pictures is loaded.
 std::string pagePolicy(std::string_view script);
 
-// What a policy calls an inline script by: 'sha256-...'.
+// The name of an inline script in a policy: 'sha256-...'.
 std::string scriptSource(std::string_view script);
 
-// Whether a script beside a page is data: one call of a function of the page with JSON.
+// True where a script beside a page is data: one call of a function of the page with JSON.
 bool isDataScript(std::string_view script);
 
 }  // namespace diptych

@@ -37,7 +37,7 @@ std::array<double, 256> decodeShares(const AcrossDevices& across) {
     return shares;
 }
 
-// What both devices' filters round texels of 8 bits by: what was measured, and no more than a code each.
+// The rounding of 8-bit texels by both devices' filters: as measured, and at most a code each.
 double filterRounding(const AcrossDevices& across, bool srgb) {
     double sum = 0;
     for (const DevicePrecision& device : across.devices)
@@ -303,7 +303,7 @@ double DeviceBounds::textures(std::size_t i) const {
         }
         most += filterRounding(across_, true);
     }
-    // Of linear texels; F0 is mixed by them.
+    // Linear texels; they mix F0.
     if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
         mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
         most += filterRounding(across_, false) *

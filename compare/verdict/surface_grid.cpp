@@ -43,7 +43,7 @@ public:
         up_ = cross(right_, forward_);
     }
 
-    // What depth changes by to the next pixel on the triangle's plane, m; `step`: and beyond so much of it.
+    // The change of depth to the next pixel on the triangle's plane, m, and `step` of a pixel beyond it.
     double slope(std::size_t i, double step) const {
         if (!depth_ || !position_ || !normal_ || *depth_->pixel(i) <= 0) return 0;
         const float *n = normal_->pixel(i), *p = position_->pixel(i);

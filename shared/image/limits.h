@@ -32,7 +32,7 @@ inline constexpr std::int64_t deflate_ratio = 1032;
 
 namespace diptych {
 
-// What a file's header claims, before anything of its size is allocated.
+// A header's claims, checked before anything of their size is allocated.
 struct PictureSize {
     std::int64_t width = 0, height = 0;
     std::int64_t bytes_per_pixel = 0;  // while it is decoded

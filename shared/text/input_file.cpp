@@ -35,7 +35,7 @@ int openBelow(const fs::path& root, const std::string& name) {
                                                       : ::openat(folder, part.c_str(), flags | O_NOFOLLOW);
         const int error = errno;
         struct stat there {};
-        // What O_DIRECTORY says of a link is ENOTDIR.
+        // O_DIRECTORY answers ENOTDIR to a link.
         const bool link = next < 0 && ::fstatat(folder, part.c_str(), &there, AT_SYMLINK_NOFOLLOW) == 0 &&
                           S_ISLNK(there.st_mode);
         ::close(std::exchange(folder, next));

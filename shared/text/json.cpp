@@ -29,7 +29,7 @@ void check(const JsonShape& shape, const JsonLimits& limits) {
     checkCount(shape.values, limits.values, "values");
 }
 
-// Of a text of which little is kept.
+// Parses a text of which little is kept.
 constexpr JsonLimits unlimited{std::numeric_limits<std::size_t>::max()};
 
 [[noreturn]] void failNoJson(std::string_view message) {

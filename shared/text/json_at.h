@@ -37,7 +37,7 @@ public:
         return JsonAt((*json_)[index], fmt::format("{}[{}]", where_, index));
     }
 
-    // Of an array.
+    // The elements of an array.
     std::size_t size() const {
         if (!json_->is_array()) fail("is no array");
         return json_->size();

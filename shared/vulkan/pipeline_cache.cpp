@@ -53,7 +53,7 @@ struct CacheFileHead {
 };
 static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // every byte is written by us
 
-// Of one device: more than any driver keeps.
+// More than any driver keeps for one device.
 constexpr std::uint64_t mostCacheBytes = std::uint64_t{1} << 30;
 
 // A driver that keeps nothing gives the header that Vulkan demands (VkPipelineCacheHeaderVersionOne).

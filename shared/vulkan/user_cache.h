@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The user's cache folder. What is in it only saves time, and is read without mistrust by drivers: nothing is
-// used that somebody else could have written.
+// The user's cache folder. It only saves time, and drivers read it without mistrust: nothing is used
+// that somebody else could have written.
 #pragma once
 
 #include <cstdint>

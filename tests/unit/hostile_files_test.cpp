@@ -302,7 +302,7 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     }
 }
 
-// What every reader promises of any bytes.
+// Every reader, on any bytes.
 void expectALine(const std::function<void()>& read, const std::string& text) {
     try {
         read();

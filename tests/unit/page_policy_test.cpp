@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which scripts run on a report's page.
+// The scripts that may run on a report's page.
 #include "compare/report/policy.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the user's cache takes from a folder: files of this user's alone.
+// The user's cache takes files of this user alone.
 #include "shared/vulkan/user_cache.h"
 #include "tests/unit/files.h"
 
