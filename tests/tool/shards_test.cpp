@@ -193,7 +193,7 @@ TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
     EXPECT_TRUE(runTool(folder, "compare --shard 1/2 --single-file").failedOver("--single-file"));
 }
 
-// Each time it is killed somewhere, and what was finished then is not drawn again.
+// Each time it is killed somewhere, and what was finished then is not drawn again before the report is there.
 TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
     const Folder folder;
     const std::vector<std::string> words{"compare",
@@ -231,6 +231,8 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
         const std::string out = fmt::format("cut-{}", round);
         std::size_t most = 0;  // scenes that were finished when it was killed
         for (;;) {
+            // A run that was killed after its report, while it removed the scenes, leaves what it has not removed.
+            const bool ended_before = fs::exists(folder / out);
             Running cut(folder, with(out));
             std::this_thread::sleep_for(std::chrono::milliseconds(when(random)));
             std::size_t there = 0;
@@ -244,7 +246,7 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
                 ++resumed;
                 there =
                     static_cast<std::size_t>(std::stoi(cut.err().substr(cut.err().rfind(' ', at - 1) + 1)));
-                EXPECT_GE(there, most) << "none is drawn again";
+                EXPECT_TRUE(there >= most || ended_before) << "none is drawn again";
             }
             most = std::max(most, there);
             if (!WIFSIGNALED(cut.wait())) {
