@@ -231,7 +231,8 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
         const std::string out = fmt::format("cut-{}", round);
         std::size_t most = 0;  // scenes that were finished when it was killed
         for (;;) {
-            // A run that was killed after its report, while it removed the scenes, leaves what it has not removed.
+            // A run that was killed after its report, while it removed the scenes, leaves what it has not
+            // removed.
             const bool ended_before = fs::exists(folder / out);
             Running cut(folder, with(out));
             std::this_thread::sleep_for(std::chrono::milliseconds(when(random)));

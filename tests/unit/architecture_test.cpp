@@ -88,33 +88,33 @@ const Module* moduleOf(const std::string& path) {
 }
 
 // Quoted includes that lead to a higher floor, to another module of the same floor, or out of the contract.
-Faults climbingIncludes(const Files& files) {
+Faults climbingIncludes(const Files& files, const std::string& path) {
     Faults faults;
-    for (const auto& [path, text] : files) {
-        const Module* from = isCode(path) ? moduleOf(path) : nullptr;
-        if (!from) continue;
-        for (const std::string& target : quotedIncludes(files, path)) {
-            const Module* to = moduleOf(target);
-            if (from->floor == 0 && to != from) {
-                faults.push_back(path + " includes " + target + ", outside the contract");
-            } else if (to && to != from) {
-                const bool listed = from->only.empty() || std::ranges::count(from->only, to->path) > 0;
-                if (to->floor >= from->floor || !listed) faults.push_back(path + " includes " + target);
-            }
+    const Module* from = isCode(path) ? moduleOf(path) : nullptr;
+    if (!from) return faults;
+    for (const std::string& target : quotedIncludes(files, path)) {
+        const Module* to = moduleOf(target);
+        if (from->floor == 0 && to != from) {
+            faults.push_back(path + " includes " + target + ", outside the contract");
+        } else if (to && to != from) {
+            const bool listed = from->only.empty() || std::ranges::count(from->only, to->path) > 0;
+            if (to->floor >= from->floor || !listed) faults.push_back(path + " includes " + target);
         }
     }
     return faults;
 }
 
 TEST(Architecture, IncludesOnlyGoDown) {
-    EXPECT_EQ(joined(climbingIncludes(sources())), "");
+    Faults faults;
+    for (const auto& [path, text] : sources())
+        std::ranges::move(climbingIncludes(sources(), path), std::back_inserter(faults));
+    EXPECT_EQ(joined(faults), "");
 }
 
 TEST(Architecture, APlantedClimbIsFound) {
-    const auto plant = [](const std::string& path, const std::string& include) {
-        Files files = sources();
+    auto plant = [files = sources()](const std::string& path, const std::string& include) mutable {
         files[path] = "// SPDX-License-Identifier: MIT\n#include \"" + include + "\"\n";
-        return climbingIncludes(files).size() - climbingIncludes(sources()).size();
+        return climbingIncludes(files, path).size();
     };
     EXPECT_EQ(plant("shared/image/planted.h", "shared/scene/model/scene.h"), 1u);
     EXPECT_EQ(plant("shared/scene/model/planted.h", "shared/frame/frame.h"), 1u);
