@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Statistical tables (a fault planted at every call) are run whole by a campaign alone:
-// DIPTYCH_CAMPAIGN=1, or `ctest --preset campaign`. Everywhere else a slice of each is run, chosen by
+// DIPTYCH_CAMPAIGN=1. Everywhere else a slice of each is run, chosen by
 // DIPTYCH_SEED (1).
 #pragma once
 

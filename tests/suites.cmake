@@ -1,77 +1,86 @@
 # SPDX-License-Identifier: MIT
-# ctest reads this when it starts: the GoogleTest suites of one program become tests of ctest, FOLDER.SUITE. A suite
-# is one process, so that its tests share one device, what was uploaded to it and the pipelines that were compiled.
-# For the same reason suites that are instantiated once a scene, under the prefix Builtin or Asset, are run scene by
-# scene: these are dealt out to four tests each, FOLDER.Builtin.N and FOLDER.Asset.N, since scenes share pipelines.
-# Those of suites without the validation layers are tests of their own, FOLDER.PlainBuiltin.N.
+# ctest reads this when it starts, once a program: its GoogleTest suites become tests of ctest, FOLDER.1, FOLDER.2 and
+# on, one a core and a process each (group.sh): what a suite has made (a device, pipelines, uploaded scenes) serves the
+# next one.
 #
-# Variables that this file reads: program; folder, its label and the first part of every name; seconds, how long a
-# test may take; results, the folder that JUnit files are written to; costs, names and seconds of the longest, which
-# start first; campaigns, those of which a slice is run where DIPTYCH_CAMPAIGN is not set (campaign.h); plain, suites
-# that are run without the validation layers then.
+# Environment, as ./diptych test sets it; without it everything is run:
+#   DIPTYCH_TIER=default   leaves out what longer.txt lists
+#   DIPTYCH_TESTS=NAME     only what has NAME in it: a suite, FOLDER.SUITE, or TESTs, FOLDER.SUITE.TEST; a process each
+#
+# Variables: program; folder, its label; seconds, the most that a process may take; results, the folder of JUnit files;
+# here, the folder of this file; alone, whether every suite is a process of its own; validated, the suites that run
+# under the validation layers, in one process more, where others set DIPTYCH_VALIDATE=0 (empty: all of them); costs,
+# names and seconds of the longest, which start first.
+cmake_policy(SET CMP0057 NEW)  # IN_LIST
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
   return()
 endif()
-execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines RESULT_VARIABLE failed)
+
+set(left_out "")
+if("$ENV{DIPTYCH_TIER}" STREQUAL default)
+  file(STRINGS ${here}/longer.txt lines REGEX "^${folder}\\.")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^.]*\\.([^ ]*).*$" "\\1" pattern ${line})
+    string(APPEND left_out ":${pattern}")
+  endforeach()
+  string(REGEX REPLACE "^:" "-" left_out "${left_out}")
+endif()
+execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=*${left_out}
+  OUTPUT_VARIABLE lines RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "${program} --gtest_list_tests: ${failed}")
 endif()
 string(REPLACE ";" "," lines "${lines}")
 string(REPLACE "\n" ";" lines "${lines}")
 
-set(groups "")
-set(plain_groups "")
+set(names "")
+macro(run_in name pattern)
+  list(APPEND names ${name})
+  list(APPEND filter_${name} ${pattern})
+endmacro()
+
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+set(dealt 0)
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
     string(REGEX REPLACE "^.*/" "" short ${suite})
-    list(FIND plain ${folder}.${short} is_plain)
-  elseif(line MATCHES "^  ([^ ]+)")
-    set(name ${CMAKE_MATCH_1})
-    if(suite MATCHES "^(Builtin|Asset)/" AND name MATCHES "/(.+)$")
-      set(scene ${CMAKE_MATCH_1})
-      string(REGEX REPLACE "/.*$" "" prefix ${suite})
-      list(APPEND ${prefix}_scenes ${scene})
-      list(REMOVE_DUPLICATES ${prefix}_scenes)
-      list(FIND ${prefix}_scenes ${scene} at)
-      math(EXPR at "${at} % 4 + 1")
-      set(group ${folder}.${prefix}.${at})
-      if(is_plain GREATER -1)
-        set(group ${folder}.Plain${prefix}.${at})
-      endif()
-      list(APPEND filter_${group} ${suite}.${name})
+    string(FIND ${folder}.${short} "$ENV{DIPTYCH_TESTS}" suite_is_asked)
+    if(suite_is_asked EQUAL -1)
+      continue()
+    elseif(alone OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+      run_in(${folder}.${short} ${suite}.*)
+    elseif(short IN_LIST validated)
+      run_in(${folder}.validated ${suite}.*)
     else()
-      set(group ${folder}.${short})
-      list(APPEND filter_${group} ${suite}.*)
+      math(EXPR number "${dealt} % ${cores} + 1")
+      math(EXPR dealt "${dealt} + 1")
+      run_in(${folder}.${number} ${suite}.*)
     endif()
-    list(APPEND groups ${group})
-    if(is_plain GREATER -1)
-      list(APPEND plain_groups ${group})
+  elseif(line MATCHES "^  ([^ ]+)" AND suite_is_asked EQUAL -1)
+    set(test ${folder}.${short}.${CMAKE_MATCH_1})
+    string(FIND ${test} "$ENV{DIPTYCH_TESTS}" test_is_asked)
+    if(test_is_asked GREATER -1)
+      string(REPLACE / . test ${test})  # of a table's rows
+      run_in(${test} ${suite}.${CMAKE_MATCH_1})
     endif()
   endif()
 endforeach()
-list(REMOVE_DUPLICATES groups)
+list(REMOVE_DUPLICATES names)
 
-foreach(group IN LISTS groups)
-  list(REMOVE_DUPLICATES filter_${group})
-  list(JOIN filter_${group} ":" filter)
-  add_test(${group} ${program} --gtest_filter=${filter} --gtest_output=xml:${results}/${group}.xml)
+foreach(name IN LISTS names)
+  list(JOIN filter_${name} ":" filter)
+  add_test(${name} ${here}/group.sh ${program} ${filter}${left_out} ${results}/${name})
   set(cost 0)
-  list(FIND costs ${group} at)
+  list(FIND costs ${name} at)
   if(at GREATER -1)
     math(EXPR at "${at} + 1")
     list(GET costs ${at} cost)
   endif()
-  set(campaign "")
-  list(FIND campaigns ${group} at)
-  if(at GREATER -1)
-    set(campaign ";campaign")
-  endif()
-  set_tests_properties(${group} PROPERTIES LABELS "${folder}${campaign}" TIMEOUT ${seconds} COST ${cost})
-  list(FIND plain_groups ${group} at)
-  if(at GREATER -1)
-    set_tests_properties(${group} PROPERTIES ENVIRONMENT DIPTYCH_VALIDATE=0)
+  set_tests_properties(${name} PROPERTIES LABELS ${folder} TIMEOUT ${seconds} COST ${cost})
+  if(validated AND NOT name STREQUAL "${folder}.validated")
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT DIPTYCH_VALIDATE=0)
   endif()
 endforeach()

@@ -23,12 +23,14 @@ protected:
     void SetUp() override {
         fs::create_directories(home_.path() / "repository");
         fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "diptych", home_ / "repository/diptych");
+        fs::create_directories(home_ / "repository/tests");
+        fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "tests/run.py", home_ / "repository/tests/run.py");
         home_.write("repository/packages.txt",
                     "# build\nalpha\n\nbeta-dev\n\n# to test: gamma, too\ngamma\n");
         installed("alpha beta-dev gamma");
         home_.write("bin/id", "#!/bin/sh\necho 0\n", true);
         home_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >>'" + (home_ / "apt.log").string() + "'\n", true);
-        home_.write("bin/ctest", "#!/bin/sh\necho \"ctest $*\"\nexit 8\n", true);
+        home_.write("bin/ctest", "#!/bin/sh\necho \"ctest $* $DIPTYCH_TIER $DIPTYCH_TESTS\"\nexit 8\n", true);
         // The fake CMake builds a program that prints its arguments; it fails if two run at once.
         home_.write(
             "bin/cmake",
@@ -148,10 +150,15 @@ TEST_F(Launcher, AFailedBuildIsShownAndIsExitTwo) {
 }
 
 TEST_F(Launcher, TestBuildsEverythingAndHandsOnToCtest) {
-    const Ran ran = run("test -L unit");
-    EXPECT_EQ(ran.code, 8);
-    EXPECT_NE(ran.out.find("ctest --test-dir " + build()), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find(" -L unit\n"), std::string::npos) << ran.out;
+    const auto says = [&](const std::string& words, const std::string& told) {
+        const Ran ran = run(words);
+        EXPECT_EQ(ran.code, 8);
+        EXPECT_EQ(ran.out.find("ctest --test-dir " + build()), 0u) << ran.out;
+        EXPECT_TRUE(ran.out.ends_with(told)) << ran.out;
+    };
+    says("test -L unit", " -LE ^longer$ -L unit default \n");
+    says("test all -L unit", " -L unit all \n");
+    says("test Msaa.Edges -j 3", " -R Msaa\\.Edges -j 3 all Msaa.Edges\n");
     EXPECT_NE(contentsOf(home_ / "cmake.log").find("--target all"), std::string::npos);
 }
 
