@@ -11,7 +11,6 @@
 # here, the folder of this file; alone, whether every suite is a process of its own; validated, the suites that run
 # under the validation layers, in one process more, where others set DIPTYCH_VALIDATE=0 (empty: all of them); costs,
 # names and seconds of the longest, which start first.
-cmake_policy(SET CMP0057 NEW)  # IN_LIST
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
@@ -48,11 +47,12 @@ foreach(line IN LISTS lines)
     set(suite ${CMAKE_MATCH_1})
     string(REGEX REPLACE "^.*/" "" short ${suite})
     string(FIND ${folder}.${short} "$ENV{DIPTYCH_TESTS}" suite_is_asked)
+    list(FIND validated "${short}" is_validated)
     if(suite_is_asked EQUAL -1)
       continue()
     elseif(alone OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
       run_in(${folder}.${short} ${suite}.*)
-    elseif(short IN_LIST validated)
+    elseif(is_validated GREATER -1)
       run_in(${folder}.validated ${suite}.*)
     else()
       math(EXPR number "${dealt} % ${cores} + 1")
