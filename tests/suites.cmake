@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 # ctest reads this when it starts, once a program: its GoogleTest suites become tests of ctest, FOLDER.1, FOLDER.2 and
-# on, one a core and a process each (group.sh): what a suite has made (a device, pipelines, uploaded scenes) serves the
-# next one.
+# on, a process each (group.sh), of neighbouring suites: what one has made (a device, pipelines, uploaded scenes) serves
+# the next.
 #
 # Environment, as ./diptych test sets it; without it everything is run:
 #   DIPTYCH_TIER=default   leaves out what longer.txt lists
 #   DIPTYCH_TESTS=NAME     only what has NAME in it: a suite, FOLDER.SUITE, or TESTs, FOLDER.SUITE.TEST; a process each
 #
 # Variables: program; folder, its label; seconds, the most that a process may take; results, the folder of JUnit files;
-# here, the folder of this file; alone, whether every suite is a process of its own; validated, the suites that run
-# under the validation layers, in one process more, where others set DIPTYCH_VALIDATE=0 (empty: all of them); costs,
+# here, the folder of this file; processes, into how many suites are dealt; 0: one each; validated, the suites that run
+# under the validation layers, in three processes more, where others set DIPTYCH_VALIDATE=0 (empty: all of them); costs,
 # names and seconds of the longest, which start first.
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
@@ -40,23 +40,26 @@ macro(run_in name pattern)
   list(APPEND filter_${name} ${pattern})
 endmacro()
 
-cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-set(dealt 0)
+set(suites ${lines})
+list(FILTER suites INCLUDE REGEX "^[^ ]+\\.( |$)")
+list(LENGTH suites count)
+set(at 0)
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
     string(REGEX REPLACE "^.*/" "" short ${suite})
+    math(EXPR at "${at} + 1")
     string(FIND ${folder}.${short} "$ENV{DIPTYCH_TESTS}" suite_is_asked)
     list(FIND validated "${short}" is_validated)
     if(suite_is_asked EQUAL -1)
       continue()
-    elseif(alone OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+    elseif(processes EQUAL 0 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
       run_in(${folder}.${short} ${suite}.*)
     elseif(is_validated GREATER -1)
-      run_in(${folder}.validated ${suite}.*)
+      math(EXPR number "(${at} - 1) * 3 / ${count} + 1")
+      run_in(${folder}.validated.${number} ${suite}.*)
     else()
-      math(EXPR number "${dealt} % ${cores} + 1")
-      math(EXPR dealt "${dealt} + 1")
+      math(EXPR number "(${at} - 1) * ${processes} / ${count} + 1")
       run_in(${folder}.${number} ${suite}.*)
     endif()
   elseif(line MATCHES "^  ([^ ]+)" AND suite_is_asked EQUAL -1)
@@ -78,9 +81,11 @@ foreach(name IN LISTS names)
   if(at GREATER -1)
     math(EXPR at "${at} + 1")
     list(GET costs ${at} cost)
+  elseif(processes)
+    set(cost 50)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS ${folder} TIMEOUT ${seconds} COST ${cost})
-  if(validated AND NOT name STREQUAL "${folder}.validated")
+  if(validated AND NOT name MATCHES "\\.validated")
     set_tests_properties(${name} PROPERTIES ENVIRONMENT DIPTYCH_VALIDATE=0)
   endif()
 endforeach()

@@ -215,6 +215,28 @@ TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
             }
 }
 
+// A board just above the ground, beside a high roof's penumbra: its depth is in the square that is searched,
+// yet it blocks nothing of the disc, so that the penumbra is as wide as the roof alone makes it.
+TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
+    constexpr float angle = 0.09f;
+    constexpr double height = 1, edge = 0.12, low = 0.05, texel = 0.0095;
+    Scene scene = underARoof(height, angle);
+    Primitive board = scene.meshes[0].primitives[1];  // x from -4 to 0
+    for (glm::vec3& p : board.positions) p = {p.x + 4 + edge, low, p.z};
+    scene.meshes[0].primitives.push_back(board);
+    Settings settings = filteredBy(Shadows::pcss, GBufferEncoding::full, 1024);
+    settings.shadow_cascades = 1;
+    settings.size = {320, 180};
+    int penumbra = 0;
+    for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places}))) {
+        if (c.at > edge - low * std::tan(double{angle} / 2) - 2 * texel) continue;  // the board's own shadow
+        EXPECT_GE(c.visibility, seenOfDisc(c.at - texel, height, double{angle}) - 0.02) << c.at;
+        EXPECT_LE(c.visibility, seenOfDisc(c.at + texel, height, double{angle}) + 0.02) << c.at;
+        penumbra += c.visibility > 0.01 && c.visibility < 0.99;
+    }
+    EXPECT_GT(penumbra, 500);
+}
+
 // A blur makes an edge wider, along both axes of the map, and leaves it in its place.
 TEST(ShadowMoments, AreBlurredAcrossAndDown) {
     for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4})

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -107,6 +109,25 @@ TEST(Haze, TheSunIsDimmedByTheAirAboveTheCameraOrAboveEachPlace) {
         const glm::dvec3 expected =
             steps == 0 ? glm::dvec3(std::exp(-0.7)) : std::exp(-0.7) * share(1200) / share(500);
         expectNear(high / low, expected, 1e-7, steps == 0 ? "one sun" : "each place's");
+    }
+}
+
+// Ground and camera lifted together change nothing; here or in the reference.
+TEST(Haze, HeightsCountFromTheGround) {
+    const Light sun = sunTowards({0.3, -0.6, -1}, 3);
+    for (const int steps : {0, 16}) {
+        Settings level = hazeSettings(20), lifted = level;
+        level.haze_march_steps = lifted.haze_march_steps = steps;
+        lifted.haze_ground = 2048;
+        const HazeNumbers a = hazeNumbers(level, &sun, {0, 512, 0}),
+                          b = hazeNumbers(lifted, &sun, {0, 2560, 0});
+        EXPECT_EQ(std::memcmp(&a.haze, &b.haze, sizeof a.haze), 0) << steps;
+        EXPECT_EQ(std::memcmp(&a.march, &b.march, sizeof a.march), 0) << steps;
+        const reference::Haze low(airOfSettings(level, &sun), {0, 512, 0}),
+            high(airOfSettings(lifted, &sun), {0, 2560, 0});
+        const glm::dvec3 away = glm::normalize(glm::dvec3(1, -0.1, 0.5));
+        EXPECT_LT(glm::length(low.along({}, away, 4000).scattered - high.along({}, away, 4000).scattered),
+                  1e-12);
     }
 }
 

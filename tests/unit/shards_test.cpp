@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which scenes a shard takes, and what it calls itself.
 #include "compare/shards/manifest.h"
+#include "compare/shards/merge.h"
 #include "compare/shards/partition.h"
 #include "tests/unit/files.h"
 
@@ -153,6 +154,21 @@ TEST(Shards, AManifestComesBack) {
         std::ofstream(root / "shard.json") << text;
         EXPECT_THROW(readManifest(root, "shard.json"), std::runtime_error) << text;
     }
+}
+
+TEST(Shards, OfSeveralCommandsMostFoldersDecideThenTheFirst) {
+    const fs::path root = folder();
+    const auto shard = [&](const char* name, int index, int plan) {
+        fs::create_directories(root / name);
+        const Manifest manifest{
+            buildName(), "compare", {{"shards", plan}}, {index, 3}, {{"a.glb", "a/", index}}, {}};
+        std::ofstream(root / name / "shard.json") << textOf(manifest);
+        return root / name;
+    };
+    const fs::path a = shard("a", 1, 7), b = shard("b", 2, 8), c = shard("c", 3, 8);
+    EXPECT_EQ(choose({b, a}, "shard.json").manifest.plan["shards"], 7) << "in whatever order they are given";
+    EXPECT_EQ(choose({a, b, c}, "shard.json").manifest.plan["shards"], 8);
+    EXPECT_EQ(choose({a, b, c}, "shard.json").folders, (std::map<int, fs::path>{{2, b}, {3, c}}));
 }
 
 }  // namespace

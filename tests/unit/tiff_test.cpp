@@ -115,6 +115,10 @@ TEST(Tiff, WhiteMayBeZero) {
     MadeTiff file = made(2, 1, 1, 8, 1, stored<std::uint8_t>({0, 255}));
     file.tags[262] = 0;
     EXPECT_EQ(read(file).image.data, (PixelData{1, 0}));
+    MadeTiff seen = made(2, 1, 2, 8, 1, stored<std::uint8_t>({0, 51, 255, 255}));
+    seen.tags[262] = 0;
+    seen.tags[338] = 2;
+    EXPECT_EQ(read(seen).image.data, (PixelData{1, 51 / 255.0f, 0, 1})) << "alpha is not turned over";
 }
 
 TEST(Tiff, IsAPictureFileLikeOthers) {
