@@ -215,6 +215,9 @@ TEST(Relations, AFilterMayWeightOtherwiseOfFewPixels) {
     changed.channels[relatedLight].at(2, 3, 1) += 0x1p-8f;
     EXPECT_TRUE(hold(given, changed, grant).holds());
     EXPECT_EQ(hold(given, changed, grant).filtered, 1u);
+    Frame wrong = changed;
+    wrong.channels[relatedAlbedo].at(2, 3, 1) += 0.25f;
+    EXPECT_FALSE(hold(given, wrong, grant).holds()) << "its light alone is excused";
     Frame more = given;
     for (int y = 0; y < relatedHeight; ++y)
         for (int x = 0; x < 2; ++x) more.channels[relatedAlbedo].at(x, y, 1) += 0x1p-8f;
