@@ -12,7 +12,7 @@
 #include "shared/contract/environment.h"
 #include "shared/environment/directional_albedo.h"
 #include "shared/environment/environment_maps.h"
-#include "tests/cubic.h"
+#include "tests/support/cubic.h"
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>

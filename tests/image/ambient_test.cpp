@@ -39,7 +39,7 @@ TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
 }
 
 // At normal incidence and roughness 1 the lobe's integral is 1 - ln 2
-// (tests/unit/reference_ambient_test.cpp).
+// (tests/unit/compare/reference/ambient_test.cpp).
 TEST(Ambient, OfARoughMetalSeenStraightOn) {
     Scene scene = square();
     Material& m = scene.materials[0];

@@ -2,8 +2,8 @@
 // Haze in both paths: against each other, against the reference, and against what must not depend on it.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
-#include "tests/haze_maker.h"
 #include "tests/image/square.h"
+#include "tests/support/haze_maker.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include "shared/scene/load.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/view.h"
-#include "tests/campaign.h"
 #include "tests/image/scenes.h"
+#include "tests/support/campaign.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -3,8 +3,8 @@
 // and both resolve alike.
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
-#include "tests/campaign.h"
 #include "tests/image/square.h"
+#include "tests/support/campaign.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

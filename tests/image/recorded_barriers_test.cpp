@@ -4,7 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
-#include "tests/unit/hazards.h"
+#include "tests/support/hazards.h"
 
 #include <dlfcn.h>
 

@@ -160,7 +160,7 @@ struct Fault {
     const char* name;
     void (*plant)(Scene&);
 };
-const Fault faults[] = {
+const Fault referenceFaults[] = {
     {"AFactorOfPi",
      [](Scene& s) {
          for (Light& l : s.lights) l.intensity *= gpu::PI;
@@ -217,7 +217,7 @@ TEST_P(ReferenceNegativeControl, IsSeenOnEitherSide) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, ReferenceNegativeControl, testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Faults, ReferenceNegativeControl, testing::ValuesIn(referenceFaults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
 #include "shared/vulkan/device.h"
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ class NoMessages : public testing::EmptyTestEventListener {
     }
     std::uint64_t before_ = 0;
 };
-[[maybe_unused]] const bool listening = [] {
+[[maybe_unused]] const bool is_listening = [] {
     testing::UnitTest::GetInstance()->listeners().Append(new NoMessages);
     return true;
 }();

@@ -3,8 +3,8 @@
 #include "compare/reference/haze.h"
 #include "shared/contract/features.h"
 #include "shared/environment/haze.h"
-#include "tests/haze_maker.h"
 #include "tests/probe/probe.h"
+#include "tests/support/haze_maker.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "shared/draw/culling.h"
 
 #include "shared/draw/posing.h"
-#include "tests/rasteriser.h"
+#include "tests/support/rasteriser.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

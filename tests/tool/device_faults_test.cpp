@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Failing memory allocations and devices: exit code 2, one line that says what helps, no output.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/faults.h"
 
 #include <vulkan/vulkan_core.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes with extreme values, through the whole program: either both paths draw them, or there is a one-line
 // error.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/run.h"
 
 #include <fmt/format.h>

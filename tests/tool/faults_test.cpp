@@ -3,7 +3,7 @@
 // and nothing else is left. A campaign lets every call fail in turn, until the tool ends without reaching
 // the next one; otherwise a slice of the calls is tested.
 #include "tests/tool/faults.h"
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 
 #include <cstddef>
 

@@ -2,7 +2,7 @@
 // Nothing is used before the device was asked. Row by row of DeviceSupport's tables a layer hides what Vulkan
 // leaves to the device; a comparison that uses it then has the same verdict, or ends in one line that names
 // what lacks and what helps. A validation message, which the layer above this one would have, is a failure.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/hidden.h"
 
 #include <nlohmann/json.hpp>

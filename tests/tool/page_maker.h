@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/report/report.h"
+#include "tests/support/report_maker.h"
 #include "tests/tool/browser.h"
-#include "tests/unit/report_maker.h"
 
 #include <string>
 #include <vector>

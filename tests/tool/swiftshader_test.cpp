@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program on a second driver: SwiftShader, a conformant Vulkan 1.3 device on the CPU that Debian's
 // chromium-common brings. Skipped where it is not installed.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>

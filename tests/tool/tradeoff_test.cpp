@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sweeps through the whole program: their output, and the commands that it prints.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"

@@ -7,7 +7,7 @@
 #include "compare/viewer/keys.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/png.h"
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/display.h"
 
 #include <fmt/format.h>

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Small scenes of which the reference's tests draw whole pictures.
+#pragma once
+
+#include "tests/support/reference_maker.h"
+
+#include "compare/reference/checkpoint.h"
+#include "shared/contract/debug_mode.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <optional>
+
+namespace diptych::reference {
+
+// A flat piece from `corner` along x and y; its front is where cross(x, y) points.
+inline Primitive quad(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material = 0) {
+    Primitive p;
+    p.positions = {corner, corner + x, corner + x + y, corner + y};
+    p.normals.assign(4, glm::normalize(glm::cross(x, y)));
+    p.tangents.assign(4, glm::vec4(glm::normalize(x), 1));
+    p.texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    p.indices = {0, 1, 2, 0, 2, 3};
+    p.material = material;
+    return p;
+}
+
+// White and purely Lambertian.
+inline Material matte() {
+    Material m;
+    m.metallic = 0;
+    m.specular = 0;
+    return m;
+}
+
+// A white floor of 20 m at z = 0 that faces +Z.
+inline Scene floorScene() {
+    Scene scene;
+    scene.materials = {matte()};
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives = {quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0})};
+    scene.nodes.resize(1);
+    scene.nodes[0].mesh = 0;
+    return scene;
+}
+
+inline void add(Scene& scene, const Primitive& primitive) {
+    scene.meshes[0].primitives.push_back(primitive);
+}
+
+// From `eye` to `target`.
+inline View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, int width, int height,
+                     double yfov = glm::radians(60.0)) {
+    View view;
+    const glm::dvec3 forward = glm::normalize(target - eye);
+    const glm::dvec3 up = std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    view.camera.world_from_camera = glm::inverse(glm::lookAt(eye, target, up));
+    view.camera.yfov = yfov;
+    view.camera.near = 0.01;
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+// Keeps tiles in a file of that stem, owned by `checkpoint`; an empty stem keeps nothing.
+inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>& checkpoint) {
+    std::function<Checkpoint&(std::uint64_t, std::size_t)> keep;
+    if (!stem.empty())
+        keep = [stem, &checkpoint](std::uint64_t key, std::size_t floats) -> Checkpoint& {
+            return checkpoint.emplace(stem, key, floats);
+        };
+    return keep;
+}
+
+struct Drawn {
+    Pose pose;
+    Picture picture;
+    const Image& operator[](gpu::uint mode) const { return picture.channels.at(static_cast<int>(mode)); }
+};
+// `shadows`: of every light and of the environment.
+inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
+                   const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
+    Drawn result{poseAt(scene, 0), {}};
+    std::optional<Checkpoint> checkpoint;
+    result.picture = draw({.scene = scene,
+                           .pose = result.pose,
+                           .view = view,
+                           .lights = result.pose.lights,
+                           .casters = shadows ? everyLight(result.pose.lights) : std::vector<std::size_t>{},
+                           .shadowed_environment = shadows,
+                           .mode = ReferenceMode::scene,
+                           .samples = samples,
+                           .surfaces = nullptr,
+                           .keep = keptAt(keep, checkpoint),
+                           .progress = progress});
+    return result;
+}
+
+}  // namespace diptych::reference

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// The conventions of the project's own files: one pi, a licence line, one reader of JSON, one user of libpng,
+// no folder of one machine, the columns of shaders, a line of shader for every channel. Each check has a
+// negative control.
+#include "shared/frame/debug_modes.h"
+#include "tests/support/sources.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+// pi, 2 pi, pi/2, pi/4, 1/pi written as digits, and the macro M_PI, which is not standard C++. Values
+// computed by hand in tests may contain them.
+Faults otherPis(const Files& files) {
+    static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && path != "shared/contract/constants.h" && !path.starts_with("tests/") &&
+            std::regex_search(text, pi))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, ThereIsOnePi) {
+    EXPECT_EQ(joined(otherPis(sources())), "");
+}
+
+TEST(Conventions, APlantedPiIsFound) {
+    for (const char* pi : {"3.14159f", "3.1415628", "6.28318530718", "M_PI_2", "0.31830988"}) {
+        EXPECT_EQ(otherPis({{"shaders/lib/planted.glsl", std::string("const float p = ") + pi + ";"}}).size(),
+                  1u)
+            << pi;
+    }
+    EXPECT_TRUE(
+        otherPis({{"shared/scene/a.cpp", "std::numbers::pi"}, {"shared/contract/constants.h", "3.14159"}})
+            .empty());
+}
+
+Faults withoutLicence(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const bool wanted = isCode(path) ||
+                            endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) ||
+                            path == "diptych" || path == ".ci/run";
+        const std::size_t second = text.find('\n', text.find('\n') + 1);
+        if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
+            faults.push_back(path);
+    }
+    return faults;
+}
+
+TEST(Conventions, EverySourceStartsWithItsLicence) {
+    EXPECT_EQ(joined(withoutLicence(sources())), "");
+}
+
+TEST(Conventions, AMissingLicenceIsFound) {
+    EXPECT_EQ(withoutLicence(
+                  {{"compare/a.cpp", "int a;\n"}, {"diptych", "#!/bin/sh\nset -e\n"}, {"README.md", "#"}}),
+              (Faults{"compare/a.cpp", "diptych"}));
+    EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
+}
+
+// libpng reads files in one place, with one set of limits. Tests may use it to make PNG files.
+Faults otherUsersOfLibpng(const Files& files) {
+    static const std::regex include(
+        "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
+    static const std::regex link("\\bPNG::PNG\\b|\\bPNG_LIBRAR(Y|IES)\\b");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (path.starts_with("tests/") || path.starts_with("shared/image/png")) continue;
+        if (isCode(path) && std::regex_search(text, include)) faults.push_back(path + " includes png.h");
+        if (path.ends_with("CMakeLists.txt") && path != "shared/image/CMakeLists.txt" &&
+            std::regex_search(text, link))
+            faults.push_back(path + " links libpng");
+    }
+    return faults;
+}
+
+// Decisions by the device's kind are made in its profile alone, and by what a Frame says of a device
+// elsewhere.
+Faults askersForTheKindOfDevice(const Files& files) {
+    static const std::regex asks("== *\"cpu\"|DEVICE_TYPE_CPU|\\bisCpu\\b|llvmpipe");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
+            !path.starts_with("shared/vulkan/device_profile.") &&
+            path != "shared/vulkan/physical_device.cpp" && path != "shared/frame/frame.h" &&
+            std::regex_search(text, asks))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, OnlyTheProfileAsksForTheKindOfDevice) {
+    EXPECT_EQ(joined(askersForTheKindOfDevice(sources())), "");
+}
+
+TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
+    EXPECT_EQ(askersForTheKindOfDevice({{"compare/render/planted.cpp", "if (info.type == \"cpu\") return;"}}),
+              Faults{"compare/render/planted.cpp"});
+}
+
+// Vulkan is asked about a device in one place; the window's surface is the viewer's own, and instances list
+// their devices and layers. The functions' names, so that a wrapper of them is found too.
+Faults askersOfVulkan(const Files& files) {
+    static const std::regex asks("\\bvkGetPhysicalDevice(\\w+)|\\bvkEnumerateDeviceExtensionProperties");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!endsIn(path, {".cpp", ".h"}) || path.starts_with("tests/") ||
+            path == "shared/vulkan/device_support.cpp")
+            continue;
+        for (std::sregex_iterator it(text.begin(), text.end(), asks), end; it != end; ++it)
+            if (!path.starts_with("compare/viewer/") || !(*it)[1].str().starts_with("Surface"))
+                faults.push_back(path + " calls " + it->str());
+    }
+    return faults;
+}
+
+TEST(Conventions, OnlyDeviceSupportAsksVulkanWhatADeviceHas) {
+    EXPECT_EQ(joined(askersOfVulkan(sources())), "");
+}
+
+TEST(Conventions, APlantedQuestionToVulkanIsFound) {
+    const auto plant = [](const std::string& path, const std::string& line) {
+        return askersOfVulkan({{path, line}}).size();
+    };
+    EXPECT_EQ(plant("shared/draw/planted.cpp", "vkGetPhysicalDeviceFormatProperties(d, f, &p);"), 1u);
+    EXPECT_EQ(plant("shared/vulkan/planted.h", "vkEnumerateDeviceExtensionProperties(d, 0, &n, 0);"), 1u);
+    EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 1u);
+    EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceSurfaceSupportKHR(d, 0, s, &b);"), 0u);
+    EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
+}
+
+// What is printed passes the filter of compare/run/print.h. The line of progress and the
+// note on a cache, which is below it, pass it themselves.
+Faults otherPrinters(const Files& files) {
+    static const std::regex prints(
+        "fmt::print\\((?!\\w+\\.stream)|std::(cout|cerr|clog)|\\b(printf|puts|putchar|perror)\\(|"
+        "\\bf(printf|puts|putc|write)\\([^;]*\\b(stdout|stderr)\\b");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
+            !path.starts_with("shaders/tool/") && !path.starts_with("shared/light/fit/") &&
+            !path.starts_with("compare/library/example/") && !path.starts_with("compare/run/print.") &&
+            path != "compare/run/progress.cpp" && path != "shared/vulkan/user_cache.cpp" &&
+            std::regex_search(text, prints))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, OnePlacePrints) {
+    EXPECT_EQ(joined(otherPrinters(sources())), "");
+}
+
+TEST(Conventions, APlantedPrinterIsFound) {
+    for (const char* line :
+         {"fmt::print(\"{}\", name);", "fmt::print(stderr, \"{}\", name);", "std::cerr << name;",
+          "std::fprintf(stderr, \"%s\", name);", "printf(\"%s\", n);", "std::fputs(name, stderr);",
+          "std::fwrite(at, 1, size, stdout);", "puts(name);"})
+        EXPECT_EQ(otherPrinters({{"compare/cli/planted.cpp", line}}).size(), 1u) << line;
+    for (const char* line :
+         {"fmt::print(out.stream(), \"PF\");", "std::fwrite(at, 1, size, file.stream());", "printText(text);",
+          "std::snprintf(at, size, \"%d\", number);", "featuresNeedingInputs(inputs)"})
+        EXPECT_TRUE(otherPrinters({{"compare/cli/planted.cpp", line}}).empty()) << line;
+}
+
+// Limits of depth, size and kind hold only where nobody goes round them.
+Faults readersOfTheirOwn(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const bool product = path.starts_with("compare/") || path.starts_with("shared/") ||
+                             path.starts_with("forward_plus/") || path.starts_with("deferred/");
+        // The kernel's files under /proc and /sys have no size.
+        if (!product || !isCode(path) || path == "shared/text/json.cpp" ||
+            path == "shared/image/free_memory.cpp")
+            continue;
+        for (const char* reader : {"son::parse(", "son::accept(", "ifstream", "istream_iterator"})
+            if (text.find(reader) != text.npos) faults.push_back(path + " has " + reader);
+    }
+    return faults;
+}
+
+TEST(Conventions, JsonAndFilesAreReadInOnePlaceEach) {
+    EXPECT_EQ(joined(readersOfTheirOwn(sources())), "");
+}
+
+TEST(Conventions, APlantedReaderIsFound) {
+    for (const char* line : {"const auto a = nlohmann::json::parse(text);",
+                             "nlohmann::ordered_json::parse(stream, nullptr, false)", "Json::parse(text)",
+                             "std::ifstream stream(file);", "json::accept(text)"})
+        for (const char* path : {"compare/cli/planted.cpp", "shared/scene/planted.h"})
+            EXPECT_EQ(readersOfTheirOwn({{path, line}}).size(), 1u) << line;
+    EXPECT_TRUE(readersOfTheirOwn({{"shared/text/json.cpp", "Json::parse(text)"},
+                                   {"tests/unit/planted.cpp", "std::ifstream stream(file);"},
+                                   {"compare/a.cpp", "parseJson(text); Json::parse_event_t e; ofstream o;"}})
+                    .empty());
+}
+
+TEST(Conventions, LibpngIsUsedInOnePlace) {
+    EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
+}
+
+TEST(Conventions, APlantedUseOfLibpngIsFound) {
+    const auto plant = [](const std::string& path, const std::string& line) {
+        return otherUsersOfLibpng({{path, "// SPDX-License-Identifier: MIT\n" + line + "\n"}}).size();
+    };
+    for (const char* line :
+         {"#include <png.h>", "  # include \"png.h\"", "#include <libpng16/png.h>", "#include <pngconf.h>"})
+        EXPECT_EQ(plant("shared/scene/planted.cpp", line), 1u) << line;
+    EXPECT_EQ(plant("shared/image/radiance.cpp", "#include <png.h>"), 1u);
+    EXPECT_EQ(plant("shared/scene/CMakeLists.txt", "  LINKS fmt::fmt PNG::PNG)"), 1u);
+    EXPECT_EQ(plant("shared/image/png_planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("tests/unit/planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("compare/planted.cpp", "#include \"shared/image/png.h\""), 0u);
+    EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
+}
+
+// Absolute paths of the machine on which a file was written.
+Faults pathsOfAMachine(const Files& files) {
+    static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) || endsIn(path, {".md", ".txt", ".json", "diptych", "run"}))
+            if (std::smatch match; std::regex_search(text, match, absolute))
+                faults.push_back(path + ": " + match.str());
+    return faults;
+}
+
+TEST(Conventions, NoFileNamesAFolderOfOneMachine) {
+    EXPECT_EQ(joined(pathsOfAMachine(sources())), "");
+}
+
+TEST(Conventions, APlantedFolderIsFound) {
+    EXPECT_EQ(pathsOfAMachine({{"README.md", std::string("see /home") + "/jo/scene.glb"}}).size(), 1u);
+    EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
+}
+
+// clang-format limits C++ to 110 columns, but does not handle GLSL.
+Faults longShaderLines(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!endsIn(path, {".glsl", ".vert", ".frag", ".comp"})) continue;
+        std::istringstream lines(text);
+        int number = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line.size() > 110) faults.push_back(path + ":" + std::to_string(number));
+        }
+    }
+    return faults;
+}
+
+TEST(Conventions, ShadersKeepToTheColumnsOfTheRest) {
+    EXPECT_EQ(joined(longShaderLines(sources())), "");
+}
+
+TEST(Conventions, APlantedLongLineOfAShaderIsFound) {
+    const std::string fits = "// " + std::string(107, 'x') + "\n";
+    EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
+              Faults{"shaders/lib/planted.glsl:2"});
+    EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
+}
+
+// A channel that has no shader code fails by name.
+Faults channelsWithoutShader(const std::string& shader) {
+    Faults faults;
+    for (const DebugMode& mode : debugModes())
+        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
+            faults.emplace_back(mode.name);
+    return faults;
+}
+
+TEST(Conventions, EveryChannelHasALineInTheShader) {
+    const std::string shader = sources().at("shaders/lib/debug.glsl");
+    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
+    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
+              Faults{"roughness"});
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// What a scene does not need is not in its shaders: a shipped module with a feature off is, once specialised
+// and rid of dead code, the module of sources from which all of the feature has been taken, its row in the
+// list of features included, so that nothing that still asks for it would compile.
+#include "shared/contract/features.h"
+#include "shared/vulkan/spirv.h"
+#include "tests/support/files.h"
+#include "tests/support/spirv_module.h"
+#include "tests/support/spirv_text.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `old` stands in the file once.
+struct Cut {
+    std::string_view file, old, put = "";
+};
+
+struct Without {
+    std::string_view feature;
+    gpu::uint id;
+    std::vector<Cut> cuts;
+    std::vector<std::string_view> modules;  // those of each entry point that reads it, one of its variants
+};
+
+std::vector<Without> withouts() {
+    return {
+        {"haze",
+         gpu::FEATURE_haze,
+         {{"shaders/lib/radiance.glsl",
+           "    if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;\n"},
+          {"shaders/lib/shade.glsl", "#include \"shaders/lib/haze.glsl\"\n"},
+          {"shaders/lib/shade.glsl",
+           "    if (on(feature_haze)) {\n"
+           "        Hazed hazed = hazeTo(s.position);\n"
+           "        radiance.transmittance = hazed.transmittance;\n"
+           "        radiance.haze = hazed.scattered;\n"
+           "    }\n"},
+          {"shaders/lib/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
+          {"shaders/pass/background.frag", "haze.glsl\"\n", "position.glsl\"\n"},
+          {"shaders/pass/background.frag",
+           "    if (on(feature_haze)) {\n"
+           "        Hazed hazed = hazeBeyond(rayOrigin(gl_FragCoord.xy), away);\n"
+           "        radiance = radiance * hazed.transmittance + hazed.scattered;\n"
+           "    }\n"}},
+         {"background.frag", "deferred_capture.frag.1", "deferred_channel_terms.frag",
+          "deferred_channels.frag", "deferred_further.frag", "deferred_shade.comp", "deferred_shade.frag",
+          "deferred_shade.frag.area", "forward_blended.frag", "forward_blended_list.frag",
+          "forward_blended_moments.frag", "forward_blended_weighted.frag", "forward_capture.frag.1",
+          "forward_shade.frag"}},
+        {"lights_in_front",
+         gpu::FEATURE_lights_in_front,
+         {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},
+          {"shaders/pass/light_depths.comp",
+           "        float endless = deepest > 0u ? largest : MAX_BOUND_RADIUS;\n"
+           "        least = on(feature_lights_in_front) ? 0.0 : least;\n"
+           "        largest = on(feature_lights_in_front) ? endless : largest;\n"}},
+         {"light_depths.comp.0", "light_depths.comp.1"}},
+    };
+}
+
+const ShaderModule& moduleNamed(std::string_view name) {
+    for (const ShaderModule& module : shaderModules())
+        if (module.name == name) return module;
+    throw std::runtime_error(fmt::format("no module {}", name));
+}
+
+// "gbuffer.frag.4" is of gbuffer.frag, with 4 attachments (shaders/CMakeLists.txt).
+std::string sourceOf(std::string_view name) {
+    return std::string(name.substr(0, name.find('.', name.find('.') + 1)));
+}
+std::string definitionsOf(std::string_view name, const std::string& source) {
+    const std::string stage = source.substr(source.find('.') + 1);
+    const std::string rest(name.substr(source.size()));
+    std::string number = "-DVARIANT=0";
+    if (rest.size() > 1 && rest[1] >= '0' && rest[1] <= '9')
+        number = fmt::format("-D{}={}", stage == "comp" ? "MULTISAMPLED" : "ATTACHMENTS", rest[1]);
+    return fmt::format("{} -DSTAGE_{} -DINPUTS=3{}", number, stage,
+                       rest.ends_with(".area") ? " -DAREA_LIGHTS=1" : "");
+}
+
+// A copy of all that shaders include, `root`/shaders and `root`/shared/contract, with the cuts made.
+void copyWithout(const Without& without, const fs::path& root) {
+    const fs::path from = DIPTYCH_SOURCE_DIR;
+    for (const char* each : {"shaders/lib", "shaders/pass", "shared/contract"}) {
+        fs::create_directories(root / each);
+        fs::copy(from / each, root / each, fs::copy_options::recursive);
+    }
+    std::vector<Cut> cuts = without.cuts;
+    const std::string list = contentsOf(from / "shared/contract/features.h");
+    const std::size_t row = list.find(fmt::format("    X({},", without.id)), end = list.find('\n', row);
+    ASSERT_NE(row, std::string::npos);
+    std::string line = list.substr(row, end + 1 - row), kept;
+    if (!line.ends_with("\\\n")) kept = "\n";  // the list's last row: the macro ends with it
+    cuts.push_back({"shared/contract/features.h", line, kept});
+    for (const Cut& cut : cuts) {
+        std::string text = contentsOf(root / cut.file);
+        const std::size_t at = text.find(cut.old);
+        ASSERT_NE(at, std::string::npos) << cut.file << " no longer has\n" << cut.old;
+        ASSERT_EQ(text.find(cut.old, at + 1), std::string::npos) << cut.file << " has twice\n" << cut.old;
+        text.replace(at, cut.old.size(), cut.put);
+        std::ofstream(root / cut.file, std::ios::binary) << text;
+    }
+}
+
+void run(const std::string& command) {
+    ASSERT_EQ(std::system((command + " >&2").c_str()), 0) << command;
+}
+
+// As the build makes it.
+void compile(const fs::path& root, std::string_view name, const fs::path& out) {
+    const std::string source = sourceOf(name);
+    run(fmt::format("'{}' -V --quiet --target-env vulkan1.3 '-I{}' {} '{}' -o '{}'", DIPTYCH_GLSLANG,
+                    root.string(), definitionsOf(name, source), (root / "shaders/pass" / source).string(),
+                    out.string()));
+    run(fmt::format("'{}' '{}'", DIPTYCH_EXACT_SPIRV, out.string()));
+    run(fmt::format("'{0}' -Os --scalar-block-layout '{1}' -o '{1}'", DIPTYCH_SPIRV_OPT, out.string()));
+}
+
+// Freezes every specialization constant, at `values` or else 0, and removes what is dead. Returns what is
+// left, in words that do not depend on numbers of ids or the order of declarations.
+std::vector<std::string> specialised(const fs::path& module, const std::string& values,
+                                     std::map<std::string, std::size_t>& known) {
+    const fs::path small = module.string() + ".small", text = module.string() + ".text";
+    run(fmt::format(
+        "'{}' --scalar-block-layout --strip-debug --set-spec-const-default-value '{}' --freeze-spec-const "
+        "--fold-spec-const-op-composite --ccp --simplify-instructions "
+        "--eliminate-dead-branches --merge-blocks --eliminate-dead-functions --vector-dce "
+        "--eliminate-dead-code-aggressive --eliminate-dead-variables --remove-unused-interface-variables "
+        "--eliminate-dead-const --compact-ids '{}' -o '{}'",
+        DIPTYCH_SPIRV_OPT, values, module.string(), small.string()));
+    run(fmt::format("'{}' --no-header --raw-id --no-color '{}' -o '{}'", DIPTYCH_SPIRV_DIS, small.string(),
+                    text.string()));
+    return canonicalSpirv(contentsOf(text), known);
+}
+
+// Scenes with much of what the list of features has, and with other of its values.
+const std::string otherFeatures[] = {
+    "0:1 3:1 9:1 12:1 14:1 15:1 16:2 30:1 31:3 32:1 36:3 40:1 44:1 48:1 49:7", "14:1 28:1 32:2 33:2 49:1"};
+
+class SpirvWithout : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(SpirvWithout, IsTheModuleOfSourcesWithoutIt) {
+    const Without without = withouts().at(GetParam());
+    const fs::path root = folder();
+    copyWithout(without, root);
+    if (HasFatalFailure()) return;
+    for (const std::string_view name : without.modules) {
+        const fs::path with = root / "with.spv", cut = root / "cut.spv";
+        const auto words = std::as_bytes(moduleNamed(name).words);
+        std::ofstream(with, std::ios::binary)
+            .write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size()));
+        compile(root, name, cut);
+        if (HasFatalFailure()) return;
+        for (const std::string& others : otherFeatures) {
+            std::map<std::string, std::size_t> known;
+            const std::vector<std::string> a = specialised(with, others, known),
+                                           b = specialised(cut, others, known);
+            ASSERT_GT(a.size(), 10u);
+            const auto differ = std::ranges::mismatch(a, b);
+            EXPECT_TRUE(a == b) << name << " with " << others << ": "
+                                << (differ.in1 == a.end() ? "nothing" : *differ.in1) << " is not "
+                                << (differ.in2 == b.end() ? "nothing" : *differ.in2);
+            // The control: with the feature it is another.
+            const std::string on = fmt::format("{} {}:1", others, without.id);
+            EXPECT_FALSE(specialised(with, on, known) == b) << name << " with " << others;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Features, SpirvWithout, testing::Range<std::size_t>(0, withouts().size()),
+                         [](const auto& each) { return std::string(withouts().at(each.param).feature); });
+
+// Every entry point that draws scenes and whose modules use the feature is held to it.
+TEST(SpirvWithoutFeatures, NoEntryPointIsForgotten) {
+    for (const Without& without : withouts()) {
+        std::vector<std::string> reading, held;
+        for (const std::string_view name : without.modules) held.push_back(sourceOf(name));
+        for (const ShaderModule& module : shaderModules())
+            if (const SpirvModule parsed(module.words);
+                parsed.usedConstants().contains(without.id) && !module.name.starts_with("bench_"))
+                reading.push_back(sourceOf(module.name));
+        for (std::vector<std::string>* names : {&reading, &held}) {
+            std::ranges::sort(*names);
+            names->erase(std::ranges::unique(*names).begin(), names->end());
+        }
+        EXPECT_EQ(reading, held) << without.feature;
+    }
+}
+
+// The control of the words: another number, decoration or instruction is another; other ids are not.
+TEST(SpirvWithoutFeatures, WordsTellModulesApart) {
+    const std::string module =
+        "OpCapability Shader\nOpEntryPoint Vertex %3 \"main\" %9\nOpDecorate %9 Binding 2\n%1 = OpTypeVoid\n"
+        "%2 = OpTypeFunction %1\n%4 = OpTypeFloat 32\n%5 = OpConstant %4 1\n%6 = OpConstant %4 2\n%7 = "
+        "OpTypePointer Output %4\n%9 = OpVariable %7 Output\n%3 = OpFunction %1 None %2\n%8 = OpLabel\n%10 = "
+        "OpFAdd %4 %5 %6\nOpStore %9 %10\nOpReturn\nOpFunctionEnd\n";
+    const auto wordsWith = [&](const std::string& old, const std::string& put) {
+        std::string text = module;
+        for (std::size_t at = 0; !old.empty() && (at = text.find(old, at)) != std::string::npos;
+             at += put.size())
+            text.replace(at, old.size(), put);
+        static std::map<std::string, std::size_t> known;
+        return canonicalSpirv(text, known);
+    };
+    const auto own = wordsWith("", "");
+    EXPECT_EQ(own, wordsWith("%10", "%77"));
+    EXPECT_EQ(own, wordsWith("%5 = OpConstant %4 1\n%6 = OpConstant %4 2\n",
+                             "%6 = OpConstant %4 2\n%5 = OpConstant %4 1\n"));
+    EXPECT_NE(own, wordsWith("%4 %5 %6", "%4 %6 %5"));
+    EXPECT_NE(own, wordsWith("%4 1\n", "%4 3\n"));
+    EXPECT_NE(own, wordsWith("Binding 2", "Binding 3"));
+    EXPECT_NE(own, wordsWith("OpFAdd", "OpFMul"));
+    EXPECT_NE(own, wordsWith("%1 = OpTypeVoid", "OpDecorate %10 NoContraction\n%1 = OpTypeVoid"));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Which features of a scene a person must check by eye, and how each is described.
+#include "compare/checks/check_features.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/load.h"
+#include "tests/support/checks_maker.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace diptych {
+
+TEST(CheckFeatures, APlainSurfaceHasNone) {
+    EXPECT_EQ(featuresIn(plainScene()), std::set<std::string>{});
+}
+
+TEST(CheckFeatures, BuiltinScenesHaveTheirs) {
+    const std::vector<std::pair<const char*, std::vector<const char*>>> expected{
+        {"vertex_colors", {"vertex colours", "texture transforms", "orientation"}},
+        {"mirrored", {"mirrored instances", "normal maps"}},
+        {"cutout", {"alpha masks", "double-sided surfaces", "normal maps"}},
+        {"unlit_materials", {"unlit materials", "vertex colours"}},
+        {"gallery", {"normal maps", "samplers"}}};
+    for (const auto& [name, features] : expected) {
+        const Scene scene = loadScene(std::string("builtin:") + name);
+        const Pose pose = poseAt(scene, 0);
+        std::set<std::string> found;
+        for (const FeatureChecks& marks :
+             visualChecksOf(scene, pose, makeView(scene, pose, "", 200, 100), nullptr, nullptr))
+            found.emplace(marks.feature);
+        for (const char* feature : features) EXPECT_TRUE(found.contains(feature)) << name << ": " << feature;
+    }
+}
+
+TEST(CheckFeatures, AFrameShowsItsSceneAsItWasDrawn) {
+    const Scene scene = sceneOf(squareAt(0, 0, -2));
+    const SceneView view =
+        makeSceneView(scene, {0, "eye=0,0,0 target=0,0,-1 fov=90 near=1", 200, 100, "", 0});
+    Frame frame;
+    EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), (Boxes{{75, 25, 125, 75}}));
+    frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = Image(200, 100, 1, -1);
+    EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), Boxes{});
+}
+
+// As the matrix of KHR_texture_transform.
+TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
+    Scene scene = plainScene();
+    const auto transformed = [&](double x, double y, double degrees, double sx, double sy) {
+        const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+        TextureSlot slot;
+        slot.texture = 0;
+        slot.u = {c * sx, s * sy, x};
+        slot.v = {-s * sx, c * sy, y};
+        return slot;
+    };
+    const std::string tail = ". What is pictured there (arrows, frames, seams) falls into place.";
+    Material& m = scene.materials[0];
+    const auto told = [&] { return what(scene, "texture transforms"); };
+    m.base_color_texture = transformed(0.5, -0.25, 0, 1, 1);
+    EXPECT_EQ(told(), "Base colour: offset 0.5 -0.25" + tail);
+    m.base_color_texture = transformed(0, 0, 30, 1, 1);
+    EXPECT_EQ(told(), "Base colour: turned 30\u00b0" + tail);
+    m.base_color_texture = transformed(0.5, 0, -30, 2, 3);
+    EXPECT_EQ(told(), "Base colour: offset 0.5 0, turned -30\u00b0, scaled 2 \u00d7 3" + tail);
+    m.base_color_texture = transformed(0, 0, 0, -1, 1);
+    EXPECT_EQ(told(), "Base colour: turned 180\u00b0, scaled 1 \u00d7 -1" + tail) << "which is the same";
+    m.base_color_texture = m.normal_texture = transformed(0, 0, 0, 2, 2);
+    m.emissive_texture = transformed(1, 0, 0, 1, 1);
+    m.emissive = glm::vec3(1);
+    EXPECT_EQ(told(), "Base colour and normal: scaled 2 \u00d7 2; emission: offset 1 0" + tail);
+    m.emissive = glm::vec3(0);
+    EXPECT_EQ(told(), "Base colour and normal: scaled 2 \u00d7 2" + tail)
+        << "nothing reads the emissive slot";
+}
+
+// A wrap mode is only visible where a texture coordinate lies beyond the edge.
+TEST(CheckFeatures, SamplersAreToldWhereTheyShow) {
+    Scene scene = plainScene();
+    TextureSlot& slot = scene.materials[0].base_color_texture;
+    slot.texture = 0;
+    Sampler& sampler = scene.textures[0].sampler;
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+    EXPECT_EQ(what(scene, "samplers"), "");
+    slot.u.x = 2;
+    EXPECT_EQ(what(scene, "samplers"), "Base colour: beyond its edge stripes of its last texels along u.");
+    slot.v.y = 2;
+    EXPECT_EQ(what(scene, "samplers"),
+              "Base colour: beyond its edge stripes of its last texels along u and v.");
+    sampler.wrap_s = Wrap::repeat;
+    sampler.wrap_t = Wrap::mirrored_repeat;
+    sampler.magnify_linear = false;
+    EXPECT_EQ(what(scene, "samplers"),
+              "Base colour: beyond its edge mirrored copies along v, enlarged texels are sharp squares.");
+}
+
+TEST(CheckFeatures, SecondTextureCoordinates) {
+    Scene scene = plainScene();
+    TextureSlot& slot = scene.materials[0].occlusion_texture;
+    slot.texture = 0;
+    slot.texcoord = 1;
+    EXPECT_TRUE(what(scene, "second UV set").starts_with("Occlusion: laid out by TEXCOORD_1."));
+    scene.meshes[0].primitives[0].texcoords[1].clear();
+    EXPECT_TRUE(what(scene, "second UV set").starts_with("Occlusion: one texel all over"));
+    scene.materials[0].occlusion_strength = 0;
+    EXPECT_EQ(what(scene, "second UV set"), "");
+}
+
+TEST(CheckFeatures, NormalMapsSayWhoseTangents) {
+    Scene scene = plainScene();
+    scene.materials[0].normal_texture.texture = 0;
+    EXPECT_NE(what(scene, "normal maps").find("the mesh's own tangents"), std::string::npos);
+    scene.meshes[0].primitives[0].tangents_made = true;
+    EXPECT_NE(what(scene, "normal maps").find("generated tangents"), std::string::npos);
+}
+
+TEST(CheckFeatures, WhiteVertexColoursShowNothing) {
+    Scene scene = plainScene();
+    std::vector<glm::vec4>& colors = scene.meshes[0].primitives[0].colors;
+    colors.assign(4, glm::vec4(1));
+    EXPECT_EQ(what(scene, "vertex colours"), "");
+    colors[3].b = 0.5f;
+    EXPECT_NE(what(scene, "vertex colours"), "");
+}
+
+// alpha is factor x texel x vertex colour: 128 / 255 is just above one half
+TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.alpha_mode = AlphaMode::mask;
+    m.base_color_texture.texture = 0;
+    const auto cuts = [&] {
+        return what(scene, "alpha masks").find("nothing is cut out") == std::string::npos;
+    };
+    EXPECT_FALSE(cuts());
+    scene.images[0].rgba[3] = 128;
+    EXPECT_FALSE(cuts());
+    scene.images[0].rgba[3] = 127;
+    EXPECT_TRUE(cuts());
+    scene.images[0] = {"image", 1, 1, {}, {0, 0, 0, 32768}};
+    EXPECT_FALSE(cuts());
+    m.base_color.a = 0.9f;
+    EXPECT_TRUE(cuts());
+    m.alpha_cutoff = 0.4f;
+    EXPECT_FALSE(cuts());
+    scene.meshes[0].primitives[0].colors.assign(4, glm::vec4(1, 1, 1, 0.5f));
+    EXPECT_TRUE(cuts());
+}
+
+TEST(CheckFeatures, MirroredPicturesNeedNotBeReadable) {
+    Scene scene = plainScene();
+    scene.materials[0].base_color_texture.texture = 0;
+    EXPECT_EQ(featuresIn(scene), (std::set<std::string>{"orientation"}));
+    scene.nodes[0].parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
+    EXPECT_EQ(featuresIn(scene), (std::set<std::string>{"mirrored instances"}));
+}
+
+TEST(CheckFeatures, WhatIsDrawnOtherwise) {
+    Scene scene = plainScene();
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    EXPECT_NE(what(scene, "blending").find("drawn opaque"), std::string::npos);
+
+    scene = plainScene();
+    scene.meshes[0].primitives[0].targets.resize(2);
+    EXPECT_NE(what(scene, "morph targets").find("its 2 morph targets"), std::string::npos);
+
+    scene = plainScene();
+    scene.nodes[0].skin = 0;
+    scene.skins.push_back({"skin", {0}, {glm::mat4(1)}});
+    EXPECT_EQ(what(scene, "skins"), "") << "nothing of the mesh moves with it";
+    const std::size_t count = scene.meshes[0].primitives[0].positions.size();
+    scene.meshes[0].primitives[0].joint_sets = {
+        {std::vector<glm::u16vec4>(count, glm::u16vec4(0)), std::vector<glm::vec4>(count, {1, 0, 0, 0})}};
+    EXPECT_NE(what(scene, "skins").find("bind pose"), std::string::npos);
+}
+
+TEST(CheckFeatures, FlatNormalsWhereTheyCanBeTold) {
+    Scene scene = plainScene();
+    Primitive& p = scene.meshes[0].primitives[0];
+    p.flat = true;
+    EXPECT_EQ(what(scene, "flat normals"), "") << "a plane looks the same with smooth ones";
+    p.normals[0] = {1, 0, 0};
+    EXPECT_NE(what(scene, "flat normals"), "");
+}
+
+TEST(CheckFeatures, DeepImagesByTheirSlot) {
+    Scene scene = plainScene();
+    scene.materials[0].metallic_roughness_texture.texture = 0;
+    EXPECT_EQ(what(scene, "images of over 8 bits"), "");
+    scene.images[0] = {"image", 1, 1, {}, {1, 2, 3, 4}};
+    EXPECT_EQ(what(scene, "images of over 8 bits"),
+              "Metallic-roughness: over 8 bits a component. Gradients run without steps.");
+}
+
+}  // namespace diptych

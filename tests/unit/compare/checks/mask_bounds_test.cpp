@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What a mask cuts out at the very cutoff: alpha that equals it is kept (glTF 2.0, 3.9.4).
+#include "tests/support/checks_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace diptych {
+namespace {
+
+TEST(MaskBounds, AlphaThatEqualsTheCutoffCutsNothingOut) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.alpha_mode = AlphaMode::mask;
+    m.alpha_cutoff = m.base_color.a = 0.5f;
+    EXPECT_NE(what(scene, "alpha masks").find("nothing is cut out"), std::string::npos);
+    m.alpha_cutoff = 0.50001f;
+    EXPECT_EQ(what(scene, "alpha masks").find("nothing is cut out"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace diptych

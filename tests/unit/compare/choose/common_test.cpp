@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// One Settings for several scenes, whose times and errors are known.
+#include "compare/choose/common.h"
+#include "tests/support/files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <list>
+#include <map>
+#include <random>
+
+namespace diptych::choose {
+
+namespace {
+
+struct Known {
+    double ms = 0, error = 0;
+};
+
+Settings known(Path path, const char* gbuffer) {
+    Settings settings;
+    settings.path = path;
+    settings.set("gbuffer", gbuffer);
+    return settings;
+}
+
+const Settings compactOne = known(Path::deferred, "compact"), standardOne = known(Path::deferred, "standard"),
+               fullOne = known(Path::deferred, "full"), forwardOne = known(Path::forward_plus, "standard");
+
+// Of the four above, in this order.
+class KnownLab final : public Lab {
+public:
+    explicit KnownLab(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
+        : of_(of), deviation_(deviation), random_(seed) {}
+    Judged judge(const Settings& settings) override {
+        ++judged;
+        return {find(settings).error, 1000};
+    }
+    std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
+        std::vector<double> times;
+        for (const std::size_t i : order)
+            times.push_back(find(frames[i]).ms *
+                            std::exp(std::normal_distribution<double>(0, deviation_)(random_)));
+        return times;
+    }
+    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
+        return std::vector<std::vector<PassTime>>(static_cast<std::size_t>(frames),
+                                                  {{"shade", find(settings).ms}});
+    }
+    std::size_t judged = 0;
+
+private:
+    const Known& find(Settings settings) const {
+        settings.camera.clear();
+        const Settings all[] = {compactOne, standardOne, fullOne, forwardOne};
+        for (std::size_t i = 0; i < 4; ++i)
+            if (all[i] == settings) return of_.at(i);
+        throw std::runtime_error("unknown Settings");
+    }
+    std::vector<Known> of_;
+    double deviation_;
+    std::mt19937_64 random_;
+};
+
+// Each scene's own choice among all four, and then one for all.
+struct ForAll {
+    ForAll(const std::vector<std::vector<Known>>& scenes, const Budget& budget, CommonOptions options = {}) {
+        std::vector<const Choice*> pointers;
+        const std::vector<Settings> candidates{standardOne, forwardOne, compactOne, fullOne};
+        for (const std::vector<Known>& scene : scenes) {
+            labs.emplace_back(scene, 0.01, labs.size() + 1);
+            const Calibration none;
+            CostModel model(none);
+            SearchOptions search_options;
+            search_options.budget = budget;
+            own.push_back(search(candidates, labs.back(), model, search_options));
+            labs.back().judged = 0;
+        }
+        for (const Choice& choice : own) pointers.push_back(&choice);
+        options.budget = budget;
+        std::vector<KnownLab*> by_number;
+        for (KnownLab& lab : labs) by_number.push_back(&lab);
+        result = chooseForAll(
+            pointers, [&](std::size_t i) -> Lab& { return *by_number[i]; }, options);
+    }
+    const Settings& chosen() const { return result.candidates.at(result.chosen.value()).settings; }
+    std::list<KnownLab> labs;
+    std::vector<Choice> own;
+    CommonChoice result;
+};
+
+// forward+ is no scene's own choice; 1.2 times the best of either, and what each chose is twice the other's.
+TEST(ChooseForAll, TheLeastSumOfLogarithmsThoughNoScenesOwn) {
+    const ForAll all({{{10, 0.01}, {22, 0.01}, {30, 0.01}, {12, 0.01}},
+                      {{220, 0.01}, {100, 0.01}, {300, 0.01}, {120, 0.01}}},
+                     {.error = 0.02, .ms = {}, .bytes = {}});
+    ASSERT_TRUE(all.result.chosen);
+    EXPECT_EQ(all.own[0].candidates[*all.own[0].chosen].settings, compactOne);
+    EXPECT_EQ(all.own[1].candidates[*all.own[1].chosen].settings, standardOne);
+    EXPECT_EQ(all.chosen(), forwardOne);
+    EXPECT_TRUE(all.result.sure);
+    ASSERT_EQ(all.result.slower.size(), 2u);
+    for (const auto& slower : all.result.slower) {
+        ASSERT_TRUE(slower);
+        EXPECT_NEAR(slower->ratio, 1.2, 0.03);
+        EXPECT_LE(slower->low, 1.2);
+        EXPECT_GE(slower->high, 1.2);
+    }
+}
+
+// The fastest by far in both scenes exceeds the error in one of them.
+TEST(ChooseForAll, WhatExceedsTheErrorInOneSceneIsOut) {
+    const ForAll all(
+        {{{1, 0.01}, {10, 0.01}, {30, 0.001}, {12, 0.01}}, {{1, 0.03}, {10, 0.01}, {30, 0.05}, {12, 0.01}}},
+        {.error = 0.02, .ms = {}, .bytes = {}});
+    ASSERT_TRUE(all.result.chosen);
+    EXPECT_EQ(all.own[0].candidates[*all.own[0].chosen].settings, compactOne);
+    EXPECT_EQ(all.chosen(), standardOne);
+    for (const CommonCandidate& candidate : all.result.candidates)
+        EXPECT_EQ(candidate.fits, candidate.settings == standardOne || candidate.settings == forwardOne);
+    EXPECT_NEAR(all.result.slower[0]->ratio, 10, 0.5);
+    EXPECT_EQ(all.result.slower[1]->ratio, 1) << "the second scene's own choice";
+}
+
+TEST(ChooseForAll, WhereNothingFitsAllTheNearestIsNamedWithItsScene) {
+    const ForAll all({{{1, 0.01}, {10, 0.5}, {30, 0.5}, {12, 0.5}},
+                      {{1, 0.4}, {10, 0.5}, {30, 0.022}, {12, 0.5}},
+                      {{1, 0.01}, {10, 0.5}, {30, 0.024}, {12, 0.5}}},
+                     {.error = 0.02, .ms = {}, .bytes = {}});
+    EXPECT_FALSE(all.result.chosen);
+    ASSERT_TRUE(all.result.nearest);
+    // Compact is worst in the second scene, 0.4; every other one is off by 0.5 in some.
+    const CommonCandidate& nearest = all.result.candidates[*all.result.nearest];
+    const std::size_t scene = all.result.nearest_scene;
+    EXPECT_EQ(nearest.settings, compactOne);
+    EXPECT_EQ(scene, 1u);
+    EXPECT_EQ(nearest.scenes[scene].judged.error, 0.4);
+}
+
+// The most accurate takes too long in one scene; of the others the least worst error.
+TEST(ChooseForAll, TheLeastWorstErrorWithinTheTimeOfEveryScene) {
+    const ForAll all({{{10, 0.05}, {11, 0.02}, {12, 0.001}, {13, 0.03}},
+                      {{10, 0.05}, {11, 0.03}, {50, 0.001}, {13, 0.02}}},
+                     {.error = {}, .ms = 20, .bytes = {}});
+    ASSERT_TRUE(all.result.chosen);
+    EXPECT_EQ(all.chosen(), standardOne) << "as accurate at worst as forward+, and faster";
+    for (const CommonCandidate& candidate : all.result.candidates)
+        if (candidate.settings == fullOne) {
+            EXPECT_FALSE(candidate.fits);
+        }
+}
+
+TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
+    CommonOptions options;
+    options.most_candidates = 2;
+    const ForAll all({{{10, 0.01}, {22, 0.01}, {30, 0.01}, {12, 0.01}},
+                      {{220, 0.01}, {100, 0.01}, {300, 0.01}, {120, 0.01}}},
+                     {.error = 0.02, .ms = {}, .bytes = {}}, options);
+    ASSERT_EQ(all.result.candidates.size(), 2u);
+    for (const CommonCandidate& candidate : all.result.candidates)
+        EXPECT_EQ(candidate.proposed_by, 2u) << "a first one of both scenes, and once each";
+    EXPECT_EQ(all.result.left_out, 1u) << "compact; full was not drawn: it is slower";
+}
+
+TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {
+    const Budget budget{.error = 0.1, .ms = 10, .bytes = 100};
+    EXPECT_EQ(missOf({0.1, 100}, 10, budget), 0);
+    EXPECT_NEAR(missOf({0.11, 150}, 12, budget), 0.5, 1e-12);
+    EXPECT_NEAR(missOf({0.1, 100}, 12, budget), 0.2, 1e-12);
+    EXPECT_EQ(missOf({0.1, 100}, std::nullopt, budget), 0);
+}
+
+}  // namespace
+
+}  // namespace diptych::choose
+
+namespace diptych {
+
+namespace {}  // namespace
+
+}  // namespace diptych

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/compare/choose/replay.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+using Json = nlohmann::json;
+
+RecordedSweep readSweep(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    const Json json = Json::parse(stream);
+    RecordedSweep sweep{json.at("scene"), {}};
+    const std::vector<std::string> options = json.at("options");
+    const std::vector<std::string> passes = json.at("passes");
+    for (const Json& row : json.at("rows")) {
+        RecordedRow read;
+        for (std::size_t i = 0; i < options.size(); ++i)
+            read.settings.set(options[i], row[i].get<std::string>());
+        read.ms = row[options.size()];
+        read.error = row[options.size() + 1];
+        read.bytes = row[options.size() + 2];
+        for (std::size_t i = 0; i < passes.size(); ++i)
+            if (const double ms = row[options.size() + 3 + i]; ms > 0) read.passes.push_back({passes[i], ms});
+        sweep.rows.push_back(std::move(read));
+    }
+    return sweep;
+}
+
+}  // namespace
+
+const RecordedRow& RecordedSweep::find(const Settings& settings) const {
+    const auto row = std::ranges::find(rows, settings, &RecordedRow::settings);
+    if (row == rows.end()) throw std::runtime_error(scene + ": has no row of these Settings");
+    return *row;
+}
+
+std::vector<RecordedSweep> recordedSweeps() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/tests/unit/compare/choose/sweeps"))
+        files.push_back(entry.path());
+    std::ranges::sort(files);
+    std::vector<RecordedSweep> sweeps;
+    for (const auto& file : files) sweeps.push_back(readSweep(file));
+    return sweeps;
+}
+
+choose::Judged RecordedLab::judge(const Settings& settings) {
+    const RecordedRow& row = sweep_.find(settings);
+    return {row.error, row.bytes};
+}
+
+std::optional<double> RecordedLab::estimate(const Settings& settings) {
+    if (!(noise_.estimate > 0)) return {};
+    const RecordedRow& row = sweep_.find(settings);
+    std::seed_seq of{seed_, static_cast<std::uint64_t>(&row - sweep_.rows.data())};
+    std::mt19937_64 random(of);
+    return noise_.camera * row.error * std::exp(std::normal_distribution<double>(0, noise_.estimate)(random));
+}
+
+double RecordedLab::drift(double timings_ago) const {
+    return 1 + noise_.drift * (std::clamp((timed_ - timings_ago) / noise_.drifts, 0.0, 1.0) - 0.5);
+}
+
+double RecordedLab::slower() {
+    const double by = drift() * std::exp(std::normal_distribution<double>(0, noise_.deviation)(random_));
+    ++timed_;
+    return by;
+}
+
+std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {
+    std::vector<double> times;
+    for (const std::size_t i : order) times.push_back(sweep_.find(frames[i]).ms * slower());
+    return times;
+}
+
+std::vector<std::vector<PassTime>> RecordedLab::profile(const Settings& settings, int frames) {
+    std::vector<std::vector<PassTime>> times;
+    for (int i = 0; i < frames; ++i) {
+        const RecordedRow& row = sweep_.find(settings);
+        times.push_back(row.passes);
+        double all = slower();
+        // No random number is drawn where none is slow, so that the others' stay what they are.
+        if (noise_.slow_firsts > 0 && profiled_.insert(&row).second &&
+            std::bernoulli_distribution(noise_.slow_firsts)(random_))
+            all *= 1 + std::exponential_distribution<double>(1 / noise_.slower_first)(random_);
+        for (PassTime& pass : times.back()) pass.ms *= all;
+    }
+    return times;
+}
+
+}  // namespace diptych

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The pictures and the page of an explanation that is made by hand.
+#include "compare/explain/html.h"
+#include "compare/explain/pictures.h"
+#include "compare/explain/words.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace diptych::tests {
+namespace {
+
+// Of `count` causes on 3x2 pixels; cause 0 has the first pixel, the last cause a negative share at the
+// second.
+Explanation made(std::size_t count) {
+    Explanation e;
+    e.dominant = Image(3, 2, 1, -1.0f);
+    e.unexplained_map = Image(3, 2, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        Cause cause;
+        cause.name = i == 0 ? "--haze" : "cause " + std::to_string(i);
+        cause.shows = "on instead of <off> & so";
+        cause.share = 1.0 / static_cast<double>(count);
+        cause.map = Image(3, 2, 1);
+        cause.materials = {{-1, "", cause.share}};
+        e.causes.push_back(cause);
+    }
+    e.distance = 1;
+    e.dominant.data[0] = 0;
+    e.causes.front().map.data[0] = 4;
+    e.causes.back().map.data[1] = -4;
+    return e;
+}
+
+// What eyes without one kind of cone see (Machado, Oliveira and Fernandes 2009, "A Physiologically-based
+// Model for Simulation of Color Vision Deficiency", full severity), encoded again.
+using Matrix = std::array<std::array<double, 3>, 3>;
+constexpr Matrix everyCone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr Matrix withoutL{
+    {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};
+constexpr Matrix withoutM{
+    {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}};
+
+std::array<double, 3> seen(const Matrix& eye, const Color8& color) {
+    std::array<double, 3> out{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        double linear = 0;
+        for (std::size_t c = 0; c < 3; ++c) linear += eye[row][c] * std::pow(color[c] / 255.0, 2.2);
+        out[row] = 255 * std::pow(std::clamp(linear, 0.0, 1.0), 1 / 2.2);
+    }
+    return out;
+}
+
+double leastDistance(const Matrix& eye, std::size_t colors) {
+    double least = 1e9;
+    for (std::size_t i = 0; i < colors; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto a = seen(eye, causeColor(i)), b = seen(eye, causeColor(j));
+            least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+        }
+    return least;
+}
+
+TEST(ExplanationPictures, ColoursAreToldApartByMostEyes) {
+    for (const Matrix& eye : {everyCone, withoutL, withoutM}) {
+        EXPECT_GT(leastDistance(eye, ownColors + 1), 25);
+        EXPECT_EQ(leastDistance(eye, ownColors + 2), 0) << "the rest share one";
+    }
+}
+
+TEST(ExplanationPictures, TheMapShowsTheCauseElseTheDarkPicture) {
+    const Explanation e = made(2);
+    Image8 shown{3, 2, 3, std::vector<std::uint8_t>(18, 200)};
+    const Image8 map = dominantPicture(e, shown);
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(map.data[c], causeColor(0)[c]);
+        EXPECT_LT(map.data[3 + c], 100);
+        EXPECT_GT(map.data[3 + c], 0);
+    }
+    shown.width = 2;
+    EXPECT_THROW(dominantPicture(e, shown), std::logic_error);
+}
+
+TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesGreen) {
+    const Explanation e = made(3);
+    EXPECT_EQ(topOfMaps(e), 4);
+    std::set<std::string> names;
+    for (const NamedPicture& map : explanationMaps(e)) {
+        EXPECT_TRUE(names.insert(map.name).second) << map.name;
+        EXPECT_EQ(map.picture.width, 3);
+    }
+    EXPECT_TRUE(names.contains("share-1.haze.png"));
+    EXPECT_TRUE(names.contains("share-3.cause-2.png"));
+    const Image8 last = sharePicture(e.causes.back().map, 4);
+    EXPECT_GT(last.data[4], last.data[3] + 50);
+    EXPECT_GT(last.data[4], last.data[5] + 50);
+    EXPECT_EQ(last.data[0], 0);
+}
+
+TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
+    const ExplainedPictures of{
+        "a<b>.glb", "deferred", "forward_plus --haze on", {{"Again", "diptych explain a"}}};
+    for (const std::size_t count : {0u, 1u, 9u}) {
+        Explanation e = count > 0 ? made(count) : Explanation();
+        e.causes.resize(count);
+        const std::string page = explanationHtml(e, of, "a device");
+        EXPECT_EQ(markupFault(page, {"meta", "img", "br", "wbr"}), "") << count;
+        EXPECT_EQ(page.find("<off>"), std::string::npos);
+        EXPECT_EQ(countOf(page, "<tr><td>"), count);
+        EXPECT_EQ(countOf(page, "share-"), count);
+        EXPECT_EQ(countOf(page, "src=\"dominant.png\""), count > 0 ? 1u : 0u);
+        EXPECT_NE(page.find("diptych explain a"), std::string::npos);
+    }
+    // Where no picture is kept, none is shown.
+    const std::string bare =
+        explanationSection(made(2), of, [](const std::string&) { return std::string(); });
+    EXPECT_EQ(countOf(bare, "<img"), 0u);
+    EXPECT_EQ(countOf(bare, "<tr><td>"), 2u);
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// Planted deviations of a renderer, one at a time and two at once: each is named, and nothing else is.
+#include "compare/external/calibration.h"
+
+#include "compare/external/placement.h"
+#include "compare/external/response.h"
+#include "compare/external/sky.h"
+#include "compare/render/reference_frame.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/image/srgb.h"
+#include "shared/scene/load.h"
+#include "tests/support/campaign.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+
+namespace diptych::external {
+namespace {
+
+// What a fake renderer does otherwise than it is told. Pictures are the reference's of what it makes of its
+// job, with noise and with some percent more or less light.
+struct Fake {
+    double fov = 0;           // degrees
+    int right = 0, down = 0;  // half pixels
+    bool upside_down = false, mirrored = false;
+    std::function<double(double)> curve;
+    std::optional<glm::dmat3> primaries;
+    bool colour_linear = false, data_srgb = false;
+    std::map<Lamp, double> factors;  // 0: not drawn
+    double turned = 0;               // degrees
+    bool sky_mirrored = false, sky_cut_off = false;
+};
+
+struct Fault {
+    std::string group, name;  // of one group there is one at a time
+    std::function<void(Fake&)> plant;
+};
+
+glm::dmat3 fromRec709(const glm::dmat3& rec709_from) {
+    return glm::inverse(rec709_from);
+}
+
+std::vector<Fault> faults() {
+    // As ITU-R BT.2087 and SMPTE EG 432-1 have them, column by column.
+    const glm::dmat3 rec709_from_p3{{1.2249, -0.0420, -0.0196}, {-0.2249, 1.0420, -0.0786}, {0, 0, 1.0982}};
+    const glm::dmat3 rec709_from_rec2020{
+        {1.6605, -0.1246, -0.0182}, {-0.5876, 1.1329, -0.1006}, {-0.0728, -0.0083, 1.1187}};
+    const auto lights = [](double factor) {
+        return [factor](Fake& f) {
+            for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot, Lamp::area})
+                f.factors[lamp] = factor;
+        };
+    };
+    const auto lamp = [](Lamp which, double factor) {
+        return [which, factor](Fake& f) { f.factors[which] = factor; };
+    };
+    const auto encoded = [](double v) {
+        v = std::min(v, 1.0);
+        return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    };
+    const double pi = glm::radians(180.0);
+    return {{"fov", "fov", [](Fake& f) { f.fov = 1; }},
+            {"fov", "fov", [](Fake& f) { f.fov = -1; }},
+            {"shift", "shift", [](Fake& f) { f.right = 1; }},
+            {"shift", "shift", [](Fake& f) { f.down = 1; }},
+            {"upside_down", "upside_down", [](Fake& f) { f.upside_down = true; }},
+            {"mirrored", "mirrored", [](Fake& f) { f.mirrored = true; }},
+            {"curve", "srgb_output", [=](Fake& f) { f.curve = encoded; }},
+            {"curve", "tone_curve", [](Fake& f) { f.curve = [](double v) { return v / (1 + v); }; }},
+            {"curve", "tone_curve",
+             [](Fake& f) {
+                 f.curve = [](double v) {  // Narkowicz's fit of the film curve of ACES, and its encoding
+                     return std::pow(
+                         std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0),
+                         1 / 2.2);
+                 };
+             }},
+            {"curve", "cut_off", [](Fake& f) { f.curve = [](double v) { return std::min(v, 1.0); }; }},
+            {"curve", "exposure", [](Fake& f) { f.curve = [](double v) { return 0.5 * v; }; }},
+            {"primaries", "primaries", [=](Fake& f) { f.primaries = fromRec709(rec709_from_p3); }},
+            {"primaries", "primaries", [=](Fake& f) { f.primaries = fromRec709(rec709_from_rec2020); }},
+            {"colour", "colour_textures_linear", [](Fake& f) { f.colour_linear = true; }},
+            {"data", "data_textures_srgb", [](Fake& f) { f.data_srgb = true; }},
+            {"lights", "light_factor", lights(pi)},
+            {"lights", "light_factor", lights(1 / pi)},
+            {"lights", "light_factor", lights(2)},
+            {"lights", "point_factor", lamp(Lamp::point, 4 * pi)},
+            {"lights", "spot_factor", lamp(Lamp::spot, 0.5)},
+            {"lights", "directional_factor", lamp(Lamp::directional, pi)},
+            {"lights", "no_directional_lights", lamp(Lamp::directional, 0)},
+            {"lights", "no_point_lights", lamp(Lamp::point, 0)},
+            {"lights", "no_spot_lights", lamp(Lamp::spot, 0)},
+            {"lights", "no_area_lights", lamp(Lamp::area, 0)},
+            {"turned", "environment_rotation", [](Fake& f) { f.turned = 90; }},
+            {"turned", "environment_rotation", [](Fake& f) { f.turned = 180; }},
+            {"turned", "environment_rotation", [](Fake& f) { f.turned = -90; }},
+            {"sky", "environment_mirrored", [](Fake& f) { f.sky_mirrored = true; }},
+            {"cut", "ldr_environment", [](Fake& f) { f.sky_cut_off = true; }},
+            {"brightness", "environment_factor", lamp(Lamp::environment, 2)},
+            {"brightness", "environment_factor", lamp(Lamp::environment, 1 / pi)}};
+}
+
+// Pictures of the charts, each drawn once.
+class Studio {
+public:
+    Studio() : charts_(loadScene("builtin:calibration")) {
+        for (const Lamp lamp : lamps) truths_[lamp] = truthUnder(charts_, lamp);
+    }
+    const Scene& charts() const { return charts_; }
+
+    std::vector<Shown> pictures(const Fake& fake, unsigned seed) {
+        std::mt19937 random(seed);
+        std::vector<Shown> all;
+        for (const Lamp lamp : lamps)
+            all.push_back({lamp, truths_.at(lamp), picture(fake, lamp, random), {}});
+        return all;
+    }
+
+private:
+    Image picture(const Fake& fake, Lamp lamp, std::mt19937& random) {
+        std::normal_distribution<double> noise(1, 0.02);
+        const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random);
+        const auto found = fake.factors.find(lamp);
+        const double factor = (found == fake.factors.end() ? 1 : found->second) * model;
+        const ChartTruth& lit = drawn(fake, lamp);
+        const ChartTruth& dark = drawn(fake, Lamp::none);
+        Image image = lit.lit;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const int fx = fake.mirrored ? image.width - 1 - x : x,
+                          fy = fake.upside_down ? image.height - 1 - y : y;
+                glm::dvec3 v;
+                for (int c = 0; c < 3; ++c)
+                    v[c] =
+                        (dark.lit.at(fx, fy, c) + factor * (lit.lit.at(fx, fy, c) - dark.lit.at(fx, fy, c))) *
+                        noise(random);
+                if (fake.primaries) v = *fake.primaries * v;
+                for (int c = 0; c < 3; ++c)
+                    image.at(x, y, c) = static_cast<float>(fake.curve ? fake.curve(v[c]) : v[c]);
+            }
+        return image;
+    }
+
+    const ChartTruth& drawn(const Fake& fake, Lamp lamp) {
+        const bool sky = lamp == Lamp::environment;
+        const std::string key = fmt::format(
+            "{} {} {} {} {} {} {} {} {}", nameOf(lamp), fake.fov, fake.right, fake.down, fake.colour_linear,
+            fake.data_srgb, sky ? fake.turned : 0, sky && fake.sky_mirrored, sky && fake.sky_cut_off);
+        const auto [found, added] = drawn_.try_emplace(key);
+        if (added) found->second = draw(fake, lamp);
+        return found->second;
+    }
+
+    // A picture of one column more has its middle half a pixel further left, seen from the first one.
+    ChartTruth draw(const Fake& fake, Lamp lamp) const {
+        Scene scene = chartsUnder(charts_, lamp);
+        Settings settings = chartSettings(lamp);
+        // Under the sky, where a pixel takes long and only the middles of faces count, of a quarter's size.
+        const int coarse = lamp == Lamp::environment ? 4 : 1;
+        const Size whole_size = settings.size;
+        const Size size{whole_size.width / coarse, whole_size.height / coarse};
+        settings.size = coarse > 1 ? size : Size{size.width + fake.right, size.height + fake.down};
+        double& yfov = scene.cameras.front().yfov;
+        yfov += glm::radians(fake.fov);
+        yfov = 2 * std::atan(std::tan(yfov / 2) * settings.size.height / size.height);
+        for (TextureImage& image : scene.images)
+            for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+                const bool colour = image.name == "128";
+                // Codes that are decoded to what the fake reads: 0.502 of a colour, 0.216 of a number.
+                for (std::size_t c = 0; colour && fake.colour_linear && c < 3; ++c) image.rgba[i + c] = 188;
+                if (!colour && fake.data_srgb) image.rgba[i + 2] = 55;
+            }
+        if (scene.environment) {
+            const Image sky = scene.environment->radiance;
+            for (int y = 0; y < sky.height; ++y)
+                for (int x = 0; x < sky.width; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        float value = sky.at(fake.sky_mirrored ? sky.width - 1 - x : x, y, c);
+                        if (fake.sky_cut_off) value = std::min(value, 1.0f);
+                        scene.environment->radiance.at(x, y, c) = value;
+                    }
+        }
+        settings.env_rotation = static_cast<float>(fake.turned);
+        settings.path = Path::reference;
+        settings.reference_mode = ReferenceMode::scene;
+        RenderOptions options;
+        options.channels = {static_cast<int>(gpu::DEBUG_lit)};
+        options.runs = 0;
+        const Frame frame =
+            std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
+        const Image& whole = frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
+        ChartTruth shown{Image(whole_size.width, whole_size.height, 3), {}};
+        for (int y = 0; y < whole_size.height; ++y)
+            for (int x = 0; x < whole_size.width; ++x)
+                for (int c = 0; c < 3; ++c) shown.lit.at(x, y, c) = whole.at(x / coarse, y / coarse, c);
+        return shown;
+    }
+
+    const Scene charts_;
+    std::map<Lamp, ChartTruth> truths_;
+    std::map<std::string, ChartTruth> drawn_;
+};
+
+Studio& studio() {
+    static Studio one;
+    return one;
+}
+
+std::set<std::string> setOfWords(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+std::set<std::string> namesOf(const std::vector<Deviation>& deviations) {
+    std::set<std::string> names;
+    for (const Deviation& one : deviations) names.insert(one.name);
+    return names;
+}
+
+struct Tally {
+    int right = 0, all = 0;
+    std::string wrong;
+    void add(const std::string& planted, const std::vector<Deviation>& found) {
+        ++all;
+        if (namesOf(found) == setOfWords(planted)) {
+            ++right;
+            return;
+        }
+        wrong += planted + " ->";
+        for (const Deviation& one : found) wrong += " " + one.name + " (" + one.words + ")";
+        wrong += "\n";
+    }
+};
+
+TEST(Calibration, NothingIsNamedOfARendererThatMeansWhatItIsTold) {
+    for (unsigned seed = 0; seed < 5; ++seed)
+        EXPECT_EQ(namesOf(deviationsOf(studio().charts(), studio().pictures({}, seed))),
+                  std::set<std::string>());
+}
+
+TEST(Calibration, OnePlantedDeviationIsNamed) {
+    Tally tally;
+    unsigned seed = 100;
+    for (const Fault& fault : faults()) {
+        Fake fake;
+        fault.plant(fake);
+        tally.add(fault.name, deviationsOf(studio().charts(), studio().pictures(fake, seed++)));
+    }
+    EXPECT_EQ(tally.right, tally.all) << tally.wrong;
+}
+
+// All of them in a campaign, else one of six.
+TEST(Calibration, TwoAtOnceAreNamed) {
+    Tally tally;
+    const unsigned stride = isCampaign() ? 1 : 6;
+    unsigned seed = 1000;
+    const std::vector<Fault> all = faults();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = i + 1; k < all.size(); ++k) {
+            if (all[i].group == all[k].group || ++seed % stride != campaignSeed() % stride) continue;
+            Fake fake;
+            all[i].plant(fake);
+            all[k].plant(fake);
+            tally.add(all[i].name + " " + all[k].name,
+                      deviationsOf(studio().charts(), studio().pictures(fake, seed)));
+        }
+    std::printf("two at once: %d of %d are named\n%s", tally.right, tally.all, tally.wrong.c_str());
+    EXPECT_GE(tally.right, 0.95 * tally.all) << tally.wrong;
+}
+
+// What is granted is what would make up for it.
+TEST(Calibration, GrantsAreTheWayBack) {
+    const auto grantOf = [&](const Fake& fake) {
+        nlohmann::ordered_json granted = nlohmann::ordered_json::object();
+        for (const Deviation& one : deviationsOf(studio().charts(), studio().pictures(fake, 7)))
+            granted.update(one.grant);
+        return granted;
+    };
+    Fake fake;
+    fake.fov = 1;
+    EXPECT_NEAR(grantOf(fake)["fov_offset"].get<double>(), -1, 0.1);
+    fake = {};
+    fake.right = 1;
+    EXPECT_NEAR(grantOf(fake)["shift_x"].get<double>(), -0.5, 0.1);
+    fake = {};
+    fake.turned = 90;
+    EXPECT_EQ(grantOf(fake)["environment_rotation"], -90);
+    fake = {};
+    for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot, Lamp::area})
+        fake.factors[lamp] = 1 / glm::radians(180.0);
+    EXPECT_NEAR(grantOf(fake)["light_factor"].get<double>(), glm::radians(180.0), 1e-9);
+}
+
+TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
+    const Scene& charts = studio().charts();
+    const Image ids = truthUnder(charts, Lamp::environment).ids;
+    const Image lit = std::move(studio().pictures({}, 3).back().picture);
+    int faces = 0;
+    for (const Mesh& mesh : charts.meshes) {
+        const Primitive& primitive = mesh.primitives.front();
+        const std::string& name = charts.materials[static_cast<std::size_t>(primitive.material)].name;
+        if (!std::set<std::string>{"front", "left", "right", "up", "down"}.contains(name)) continue;
+        ++faces;
+        const auto shown = shownBy(ids, primitive.material, lit, {});
+        ASSERT_TRUE(shown) << name;
+        const glm::dvec3 light =
+            lightFrom(charts.environment->radiance, glm::dvec3(primitive.normals.front()), false);
+        // The pictures have up to 5 % more or less light.
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR((*shown)[c], light[c], 0.08 * light[c] + 0.002) << name << c;
+    }
+    EXPECT_EQ(faces, 5);
+}
+
+TEST(Calibration, AResponseIsItsOwnInverse) {
+    const auto rampBy = [](const std::function<double(double)>& curve) {
+        std::vector<RampStep> ramp;
+        for (const double v : {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 2.0, 4.0, 8.0})
+            ramp.push_back({v, curve(v)});
+        return Response(ramp);
+    };
+    const Response plain = rampBy([](double v) { return v; });
+    EXPECT_EQ(plain.kind(), CurveKind::linear);
+    EXPECT_FALSE(plain.cutOffAt());
+    EXPECT_EQ(rampBy([](double v) { return std::pow(v, 1 / 2.2); }).kind(), CurveKind::tone)
+        << "a power is not sRGB's curve";
+    const Response reinhard = rampBy([](double v) { return v / (1 + v); });
+    EXPECT_EQ(reinhard.kind(), CurveKind::tone);
+    for (const double v : {0.03, 0.3, 3.0})
+        EXPECT_NEAR(reinhard.radiance(glm::dvec3(v / (1 + v))).r, v, 0.06 * v) << v;
+}
+
+}  // namespace
+}  // namespace diptych::external

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+// Files that this program writes, as somebody else may have written them: every reader either takes what it
+// is given or says one line, and nothing outside the output is read or changed.
+#include "compare/cli/commands.h"
+#include "compare/files/file_moves.h"
+#include "compare/files/kept_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/files/scene_folders.h"
+#include "compare/report/parts.h"
+#include "compare/report/trends.h"
+#include "compare/shards/merge.h"
+#include "tests/fuzz/json_mutator.h"
+#include "tests/support/files.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <functional>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Two channels of a few pixels: what files there are matters, not how many.
+Report smallReport() {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) {
+        frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
+        std::erase_if(frame.channels, [&](const auto& channel) {
+            return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
+        });
+    }
+    frames[1].through_gbuffer = frames[0].channels;
+    return reportOf(std::move(frames));
+}
+
+// A folder with shards of one command, a file that is none of their business, and ways to it.
+struct Shards {
+    fs::path root = folder();
+    fs::path shard = root / "shard-1";
+
+    explicit Shards(int count = 1) {
+        std::ofstream(root / "secret.png") << "secret";
+        shards::Manifest manifest{"build", "compare", {{"asked", {{"keep", 0}}}}, {}, {}, {}};
+        for (int i = 1; i <= count; ++i)
+            manifest.items.push_back({"scene-" + std::to_string(i), "box-" + std::to_string(i) + "/", i});
+        for (int i = 1; i <= count; ++i) {
+            const fs::path parts = root / ("parts-" + std::to_string(i));
+            const shards::Item& item = manifest.items[static_cast<std::size_t>(i - 1)];
+            ReportOptions options;
+            options.scene_folder = item.folder;
+            WholeReport whole;
+            whole.parts.push_back({writePart(smallReport(), parts, options), parts});
+            manifest.shard = {i, count};
+            whole.shard = textOf(manifest);
+            options.scene_folder.reset();
+            writeWhole(whole, summaryOf(whole), root / ("shard-" + std::to_string(i)), options);
+            fs::remove_all(parts);
+        }
+    }
+
+    fs::path part() const { return shard / "box-1/part.json"; }
+    void change(const fs::path& file, const std::function<void(Json&)>& edit) const {
+        Json json = Json::parse(contentsOf(file));
+        edit(json);
+        fs::remove(file);  // it may share its bytes
+        std::ofstream(file) << json.dump();
+    }
+
+    // As merge does. Returns the problems that it names, a line each.
+    std::string merged(const std::vector<fs::path>& folders) const {
+        shards::Joined joined = shards::join(folders);
+        std::string problems;
+        for (const std::string& problem : joined.problems) {
+            EXPECT_EQ(problem.find_first_of("\n\r"), std::string::npos) << problem;
+            EXPECT_EQ(problem.find("json.exception"), std::string::npos) << problem;
+            problems += problem + "\n";
+        }
+        ReportOptions options;
+        writeWhole(joined.report, summaryOf(joined.report), root / "out", options);
+        return problems;
+    }
+    std::string merged() const { return merged({shard}); }
+
+    // Everything but the output.
+    std::vector<std::string> outside() const {
+        std::vector<std::string> files = filesIn(root);
+        std::erase_if(files, [](const std::string& name) { return name.starts_with("out/"); });
+        return files;
+    }
+};
+
+TEST(HostileParts, AFileOfAnotherFolderIsRefusedByName) {
+    const Shards shards;
+    const std::string sound = contentsOf(shards.part());
+    const std::vector<std::string> before = shards.outside();
+    for (const char* name :
+         {"../secret.png", "../autostart/evil.desktop", "/etc/shadow", "box-1/../../secret.png",
+          "box-2/a.png", "box-1/.hidden.png", "box-1/evil.desktop", "box-1/a.png/", "index.html"})
+        for (const char* list : {"files", "sections"}) {
+            std::ofstream(shards.part()) << sound;
+            shards.change(shards.part(), [&](Json& json) { json[list][0] = name; });
+            EXPECT_NE(
+                shards.merged().find(std::string("part.json: ") + list + "[0]: \"" + name + "\" is no file"),
+                std::string::npos)
+                << name;
+            EXPECT_EQ(shards.outside(), before) << name;
+        }
+}
+
+TEST(HostileParts, ALinkInAShardIsRefusedByName) {
+    const Shards shards;
+    const std::string picture = "box-1/lit.png";
+    ASSERT_TRUE(fs::exists(shards.shard / picture));
+    fs::remove(shards.shard / picture);
+    fs::create_symlink("../../secret.png", shards.shard / picture);
+    EXPECT_NE(shards.merged().find(picture + ": \"lit.png\" is a link, which is not followed"),
+              std::string::npos);
+    EXPECT_FALSE(fs::exists(fs::symlink_status(shards.root / "out" / picture)));
+
+    fs::remove(shards.shard / picture);
+    ASSERT_EQ(::mkfifo((shards.shard / picture).c_str(), 0600), 0);
+    EXPECT_NE(shards.merged().find(picture + ": is not a regular file"), std::string::npos);
+
+    fs::rename(shards.shard / "box-1", shards.root / "private");
+    fs::create_directory_symlink("../private", shards.shard / "box-1");
+    EXPECT_NE(shards.merged().find("\"box-1\" is a link, which is not followed"), std::string::npos);
+    EXPECT_FALSE(fs::exists(shards.root / "out/box-1"));
+}
+
+TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
+    const std::pair<const char*, std::function<void(Json&)>> attacks[] = {
+        {"comparisons[0].frames[0]: is no whole number from 0 to 1",
+         [](Json& json) {
+             json["comparisons"][0]["frames"] = {1000000, 1};
+         }},
+        {"comparisons[0].frames[1]: is no whole number from 0 to 1",
+         [](Json& json) {
+             json["comparisons"][0]["frames"] = {0, -1};
+         }},
+        {"closer[0][2]: is no whole number from 0 to 1",
+         [](Json& json) {
+             json["closer"] = {{0, 1, 2}};
+         }},
+        {"closer_tables: has 0 elements, and there are 1 paths",
+         [](Json& json) {
+             json["closer"] = {{0, 1, 1}};
+         }},
+        {"sections: has 0 elements, and there are 1 comparisons",
+         [](Json& json) { json["sections"] = Json::array(); }},
+        {"rows: has 2 elements, and there are 1 comparisons",
+         [](Json& json) { json["rows"].push_back(json["rows"][0]); }},
+        {"tables: has 0 elements, and there are 1 comparisons",
+         [](Json& json) { json["tables"] = Json::array(); }},
+        {"exposures: has 0 elements, and there are 1 comparisons",
+         [](Json& json) { json["exposures"] = Json::array(); }},
+        {"frames: is no array",
+         [](Json& json) {
+             json["frames"] = {{"0", 1}};
+         }},
+        {"frames[1].notes[0]: is no string", [](Json& json) { json["frames"][1]["notes"] = {1}; }},
+        {"rows[0].worst: is no channel's number", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
+        {"comparisons[0].channels[0][1]: is no verdict",
+         [](Json& json) { json["comparisons"][0]["channels"][0][1] = "perhaps"; }},
+        {"junit[0]: is no whole number from 0 to", [](Json& json) { json["junit"][0] = -1; }},
+        {"stands twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
+        {"stands twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
+        {"nests deeper than 128",
+         [](Json& json) {
+             for (int i = 0; i < 200; ++i) json["notes"] = Json::array({json["notes"]});
+         }},
+    };
+    const Shards shards;
+    const std::string sound = contentsOf(shards.part());
+    for (const auto& [problem, edit] : attacks) {
+        std::ofstream(shards.part()) << sound;
+        shards.change(shards.part(), edit);
+        EXPECT_NE(shards.merged().find(problem), std::string::npos) << problem << "\n" << shards.merged();
+    }
+    std::ofstream(shards.part()) << sound;
+    EXPECT_EQ(shards.merged(), "");
+}
+
+TEST(HostileParts, ABadTextIsNamedBeforeAnythingIsWritten) {
+    for (const char* name : {"part-frames.json", "part-comparisons.json", "part-truth.json"}) {
+        const Shards shards;
+        fs::remove(shards.shard / "box-1" / name);
+        std::ofstream(shards.shard / "box-1" / name) << "{}], \"software\": [{}";
+        EXPECT_NE(shards.merged().find(std::string(name) + ": is not JSON"), std::string::npos) << name;
+    }
+    const Shards shards;
+    const Json json = Json::parse(contentsOf(shards.part()));
+    const std::string section = json["sections"][0];
+    fs::remove(shards.shard / section);
+    std::ofstream(shards.shard / section) << "alert(1, 2, 3)";
+    EXPECT_NE(shards.merged().find(section + ": is a script that holds more than data"), std::string::npos);
+}
+
+TEST(HostileShards, OneBadShardIsNamedAndTheOthersAreJoined) {
+    const Shards shards(2);
+    std::ofstream(shards.part()) << "[1, 2";
+    const fs::path other = shards.root / "shard-2";
+    EXPECT_NE(shards.merged({shards.shard, other}).find("box-1/part.json: is not JSON"), std::string::npos);
+    EXPECT_TRUE(fs::exists(shards.root / "out/box-2"));
+    const Json report = Json::parse(contentsOf(shards.root / "out/report.json"));
+    EXPECT_EQ(report["comparisons"].size(), 1u);
+    EXPECT_EQ(report["errors"].size(), 1u);
+    for (const char* text : {"", "[", "{}", "5"}) {
+        std::ofstream(shards.shard / "shard.json") << text;
+        EXPECT_NE(shards.merged({shards.shard, other}).find("shard-1: is no report of a shard"),
+                  std::string::npos);
+    }
+}
+
+TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
+    const std::pair<const char*, std::function<void(Json&)>> attacks[] = {
+        {"shard.json.shard.count: is no whole number from 1 to 65536",
+         [](Json& json) { json["shard"]["count"] = 2147483647; }},
+        {"shard.count: is no whole number", [](Json& json) { json["shard"]["count"] = -1; }},
+        {"shard.index: is no whole number from 1 to 1", [](Json& json) { json["shard"]["index"] = 2; }},
+        {"items[0][2]: is no whole number from 1 to 1", [](Json& json) { json["items"][0][2] = 0; }},
+        {"items[0][1]: \"../\" is no folder", [](Json& json) { json["items"][0][1] = "../"; }},
+        {"items[0][1]: \"/etc/\" is no folder", [](Json& json) { json["items"][0][1] = "/etc/"; }},
+        {"items[0][1]: \"box-1\" is no folder", [](Json& json) { json["items"][0][1] = "box-1"; }},
+        {"items[1]: has the folder of another scene",
+         [](Json& json) { json["items"].push_back(json["items"][0]); }},
+        {"items[0]: is no array", [](Json& json) { json["items"] = {1}; }},
+        {"errors[0][1]: is no string",
+         [](Json& json) {
+             json["errors"] = Json::array({Json::array({"scene", 5})});
+         }},
+        {"has no \"plan\"", [](Json& json) { json.erase("plan"); }},
+        {"software: is no string", [](Json& json) { json["software"] = 3; }},
+        {"is not ours", [](Json& json) { json["schema"] = 2; }},
+    };
+    const Shards shards;
+    const std::string sound = contentsOf(shards.shard / "shard.json");
+    for (const auto& [problem, edit] : attacks) {
+        std::ofstream(shards.shard / "shard.json") << sound;
+        shards.change(shards.shard / "shard.json", edit);
+        try {
+            shards.merged();
+            ADD_FAILURE() << "joined in spite of " << problem;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << problem << "\n"
+                                                                                  << error.what();
+        }
+    }
+}
+
+// Of tradeoff: absurd counts are a line, and a scene that is none, or whose file is a link, is named.
+TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
+    const fs::path root = folder();
+    const Json figures{{"ms", {{"median", 1}}}, {"errors", {{"flip", 0.5}}}};
+    const Json tradeoff{{"schema", 1},
+                        {"software", softwareName},
+                        {"device", {{"name", "a CPU"}}},
+                        {"rows", Json::array({figures})},
+                        {"fronts", Json::array({{{"error", "flip"}, {"path", nullptr}, {"rows", {0}}}})},
+                        {"files", {"row-001.png", "../secret.png"}}};
+    Json plan{{"asked", Json::object()}};
+    shards::Manifest manifest{
+        "build", "tradeoff", plan, {1, 1}, {{"a", "a/", 1}, {"b", "b/", 1}, {"c", "c/", 1}}, {}};
+    for (const char* scene : {"a", "b", "c"}) {
+        fs::create_directories(root / "shard" / scene);
+        std::ofstream(root / "shard" / scene / "tradeoff.json") << tradeoff.dump();
+        std::ofstream(root / "shard" / scene / "row-001.png") << "picture";
+    }
+    std::ofstream(root / "secret.png") << "secret";
+    std::ofstream(root / "shard/b/tradeoff.json") << R"({"software": "diptych", "device": {}, "rows": [1]})";
+    fs::remove(root / "shard/c/row-001.png");
+    fs::create_symlink("../../secret.png", root / "shard/c/row-001.png");
+    std::ofstream(root / "shard/tradeoffs.json") << textOf(manifest);
+    cli::Options options;
+    options.command = "merge";
+    options.scenes = {(root / "shard").string()};
+    options.scene_given = options.quiet = true;
+    options.out = root / "out";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(cli::runMerge(options), 2);
+    const std::string line = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::ranges::count(line, '\n'), 1) << line;
+    EXPECT_NE(line.find("b/tradeoff.json"), std::string::npos) << line;
+    const Json joined = Json::parse(contentsOf(root / "out/tradeoffs.json"));
+    EXPECT_EQ(joined["scenes"].size(), 1u);
+    EXPECT_EQ(joined["errors"].size(), 2u) << joined["errors"].dump();
+    EXPECT_EQ(filesIn(root / "out/a"), (std::vector<std::string>{"row-001.png", "tradeoff.json"}));
+
+    Json text = Json::parse(textOf(manifest));
+    text["shard"]["count"] = 2147483647;
+    std::ofstream(root / "shard/tradeoffs.json") << text.dump();
+    try {
+        cli::runMerge(options);
+        ADD_FAILURE() << "merged";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("count: is no whole number from 1 to 65536"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+// Every reader, on any bytes.
+void expectALine(const std::function<void()>& read, const std::string& text) {
+    try {
+        read();
+    } catch (const std::runtime_error& error) {
+        const std::string line = error.what();
+        EXPECT_FALSE(line.empty());
+        EXPECT_EQ(line.find_first_of("\n\r"), std::string::npos) << line;
+        EXPECT_EQ(line.find("json.exception"), std::string::npos) << line << "\nof " << text.substr(0, 400);
+        EXPECT_LT(line.size(), 8000u) << line.substr(0, 200);
+    }
+}
+
+TEST(HostileFuzz, PartsOfAReport) {
+    const Shards shards;
+    fs::create_directory_symlink(shards.root, shards.shard / "link");
+    ASSERT_EQ(::mkfifo((shards.shard / "fifo.png").c_str(), 0600), 0);
+    const std::string sound = contentsOf(shards.part());
+    const std::vector<std::string> before = shards.outside();
+    fs::remove(shards.part());
+    int joined = 0;
+    for (unsigned seed = 0; seed < 150; ++seed) {
+        const std::string text = fuzz::JsonMutator(seed).mutated(sound);
+        std::ofstream(shards.part()) << text;
+        expectALine([&] { joined += shards.merged().empty(); }, text);
+    }
+    EXPECT_GT(joined, 5) << "some edits change nothing that matters, and reach the writer";
+    EXPECT_EQ(shards.outside(), before);
+    EXPECT_EQ(contentsOf(shards.root / "secret.png"), "secret");
+}
+
+TEST(HostileFuzz, ManifestsOfShards) {
+    const Shards shards;
+    const std::string sound = contentsOf(shards.shard / "shard.json");
+    const std::vector<std::string> before = shards.outside();
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const std::string text = fuzz::JsonMutator(seed).mutated(sound);
+        std::ofstream(shards.shard / "shard.json") << text;
+        expectALine([&] { shards::join({shards.shard}); }, text);
+        expectALine([&] { shards::choose({shards.shard}, "shard.json"); }, text);
+    }
+    EXPECT_EQ(shards.outside(), before);
+}
+
+TEST(HostileFuzz, EarlierReports) {
+    const Shards shards;
+    const fs::path file = shards.shard / "report.json";
+    const Report report = smallReport();
+    const ReportPart part = readPart(shards.shard, "box-1/");
+    const std::string sound = contentsOf(file);
+    fs::remove(file);
+    cli::Options accept;
+    accept.command = "accept";
+    accept.scenes = {shards.shard.string()};
+    accept.scene_given = accept.quiet = true;
+    accept.out = shards.root / "out/accepted.json";
+    fs::create_directories(shards.root / "out");
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        const std::string text = fuzz::JsonMutator(seed).mutated(sound);
+        std::ofstream(file) << text;
+        expectALine([&] { trendsSince(shards.shard, report, part.rows); }, text);
+        expectALine([&] { shards::timingsOf(shards.shard); }, text);
+        expectALine([&] { cli::runAccept(accept); }, text);
+        for (const std::string& name : manifestFiles(shards.shard, "report.json"))
+            EXPECT_TRUE(isOurName(name)) << name;
+    }
+}
+
+TEST(HostileFuzz, KeysAndPlansAndLists) {
+    const fs::path root = folder();
+    std::ofstream(root / "secret.png") << "secret";
+    const Json key{{"schema", 1}, {"software", softwareName}, {"asked", {{"size", {1, 2}}}}};
+    const std::string plan = R"({"files": ["a.png", "b/c.png"], "earlier": ["d.png"]})";
+    const std::string list = "# scenes\nbuiltin:points\n  a b.glb # here\n@other\nfolder/**/*.gltf\n";
+    for (unsigned seed = 0; seed < 150; ++seed) {
+        fuzz::JsonMutator mutator(seed);
+        fs::remove_all(root / ".out.kept");
+        fs::create_directories(root / ".out.kept");
+        const std::string kept = mutator.mutated(key.dump());
+        std::ofstream(root / ".out.kept/key.json") << kept;
+        std::ofstream(root / ".out.kept/part.json") << mutator.mutated(R"({"a": [1, 2, {"b": "c"}]})");
+        expectALine([&] { KeptFolder(root / "out", "kept", key).find("part"); }, kept);
+
+        fs::remove_all(root / "out");
+        fs::create_directories(root / "out/.diptych.put");
+        std::ofstream(root / "out/.diptych.put/a.png") << "new";
+        const std::string moves = mutator.mutated(plan);
+        std::ofstream(root / "out/.diptych.put/.plan.json") << moves;
+        expectALine([&] { finishMoves(root / "out"); }, moves);
+
+        std::string words = list;
+        words.replace(seed % words.size(), 1 + seed % 5, mutator.mutated("[\"@list\", \"x\\n\"]"));
+        std::ofstream(root / "list") << words;
+        expectALine([&] { scenesOf({"@" + (root / "list").string()}); }, words);
+    }
+    EXPECT_EQ(contentsOf(root / "secret.png"), "secret");
+}
+
+TEST(HostileFolders, AKeptFolderThatIsALinkIsRefused) {
+    const fs::path root = folder();
+    const Json key{{"schema", 1}, {"software", softwareName}};
+    fs::create_directories(root / "elsewhere");
+    std::ofstream(root / "elsewhere/key.json")
+        << Json{{"schema", 1}, {"software", softwareName}, {"old", 1}}.dump();
+    std::ofstream(root / "elsewhere/mine.txt") << "mine";
+    fs::create_directory_symlink("elsewhere", root / ".out.scenes");
+    try {
+        KeptFolder kept(root / "out", "scenes", key);
+        ADD_FAILURE() << "was taken";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(".out.scenes: is a link"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_EQ(contentsOf(root / "elsewhere/mine.txt"), "mine");
+}
+
+TEST(HostileFolders, WhatStandsInPlaceOfOurFilesIsSaidAtOnce) {
+    const fs::path root = folder();
+    fs::create_directories(root / ".out.kept");
+    for (const char* name : {"report.json", "shard.json", "list", ".out.kept/key.json", "scene.gltf"})
+        ASSERT_EQ(::mkfifo((root / name).c_str(), 0600), 0);
+    const auto line = [&](const std::function<void()>& read) -> std::string {
+        try {
+            read();
+            return "";
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+    };
+    EXPECT_FALSE(isOurManifest(root / "report.json"));
+    EXPECT_FALSE(isOurManifest("/dev/zero"));
+    EXPECT_FALSE(isOurPicture(root / "report.json"));
+    EXPECT_EQ(line([&] { shards::timingsOf(root); }),
+              "--timings " + root.string() + ": is not a regular file");
+    EXPECT_EQ(line([&] { scenesOf({"@" + (root / "list").string()}); }),
+              "@" + (root / "list").string() + ": is not a regular file");
+    EXPECT_EQ(line([&] { scenesOf({"@/dev/zero"}); }), "@/dev/zero: is not a regular file");
+    EXPECT_NE(line([&] { shards::choose({root}, "shard.json"); }).find("shard.json is not a regular file"),
+              std::string::npos);
+    EXPECT_NE(line([&] { KeptFolder(root / "out", "kept", Json{{"schema", 1}}); }), "x");
+    EXPECT_EQ(shards::filesOf((root / "scene.gltf").string()).size(), 1u);
+}
+
+}  // namespace
+}  // namespace diptych

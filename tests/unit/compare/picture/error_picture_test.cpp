@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+// Error maps, light counts and ranges as pictures: the colours of single pixels, and that the legends beside
+// them say what those colours mean.
+#include "compare/page/text.h"
+#include "compare/picture/heat.h"
+#include "compare/picture/picture.h"
+#include "compare/report/report.h"
+#include "tests/support/files.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+namespace diptych {
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+Rgb pixelOf(const Image8& image, std::size_t i) {
+    const std::uint8_t* p = &image.data[static_cast<std::size_t>(image.components) * i];
+    return {p[0], p[1], p[2]};
+}
+
+// Oklab's lightness and hue of a display colour (Ottosson 2020: the way forward, of which the map computes
+// the way back).
+struct Seen {
+    double lightness, hue;
+};
+Seen seen(const Rgb& color) {
+    double linear[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double v = color[c] / 255.0;
+        linear[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    }
+    const auto cone = [&](double r, double g, double b) {
+        return std::cbrt(r * linear[0] + g * linear[1] + b * linear[2]);
+    };
+    const double l = cone(0.4122214708, 0.5363325363, 0.0514459929),
+                 m = cone(0.2119034982, 0.6806995451, 0.1073969566),
+                 s = cone(0.0883024619, 0.2817188376, 0.6299787005);
+    const double a = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+                 b = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
+    const double hue = std::atan2(b, a) * 180 / std::numbers::pi;
+    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, hue < 0 ? hue + 360 : hue};
+}
+
+// The map's lightness is linear in the root of the error: 0.22 where it begins, 0.97 at the top. A byte's
+// half step is 0.004 of lightness at most, and colours that no display shows are clipped, which moves them by
+// up to 0.012.
+TEST(ErrorPicture, LightnessIsLinearInTheRootOfTheErrorsShareOfTheTop) {
+    const double shares[] = {1e-4, 1e-3, 0.01, 1.0 / 16, 0.1, 0.25, 0.4, 9.0 / 16, 0.75, 1};
+    for (const double top : {1e-6, 0.37, 1.0, 2500.0}) {
+        Image errors(static_cast<int>(std::size(shares)), 1, 1);
+        for (std::size_t i = 0; i < std::size(shares); ++i)
+            errors.data[i] = static_cast<float>(shares[i] * top);
+        const Image8 picture = errorPicture(errors, top);
+        for (std::size_t i = 0; i < std::size(shares); ++i) {
+            const double root = std::sqrt(shares[i]);
+            EXPECT_NEAR(seen(pixelOf(picture, i)).lightness, 0.22 + 0.75 * root, 0.016)
+                << top << " x " << shares[i];
+            // As close as the map's 253 colours: half a step of them is no more than two bytes.
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(pixelOf(picture, i)[c], errorColor(root)[c], 2) << top << " x " << shares[i];
+        }
+    }
+}
+
+// Violet, red, orange, pale yellow.
+TEST(ErrorPicture, HueTurnsOnceFromVioletToYellow) {
+    EXPECT_NEAR(seen(errorColor(0.1)).hue, 300 + 16.5, 12);
+    EXPECT_NEAR(seen(errorColor(0.45)).hue, 300 + 74.25 - 360, 12);
+    EXPECT_NEAR(seen(errorColor(0.8)).hue, 300 + 132 - 360, 12);
+}
+
+TEST(ErrorPicture, OnlyWhatIsAboveTheTopIsBeyond) {
+    Image errors(5, 1, 1);
+    errors.data = {0, 0.5f, std::nextafter(0.5f, 1.0f), 0.5001f, 1};
+    const Image8 picture = errorPicture(errors, 0.5);
+    EXPECT_EQ(pixelOf(picture, 0), (Rgb{0, 0, 0}));
+    EXPECT_EQ(pixelOf(picture, 1), errorColor(1));
+    EXPECT_EQ(pixelOf(picture, 2), errorColor(1)) << "an error image is float32, its top a double";
+    EXPECT_EQ(pixelOf(picture, 3), beyondColor);
+    EXPECT_EQ(pixelOf(picture, 4), beyondColor);
+}
+
+// What is beyond keeps its order: paler, and white from a thousand times on.
+TEST(ErrorPicture, BeyondTheTopColoursAreOrdered) {
+    Image errors(6, 1, 1);
+    errors.data = {0.6f, 5, 50, 490, 500, 1e9f};
+    const Image8 picture = errorPicture(errors, 0.5);
+    EXPECT_EQ(pixelOf(picture, 0), beyondColor);
+    for (std::size_t i = 1; i < 4; ++i)
+        EXPECT_GT(pixelOf(picture, i)[0], pixelOf(picture, i - 1)[0]) << errors.data[i];
+    for (const std::size_t i : {4u, 5u}) EXPECT_EQ(pixelOf(picture, i), (Rgb{255, 255, 255}));
+}
+
+// ---- The page's legend ----
+
+// The card's difference: its picture, the ramp's colours and the words below it.
+struct Legend {
+    Image8 picture;
+    std::vector<Rgb> stops;
+    std::string title;
+    std::vector<std::string> words;
+    std::string swatches;
+};
+
+// `stage`: of which of the card's pictures, the difference or the pair's left one.
+Legend legendOf(const Report& report, const std::filesystem::path& out, const std::string& channel,
+                const std::string& stage = "<figure><div class=\"stage\">") {
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    const std::size_t card = page.find("id=\"c0-" + channel + "\""), figure = page.find(stage, card),
+                      end = page.find("</figure>", figure);
+    const std::string text = page.substr(figure, end - figure);
+    Legend legend;
+    std::smatch found;
+    EXPECT_TRUE(std::regex_search(text, found, std::regex("src=\"([^\"]*)\""))) << text;
+    legend.picture = readPng(out / found[1].str());
+    const std::regex color("#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})"), word("<span>([^<]*)</span>");
+    const std::regex title(
+        "</div><figcaption>.*<div class=\"legend\"><span class=\"title\">([^<]*)</span><div class=\"ramp\"");
+    EXPECT_TRUE(std::regex_search(text, found, title)) << "below the picture, above the ramp: " << text;
+    legend.title = found[1];
+    const std::string ramp = text.substr(text.find("linear-gradient(90deg"));
+    const std::string gradient = ramp.substr(0, ramp.find(')'));
+    for (std::sregex_iterator i(gradient.begin(), gradient.end(), color), none; i != none; ++i) {
+        Rgb stop{};
+        for (std::size_t c = 0; c < 3; ++c)
+            stop[c] = static_cast<std::uint8_t>(std::stoi((*i)[c + 1].str(), nullptr, 16));
+        legend.stops.push_back(stop);
+    }
+    const std::string ends = ramp.substr(0, ramp.find("</div></div>"));
+    for (std::sregex_iterator i(ends.begin(), ends.end(), word), none; i != none; ++i)
+        legend.words.push_back((*i)[1]);
+    legend.swatches = ramp.substr(ramp.find("</div></div>"));
+    return legend;
+}
+
+// Four pixels of roughness are off by these errors.
+Report withErrors(const std::array<double, 4>& errors) {
+    std::vector<Frame> frames(2);
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Frame& frame = frames[path == Path::forward_plus];
+        frame.name = std::string(nameOf(path));
+        frame.scene = "builtin:one";
+        frame.settings.path = path;
+        frame.settings.size = {4, 1};
+        frame.channels[idMode] = Image(4, 1, 1, 3.0f);
+        Image& roughness = frame.channels[gpu::DEBUG_roughness] = Image(4, 1, 1);
+        for (std::size_t i = 0; i < 4 && path == Path::forward_plus; ++i)
+            roughness.data[i] = static_cast<float>(errors[i]);
+    }
+    return reportOf(std::move(frames));
+}
+
+// What the encoding may change roughness by.
+double roughnessTolerance() {
+    const Report report = withErrors({0, 0, 0, 0});
+    return std::ranges::find(report.comparisons[0].channels, gpu::DEBUG_roughness,
+                             [](const ChannelDiff& c) { return static_cast<gpu::uint>(c.mode->number); })
+        ->tolerance.max;
+}
+
+bool alike(const Rgb& a, const Rgb& b) {
+    for (std::size_t c = 0; c < 3; ++c)
+        if (std::abs(a[c] - b[c]) > 1) return false;
+    return true;
+}
+
+// Left 0, in the middle a quarter of the end (the ramp is over the root), right the tolerance: pixels with
+// these errors have the ramp's colours there.
+TEST(ErrorPicture, ThePagesLegendIsOfThePicture) {
+    const double tolerance = roughnessTolerance();
+    ASSERT_GT(tolerance, 0);
+    const Legend legend = legendOf(withErrors({tolerance / 4, tolerance, 1.5 * tolerance, tolerance / 36}),
+                                   folder() / "report", "roughness");
+    EXPECT_EQ(legend.words, (std::vector<std::string>{"0", page::number(tolerance / 4),
+                                                      page::number(tolerance) + " (tolerance)"}));
+    EXPECT_EQ(legend.title, "absolute error, |a-b|");
+    ASSERT_EQ(legend.stops.size(), 13u);
+    EXPECT_TRUE(alike(pixelOf(legend.picture, 0), legend.stops[6])) << "a quarter: the middle";
+    EXPECT_TRUE(alike(pixelOf(legend.picture, 1), legend.stops[12])) << "the tolerance: the right end";
+    EXPECT_EQ(pixelOf(legend.picture, 2), beyondColor);
+    EXPECT_TRUE(alike(pixelOf(legend.picture, 3), legend.stops[2])) << "a 36th: a sixth of the way";
+    EXPECT_NE(legend.swatches.find(fmt::format("background:#{:02x}{:02x}{:02x}\"></i>beyond tolerance",
+                                               beyondColor[0], beyondColor[1], beyondColor[2])),
+              std::string::npos)
+        << legend.swatches;
+    for (std::size_t i = 0; i < 13; ++i)
+        EXPECT_EQ(legend.stops[i], errorColor(static_cast<double>(i) / 12)) << i;
+}
+
+// Nothing is beyond: no swatch. Without a tolerance the map ends at the largest error.
+TEST(ErrorPicture, TheLegendNamesItsEnd) {
+    const double tolerance = roughnessTolerance();
+    Report report = withErrors({tolerance / 4, tolerance / 2, 0, 0});
+    const Legend within = legendOf(report, folder() / "report", "roughness");
+    EXPECT_EQ(within.swatches.find("beyond"), std::string::npos);
+    EXPECT_EQ(within.words.back(), page::number(tolerance) + " (tolerance)");
+    report = withErrors({0.25, 1, 0, 0});
+    for (ChannelDiff& channel : report.comparisons[0].channels) channel.tolerance.max = 0;
+    const Legend largest = legendOf(report, folder() / "report", "roughness");
+    EXPECT_EQ(largest.words, (std::vector<std::string>{"0", "0.25", "1 (max)"}));
+    EXPECT_TRUE(alike(pixelOf(largest.picture, 0), largest.stops[6]));
+    EXPECT_EQ(pixelOf(largest.picture, 1), largest.stops[12]);
+}
+
+// ---- Channels over their range ----
+
+Frame rowFrame(int mode, std::vector<float> values) {
+    Frame frame;
+    const int width = static_cast<int>(values.size()) / debugMode(mode).width;
+    frame.settings.size = {width, 1};
+    frame.channels[idMode] = Image(width, 1, 1, 3.0f);
+    Image& image = frame.channels[mode] = Image(width, 1, debugMode(mode).width);
+    std::ranges::copy(values, image.data.begin());
+    return frame;
+}
+std::pair<Image8, std::string> shown(int mode, const std::vector<Frame>& frames) {
+    std::vector<const Frame*> all;
+    for (const Frame& frame : frames) all.push_back(&frame);
+    const PictureScale range = scaleFor(debugMode(mode), {}, all);
+    return {channelPicture(debugMode(mode), frames[0], range), range.words};
+}
+
+// Both panels share a range; bytes are linear in it.
+TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
+    const auto [depth, words] = shown(gpu::DEBUG_depth, {rowFrame(gpu::DEBUG_depth, {1, 2, 3, 4}),
+                                                         rowFrame(gpu::DEBUG_depth, {5, 2, 2, 2})});
+    EXPECT_EQ(words, "grey, 1 to 5 m");
+    for (std::size_t i = 0; i < 4; ++i)
+        for (const std::uint8_t byte : pixelOf(depth, i))
+            EXPECT_EQ(byte, std::lround(255 * static_cast<double>(i) / 4)) << i;
+    const auto [normals, axes] =
+        shown(gpu::DEBUG_normals, {rowFrame(gpu::DEBUG_normals, {0, 0, 1, -1, 0, 0, 0.6f, -0.5f, 0})});
+    EXPECT_EQ(axes, "x y z as red green blue, -1 to 1");
+    EXPECT_EQ(pixelOf(normals, 0), (Rgb{128, 128, 255}));
+    EXPECT_EQ(pixelOf(normals, 1), (Rgb{0, 128, 128}));
+    EXPECT_EQ(pixelOf(normals, 2), (Rgb{204, 64, 128})) << "255 x 0.8, 255 x 0.25, 127.5";
+    const auto [rough, grey] =
+        shown(gpu::DEBUG_roughness, {rowFrame(gpu::DEBUG_roughness, {0, 0.25f, 1, 0.75f})});
+    EXPECT_EQ(grey, "grey, 0 to 1");
+    EXPECT_EQ(pixelOf(rough, 1), (Rgb{64, 64, 64}));
+    EXPECT_EQ(pixelOf(rough, 3), (Rgb{191, 191, 191}));
+}
+
+// ---- Light counts ----
+
+// Dark blue, cyan, green, yellow, red, white at fifths of the top, mixed evenly between them.
+constexpr Rgb heatStops[] = {{20, 20, 90},   {20, 130, 190},  {40, 190, 90},
+                             {235, 215, 60}, {250, 150, 110}, {255, 255, 255}};
+
+TEST(HeatPicture, CountsHaveTheLegendsColours) {
+    const auto [picture, words] =
+        shown(gpu::DEBUG_light_count, {rowFrame(gpu::DEBUG_light_count, {0, 4, 8, 12, 16, 20, 2, 10})});
+    EXPECT_EQ(words, "heat, 0 to 20 lights");
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pixelOf(picture, i), heatStops[i]) << 4 * i << " of 20";
+    EXPECT_EQ(pixelOf(picture, 6), (Rgb{20, 75, 140})) << "a tenth: half way from dark blue to cyan";
+    EXPECT_EQ(pixelOf(picture, 7), (Rgb{138, 203, 75})) << "half: between green and yellow";
+}
+
+TEST(HeatPicture, TheTopIsTheNextRoundNumber) {
+    for (const auto& [largest, top] : {std::pair{0.0, 1.0},
+                                       {1.0, 1.0},
+                                       {2.0, 2.0},
+                                       {3.0, 5.0},
+                                       {5.0, 5.0},
+                                       {6.0, 10.0},
+                                       {10.0, 10.0},
+                                       {11.0, 20.0},
+                                       {21.0, 50.0},
+                                       {99.0, 100.0},
+                                       {256.0, 500.0},
+                                       {1000.0, 1000.0},
+                                       {1001.0, 2000.0},
+                                       {65536.0, 100000.0}})
+        EXPECT_EQ(heatTop(largest), top) << largest;
+}
+
+// On a page the picture has nothing in it: the legend stands below, with title, unit and the map's colours.
+TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) {
+        std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);  // all pixels show a surface
+        Image& counts = frame.channels.at(gpu::DEBUG_light_count);
+        for (std::size_t i = 0; i < counts.pixels(); ++i) counts.data[i] = static_cast<float>(i % 6 * 4);
+    }
+    const Report report = reportOf(std::move(frames));
+    const Legend legend = legendOf(report, folder() / "report", "light_count", "<div class=\"pair ");
+    EXPECT_EQ(legend.title, "lights that each pixel evaluates");
+    EXPECT_EQ(legend.words, (std::vector<std::string>{"0", "10", "20 lights"}));
+    ASSERT_EQ(legend.stops.size(), 11u);
+    ASSERT_EQ(legend.picture.height, 3) << "no strip of a legend in it";
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(legend.stops[2 * i], heatStops[i]) << i;
+        EXPECT_EQ(pixelOf(legend.picture, i), heatStops[i]) << 4 * i << " of 20";
+    }
+}
+
+// The legend's words, read back from its pixels.
+TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
+    static const std::map<std::string, char> font{{"###"
+                                                   "# #"
+                                                   "# #"
+                                                   "# #"
+                                                   "###",
+                                                   '0'},
+                                                  {" # "
+                                                   "## "
+                                                   " # "
+                                                   " # "
+                                                   "###",
+                                                   '1'},
+                                                  {"###"
+                                                   "  #"
+                                                   "###"
+                                                   "#  "
+                                                   "###",
+                                                   '2'},
+                                                  {"###"
+                                                   "#  "
+                                                   "###"
+                                                   "  #"
+                                                   "###",
+                                                   '5'},
+                                                  {"#  "
+                                                   "# #"
+                                                   "## "
+                                                   "## "
+                                                   "# #",
+                                                   'k'}};
+    constexpr Rgb white{255, 255, 255};
+    for (const auto& [top, expected] :
+         {std::pair{20.0, "0 10 20"}, {50.0, "0 25 50"}, {20000.0, "0 10k 20k"}}) {
+        const Image8 image =
+            withHeatLegend({240, 40, 3, std::vector<std::uint8_t>(std::size_t{3} * 240 * 40, 77)}, top);
+        ASSERT_EQ(image.height, 65) << "25 rows more";
+        const auto at = [&](int x, int y) {
+            return pixelOf(image, static_cast<std::size_t>(y) * 240 + static_cast<std::size_t>(x));
+        };
+        // Five rows of glyphs end 3 pixels above the bottom.
+        std::string words;
+        int last = -9;
+        for (int x = 0; x < 106; ++x) {
+            bool begins = false;
+            std::string glyph;
+            for (int y = 57; y < 62; ++y) {
+                begins = begins || at(x, y) == white;
+                for (int k = 0; k < 3; ++k) glyph += at(x + k, y) == white ? '#' : ' ';
+            }
+            if (!begins) continue;
+            if (last >= 0 && x > last + 4) words += ' ';
+            const auto found = font.find(glyph);
+            words += found == font.end() ? '.' : found->second;
+            last = x;
+            x += 2;
+        }
+        EXPECT_EQ(words, expected);
+        // The bar above them: 100 pixels, each the colour of its middle.
+        for (int x = 0; x < 100; ++x) EXPECT_EQ(at(3 + x, 52), heatColor((x + 0.5) / 100)) << x;
+        for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(heatColor(static_cast<double>(i) / 5), heatStops[i]);
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 240; ++x)
+                ASSERT_EQ(at(x, y), (Rgb{77, 77, 77})) << "the picture itself stays";
+        EXPECT_EQ(at(3, 43), white) << "a title, in capitals: the L's stroke";
+        EXPECT_EQ(at(5, 43), (Rgb{0, 0, 0}));
+    }
+}
+
+}  // namespace
+}  // namespace diptych

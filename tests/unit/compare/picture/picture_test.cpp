@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Channels as pictures.
+#include "compare/picture/picture.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+// One bright pixel in twenty: exposure by the log-average alone would overexpose it.
+TEST(Picture, HighlightsHoldTheAutomaticExposure) {
+    Image lit(20, 1, 3, 0.01f);
+    for (int x = 0; x < 2; ++x)
+        for (int c = 0; c < 3; ++c) lit.at(x, 0, c) = 2;
+    Coverage all;
+    all.covered.assign(20, true);
+    EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
+}
+
+// Three pixels of a hundred are no highlights to expose for: the 95th percentile is not among them.
+TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
+    Image lit(100, 1, 3, 0.01f);
+    for (int x = 0; x < 20; ++x)
+        for (int c = 0; c < 3; ++c) lit.at(x, 0, c) = x < 3 ? 100 : 4;
+    Coverage all;
+    all.covered.assign(100, true);
+    EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 4, 1e-6);
+}
+
+// What is one object has one colour, and neighbouring numbers have others.
+TEST(Picture, AnIdHasItsColour) {
+    Frame frame = bothFrames()[0];
+    const DebugMode& ids = debugMode(gpu::DEBUG_material_id);
+    Image& image = frame.channels.at(gpu::DEBUG_material_id);
+    for (int x = 0; x < 4; ++x) image.at(x, 2) = static_cast<float>(std::array{0, 1, 2, 0}[x]);
+    const Frame* frames[] = {&frame};
+    const Image8 picture = channelPicture(ids, frame, scaleFor(ids, {}, frames));
+    const auto colour = [&](int x) {
+        const std::uint8_t* const p = picture.data.data() + 3 * (2 * 4 + x);
+        return std::array{p[0], p[1], p[2]};
+    };
+    EXPECT_NE(colour(0), colour(1));
+    EXPECT_NE(colour(1), colour(2));
+    EXPECT_NE(colour(0), colour(2));
+    EXPECT_EQ(colour(0), colour(3));
+}
+
+TEST(Picture, BackgroundAndExposure) {
+    const Frame frame = bothFrames()[0];
+    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
+    PictureChoice choice;
+    choice.tonemap = false;
+    const Exposure automatic =
+        exposureFor(choice, &frame.channels.at(gpu::DEBUG_lit), coverage(frame, frame));
+    EXPECT_DOUBLE_EQ(automatic.factor, 0.18 / 0.5) << "one covered pixel of luminance 0.5";
+    const Frame* frames[] = {&frame};
+    const Image8 image = channelPicture(lit, frame, scaleFor(lit, automatic, frames));
+    EXPECT_EQ(image.data[3 * (2 * 4 + 1)], 118) << "sRGB of 0.18 is 117.6";
+    EXPECT_EQ(image.data[0], 0);
+    EXPECT_EQ(image.data[2], std::lround(255 * srgbFromLinear(0.36)))
+        << "background (0, 0, 1) at exposure 0.36";
+    choice.ev100 = 0;
+    EXPECT_DOUBLE_EQ(exposureFor(choice, nullptr, {}).factor, 1 / 1.2);
+    choice.exposure = 3;
+    EXPECT_EQ(exposureFor(choice, nullptr, {}).factor, 3);
+}
+
+TEST(Picture, SrgbByTheStandard) {
+    EXPECT_EQ(srgbFromLinear(0), 0);
+    EXPECT_DOUBLE_EQ(srgbFromLinear(1), 1);
+    EXPECT_NEAR(srgbFromLinear(0.0031308), 0.04045, 1e-5) << "both pieces meet";
+    EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
+}
+
+// Properties of the tone curve: below its shoulder it only subtracts the Fresnel offset of 0.04; it stays
+// within [0, 1] and is monotonic.
+TEST(Picture, PbrNeutral) {
+    const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
+    EXPECT_FLOAT_EQ(mid[0], 0.46f);
+    EXPECT_FLOAT_EQ(mid[2], 0.26f);
+    float last = -1;
+    for (float x = 0; x < 1000; x = x * 1.1f + 0.01f) {
+        const float y = pbrNeutral({x, x, x})[0];
+        EXPECT_GT(y, last - 1e-6f);
+        EXPECT_LE(y, 1);
+        last = y;
+    }
+}
+
+TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
+    double last = -1;
+    for (int i = 0; i <= 64; ++i) {
+        const auto c = errorColor(i / 64.0);
+        const auto linear = [](double v) {
+            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        };
+        const double y =
+            0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
+        EXPECT_GT(y, last) << i;
+        last = y;
+    }
+    Image errors(4, 1, 1);
+    errors.data = {0, 0.5f, 2, std::numeric_limits<float>::infinity()};
+    const Image8 image = errorPicture(errors, 1);
+    const auto at = [&](std::size_t i) {
+        return std::array<std::uint8_t, 3>{image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]};
+    };
+    EXPECT_EQ(at(0), (std::array<std::uint8_t, 3>{}));
+    EXPECT_NE(at(1), at(0));
+    EXPECT_EQ(at(2), beyondColor);
+    EXPECT_EQ(at(3), nonfiniteColor);
+}
+
+TEST(Picture, WhatWasRepairedIsMarked) {
+    Frame frame;
+    frame.settings.size = {3, 1};
+    frame.channels[0] = Image(3, 1, 3, 0.5f);
+    frame.channels[8] = Image(3, 1, 1, 0.0f);
+    frame.repaired[0] = {1};
+    const Image8 picture = channelPicture(debugMode(0), frame, {});
+    const auto at = [&](std::size_t i) {
+        return std::array<std::uint8_t, 3>{picture.data[3 * i], picture.data[3 * i + 1],
+                                           picture.data[3 * i + 2]};
+    };
+    EXPECT_EQ(at(1), nonfiniteColor);
+    EXPECT_NE(at(0), nonfiniteColor);
+    EXPECT_EQ(at(2), at(0));
+}
+
+TEST(Picture, HalfSizeAverages) {
+    const Image8 image{2, 2, 3, {0, 0, 0, 4, 4, 4, 8, 8, 8, 12, 12, 12}};
+    EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
+    EXPECT_EQ(halfSize({1, 1, 3, {9, 8, 7}}).data, (std::vector<std::uint8_t>{9, 8, 7}));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+// Whole pictures of the reference: every light and channel, shadows, threads, resuming.
+#include "tests/support/reference_scene.h"
+
+#include "compare/reference/checkpoint.h"
+#include "compare/reference/pace.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/made_channels.h"
+#include "tests/support/files.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace diptych::reference {
+namespace {
+
+const LightKind kinds[] = {LightKind::directional, LightKind::point, LightKind::spot,
+                           LightKind::rect,        LightKind::disc,  LightKind::tube};
+
+// The value of one pixel that looks straight down at the floor's centre, in float32.
+double seenBelow(const Scene& scene, bool shadows = false) {
+    const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
+    return double{d[gpu::DEBUG_lit].at(0, 0, 0)};
+}
+
+// ---- kinds and channels ------------------------------------------------------------------------------
+
+// The irradiance of each kind of light on the floor below it, by its formula; a kind that is missing here
+// fails.
+double irradianceOf(const Light& light) {
+    switch (light.kind) {
+        case LightKind::directional:
+            return light.intensity;
+        case LightKind::point:
+        case LightKind::spot:
+            return light.intensity / 4;
+        case LightKind::rect:
+            return light.intensity * lambertIrradiance(cornersOf(light), {0, 0, 1});
+        case LightKind::disc:
+            return light.intensity * pi * 0.25 / (0.25 + 4);
+        case LightKind::tube:
+            return -1;  // tested with the closed forms
+    }
+    ADD_FAILURE() << "a kind of light without a test";
+    return 0;
+}
+
+TEST(ReferenceDraw, EveryKindInEveryChannel) {
+    for (const LightKind kind : kinds) {
+        Scene scene = floorScene();
+        scene.lights = {lightOf(kind, {0, 0, 2})};
+        scene.lights[0].intensity = 3;
+        const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
+        for (const DebugMode& mode : debugModes()) {
+            ASSERT_EQ(d.picture.channels.contains(mode.number), isMadeByReference(mode)) << mode.name;
+            if (!isMadeByReference(mode)) continue;
+            const Image& image = d.picture.channels.at(mode.number);
+            EXPECT_EQ(image.components, mode.width) << mode.name;
+            for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
+        }
+        const double lit = double{d[gpu::DEBUG_lit].at(1, 1, 0)},
+                     expected = irradianceOf(scene.lights[0]) / pi;
+        EXPECT_GT(lit, 0) << static_cast<int>(kind);
+        if (expected > 0) {
+            EXPECT_NEAR(lit, expected, 1e-6 * expected) << static_cast<int>(kind);
+        }
+        EXPECT_EQ(d[gpu::DEBUG_lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
+    }
+}
+
+TEST(ReferenceDraw, Channels) {
+    Scene scene = floorScene();
+    Material& m = scene.materials[0];
+    m.base_color = {0.5f, 0.25f, 0.125f, 1};
+    m.metallic = 0.5f;
+    m.roughness = 0.75f;
+    m.emissive = {1, 2, 4};
+    m.specular = 0.5f;
+    const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01));
+    const auto value = [&](gpu::uint mode, int c = 0) { return double{d[mode].at(0, 0, c)}; };
+    EXPECT_EQ(value(gpu::DEBUG_albedo, 2), 0.125);
+    EXPECT_EQ(value(gpu::DEBUG_metallic), 0.5);
+    EXPECT_EQ(value(gpu::DEBUG_roughness), 0.75);
+    EXPECT_EQ(value(gpu::DEBUG_emission, 1), 2);
+    EXPECT_EQ(value(gpu::DEBUG_lit, 2), 4) << "what it emits, without lights";
+    EXPECT_EQ(value(gpu::DEBUG_occlusion), 1);
+    EXPECT_EQ(value(gpu::DEBUG_dielectric_f90), 0.5);
+    EXPECT_NEAR(value(gpu::DEBUG_specular, 1), 0.5 * 0.04 * 0.5 + 0.25 * 0.5, 1e-8)
+        << "half metal, half dielectric";
+    EXPECT_EQ(value(gpu::DEBUG_normals, 2), 1);
+    EXPECT_EQ(value(gpu::DEBUG_geometric_normal, 2), 1);
+    EXPECT_NEAR(value(gpu::DEBUG_depth), 3, 1e-6);
+    EXPECT_NEAR(value(gpu::DEBUG_position, 2), -3, 1e-6);
+    EXPECT_EQ(value(gpu::DEBUG_material_id), 0);
+    EXPECT_NEAR(value(gpu::DEBUG_texcoords, 1), 0.5, 1e-6);
+    EXPECT_NEAR(value(gpu::DEBUG_dielectric_f0, 1), 0.5 * 0.04, 1e-8) << "whatever the metal is";
+    for (const gpu::uint mode : {gpu::DEBUG_tangent, gpu::DEBUG_handedness, gpu::DEBUG_tangent_normal})
+        EXPECT_EQ(value(mode), 0) << "there is no normal map";
+    const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
+    for (const DebugMode& mode : debugModes()) {
+        if (!isMadeByReference(mode)) continue;
+        EXPECT_EQ(empty.picture.channels.at(mode.number).data[0], mode.name == "material_id" ? -1 : 0)
+            << mode.name;
+    }
+}
+
+// ---- shadows -----------------------------------------------------------------------------------------
+
+// A roof of 1 m, 1 m above the floor's middle, between it and the light; the camera is below it.
+Scene roofed(const Material& of, LightKind kind = LightKind::point) {
+    Scene scene = floorScene();
+    scene.materials.push_back(of);
+    add(scene, quad({-0.5, -0.5, 1}, {1, 0, 0}, {0, 1, 0}, 1));
+    scene.lights = {lightOf(kind, {0, 0, 2})};
+    return scene;
+}
+double below(const Scene& scene) {
+    const Drawn d = drawn(scene, viewFrom({0, 0, 0.5}, {0, 0, 0}, 1, 1, 0.01), true);
+    return double{d[gpu::DEBUG_lit].at(0, 0, 0)} * pi;
+}
+
+TEST(ReferenceDraw, ARoofShadesEveryKindOfLight) {
+    for (const LightKind kind : kinds) {
+        Scene scene = roofed(matte(), kind);
+        scene.lights[0].width = scene.lights[0].height = 0.5f;
+        scene.lights[0].radius = 0.25f;
+        EXPECT_EQ(below(scene), 0) << static_cast<int>(kind);
+        scene.meshes[0].primitives.pop_back();
+        EXPECT_GT(below(scene), 0) << static_cast<int>(kind);
+    }
+}
+
+TEST(ReferenceDraw, WhatCastsAShadow) {
+    Material m = matte();
+    EXPECT_EQ(below(roofed(m)), 0);
+    m.alpha_mode = AlphaMode::blend;
+    EXPECT_NEAR(below(roofed(m)), 0.25, 1e-6) << "what blends throws none";
+    m.alpha_mode = AlphaMode::mask;
+    m.base_color.a = 0.49f;
+    EXPECT_NEAR(below(roofed(m)), 0.25, 1e-6) << "cut out";
+    m.base_color.a = 0.51f;
+    EXPECT_EQ(below(roofed(m)), 0);
+    // Occluders beyond the light and beside it cast no shadow.
+    Scene scene = roofed(matte());
+    scene.lights[0].position.z = 0.9;
+    EXPECT_NEAR(below(scene), 1 / 0.81, 1e-5);
+    scene = roofed(matte());
+    scene.lights[0].position = {1.5, 0, 1.4};  // its ray crosses z = 1 at x = 1.07
+    EXPECT_NEAR(below(scene), 1.4 / std::pow(1.5 * 1.5 + 1.4 * 1.4, 1.5), 1e-6);
+}
+
+TEST(ReferenceDraw, AMaskThrowsTheShadowOfItsHoles) {
+    Material m = matte();
+    m.alpha_mode = AlphaMode::mask;
+    m.base_color_texture.texture = 0;
+    Scene scene = roofed(m);
+    scene.textures = {{0, {}}};
+    scene.textures[0].sampler.magnify_linear = false;
+    scene.images = {{"holes", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}}};  // solid for u < 1/2
+    scene.lights[0].position = {0.5, 0, 2};
+    EXPECT_GT(below(scene), 0.1) << "its ray crosses the roof at x = 0.25, u = 0.75";
+    scene.lights[0].position = {-0.5, 0, 2};
+    EXPECT_EQ(below(scene), 0);
+}
+
+// glTF 2.0, 3.9.4: alpha that equals the cutoff is opaque, whatever code it has and however a float rounds
+// that. Seen from above as by the light.
+TEST(ReferenceDraw, AlphaThatEqualsTheCutoffIsOpaque) {
+    Material m = matte();
+    m.alpha_mode = AlphaMode::mask;
+    m.base_color_texture.texture = 0;
+    Scene scene = roofed(m);
+    scene.textures = {{0, {}}};
+    for (int code = 1; code < 256; ++code) {
+        scene.images = {{"flat", 1, 1, {255, 255, 255, static_cast<std::uint8_t>(code)}}};
+        Material& roof = scene.materials.back();
+        roof.alpha_cutoff = static_cast<float>(code / 255.0);
+        EXPECT_EQ(below(scene), 0) << code;
+        EXPECT_NEAR(seenBelow(scene), 1 / pi, 1e-6) << code << ", the roof";
+        roof.alpha_cutoff = std::nextafter(roof.alpha_cutoff, 2.0f);
+        EXPECT_NEAR(below(scene), 0.25, 1e-6) << code;
+        EXPECT_NEAR(seenBelow(scene), 0.25 / pi, 1e-6) << code << ", the floor";
+    }
+}
+
+// With shadows, light from behind the triangle does not reach it; without them only the shading normal
+// decides.
+TEST(ReferenceDraw, LightFromBehindTheTriangle) {
+    Scene scene = floorScene();
+    for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = glm::normalize(glm::vec3(1, 0, 1));
+    scene.lights = {lightOf(LightKind::directional, {0, 0, 0}, {-1, 0, 0.2})};
+    EXPECT_GT(seenBelow(scene), 0.1);
+    EXPECT_EQ(seenBelow(scene, true), 0);
+}
+
+TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
+    Scene scene = floorScene();
+    Material m = matte();
+    m.alpha_mode = AlphaMode::blend;
+    m.base_color = {0, 0, 0, 0.25f};
+    m.emissive = {8, 8, 8};
+    scene.materials.push_back(m);
+    scene.materials[0].emissive = {1, 1, 1};
+    add(scene, quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 1));
+    add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 1));
+    EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
+    // Two at one place: the later one is in front.
+    scene.materials.push_back(m);
+    scene.materials.back().emissive = {4, 4, 4};
+    add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 2));
+    EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 4 + 0.75 * (0.25 * 8 + 0.75 * 1)), 1e-6);
+}
+
+// A lamp on a ceiling whose float32 vertices are rounded to above it, in it or below it: its light arrives,
+// and an object between still casts a shadow.
+TEST(ReferenceDraw, ALampMayLieOnACeiling) {
+    for (const double height : {2.0, 2.3, 2.5, 2.7}) {
+        Scene scene = floorScene();
+        add(scene, quad({-5, 5, static_cast<float>(height)}, {10, 0, 0}, {0, -10, 0}));  // faces down
+        for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::point}) {
+            Light lamp;
+            lamp.kind = kind;
+            lamp.position = {0, 0, height};
+            lamp.direction = {0, 0, -1};
+            scene.lights = {lamp};
+            const View view = viewFrom({3, 0, 1.5}, {0, 0, 0}, 5, 5);
+            const Image open = drawn(scene, view)[gpu::DEBUG_lit],
+                        shaded = drawn(scene, view, true)[gpu::DEBUG_lit];
+            for (std::size_t i = 0; i < open.pixels(); ++i)
+                EXPECT_NEAR(shaded.pixel(i)[0], open.pixel(i)[0], 1e-5f * open.pixel(i)[0])
+                    << height << " " << i;
+            add(scene, quad({-4, 4, 1.9f}, {8, 0, 0}, {0, -8, 0}));
+            EXPECT_EQ(drawn(scene, view, true)[gpu::DEBUG_lit].at(2, 2, 0), 0) << "a board between";
+            scene.meshes[0].primitives.pop_back();
+        }
+    }
+}
+
+// The mean of many samples of a coarse picture equals that of a fine one, also at silhouettes, wherever the
+// pixels' centres are.
+TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
+    Scene scene = floorScene();
+    scene.materials[0].emissive = {1, 1, 1};
+    scene.meshes[0].primitives = {quad({-0.83f, -0.61f, 0}, {1.5f, 0.3f, 0}, {-0.2f, 1.1f, 0})};
+    const auto mean = [](const Image& lit) {
+        double sum = 0;
+        for (std::size_t i = 0; i < lit.pixels(); ++i) sum += double{lit.pixel(i)[0]};
+        return sum / static_cast<double>(lit.pixels());
+    };
+    const double fine = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 320, 240))[gpu::DEBUG_lit]);
+    const double coarse =
+        mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[gpu::DEBUG_lit]);
+    EXPECT_NEAR(coarse, fine, 0.005 * fine);
+    const double one = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6))[gpu::DEBUG_lit]);
+    EXPECT_GT(std::abs(one - fine), 0.01 * fine) << "one sample is not, or this would show nothing";
+}
+
+// ---- threads and interruptions -----------------------------------------------------------------------
+
+// A light that is sampled, and a sky of that radiance.
+Scene sampledScene(float sky = 0) {
+    Scene scene = roofed(matte(), LightKind::rect);
+    scene.environment = Environment{"sky", Image(8, 4, 3, sky)};
+    scene.materials[0].specular = 1;
+    scene.materials[0].roughness = 0.3f;
+    return scene;
+}
+const View sampledView = viewFrom({2, 1, 1.5}, {0, 0, 0}, 40, 36);
+
+void expectSame(const Picture& a, const Picture& b) {
+    ASSERT_EQ(a.channels.size(), b.channels.size());
+    for (const auto& [mode, image] : a.channels) EXPECT_EQ(image.data, b.channels.at(mode).data) << mode;
+    EXPECT_EQ(a.uncertainty.data, b.uncertainty.data);
+    EXPECT_FALSE(a.uncertainty.empty());
+}
+
+TEST(ReferenceDraw, TheSamePictureWhateverTheNumberOfThreads) {
+    const Scene scene = sampledScene(0.2f);
+    const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 18, 17);
+    const Drawn many = drawn(scene, view, true);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    expectSame(many.picture, drawn(scene, view, true).picture);
+}
+
+TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
+    const Scene scene = sampledScene();
+    const Drawn whole = drawn(scene, sampledView, true);
+    const std::filesystem::path keep = folder() / "kept";
+    std::atomic<int> tiles{0};
+    EXPECT_THROW(drawn(scene, sampledView, true, 1, keep,
+                       [&](double) {
+                           if (++tiles == 4) throw std::runtime_error("stop");
+                       }),
+                 std::runtime_error);
+    EXPECT_EQ(namesIn(keep.parent_path()).size(), 1u);
+    std::atomic<int> rest{0};
+    const Drawn again = drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; });
+    expectSame(whole.picture, again.picture);
+    EXPECT_GE(rest, 1);
+    EXPECT_LE(rest, 9 - 4) << "of nine tiles four are done";
+    // The finished file remains until the caller removes it.
+    rest = 0;
+    expectSame(whole.picture, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).picture);
+    EXPECT_EQ(rest, 0);
+}
+
+// Everything that decides a pixel also decides whether a file belongs to the same picture.
+TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
+    Scene scene = sampledScene();
+    scene.lights[0].kind = LightKind::point;
+    const std::vector<std::pair<const char*, void (*)(Scene&, View&)>> changes{
+        {"light", [](Scene& s, View&) { s.lights[0].intensity = 2; }},
+        {"light's place", [](Scene& s, View&) { s.lights[0].position.x = 0.1; }},
+        {"material", [](Scene& s, View&) { s.materials[1].roughness = 0.5f; }},
+        {"geometry", [](Scene& s, View&) { s.meshes[0].primitives[1].positions[0].x -= 1; }},
+        {"node", [](Scene& s, View&) { s.nodes[0].parent_from_node[3].z = 0.1; }},
+        {"sky", [](Scene& s, View&) { s.environment->radiance.data[0] = -0.0f; }},  // as black, in other bits
+        {"sky's shape",
+         [](Scene& s, View&) { s.environment->radiance.width = 4, s.environment->radiance.height = 8; }},
+        {"camera", [](Scene&, View& v) { v.camera.world_from_camera[3].x += 0.1; }},
+        {"size", [](Scene&, View& v) { v.width = 39; }}};
+    for (const auto& [name, change] : changes) {
+        const std::filesystem::path keep = folder() / "kept";
+        std::atomic<int> done{0};
+        const auto stop = [&](double) {
+            if (++done == 2) throw std::runtime_error("stop");
+        };
+        EXPECT_THROW(drawn(scene, sampledView, true, 1, keep, stop), std::runtime_error);
+        Scene changed = scene;
+        View view = sampledView;
+        change(changed, view);
+        // The first progress report tells the number of tiles that are left.
+        std::mutex one;
+        double least = 1;
+        const auto first = [&](double fraction) {
+            const std::lock_guard lock(one);
+            least = std::min(least, fraction);
+            throw std::runtime_error("stop");
+        };
+        EXPECT_THROW(drawn(changed, view, true, 1, keep, first), std::runtime_error);
+        EXPECT_EQ(least, 1.0 / 9) << name;
+        EXPECT_EQ(namesIn(keep.parent_path()).size(), 2u)
+            << name << ": what is kept of the first is left alone";
+    }
+}
+
+// What a picture will take is known from pixels spread over all of it, and soon.
+TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
+    std::array<std::array<std::atomic<int>, 4>, 4> drawn{};
+    const auto slow = [&](int x, int y) {
+        ++drawn[static_cast<std::size_t>(y / 50)][static_cast<std::size_t>(x / 50)];
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    const auto seconds = reference::expectedSeconds(200, 200, slow);
+    ASSERT_TRUE(seconds.has_value());
+    // 40,000 pixels of at least 1 ms, on all cores.
+    EXPECT_GE(*seconds, 40.0 / tbb::info::default_concurrency() / 2);
+    int all = 0;
+    for (const auto& row : drawn)
+        for (const std::atomic<int>& part : row) {
+            EXPECT_GT(part, 0);
+            all += part;
+        }
+    EXPECT_LE(all, 400) << "a hundredth";
+    EXPECT_FALSE(reference::expectedSeconds(200, 200, [](int, int) {}).has_value()) << "done at once";
+    // However long a pixel takes, it ends.
+    std::atomic<int> few = 0;
+    reference::expectedSeconds(
+        4000, 4000, [&](int, int) { ++few, std::this_thread::sleep_for(std::chrono::milliseconds(10)); },
+        std::chrono::milliseconds(50));
+    EXPECT_LT(few, 160000) << "not its hundredth";
+}
+
+}  // namespace
+}  // namespace diptych::reference

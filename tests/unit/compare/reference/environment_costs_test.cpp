@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What approximations of an environment cost, and what geometry hides of it, against closed forms.
+#include "compare/reference/environment_costs.h"
+#include "shared/environment/harmonics.h"
+#include "tests/support/reference_scene.h"
+
+#include <random>
+
+namespace diptych::reference {
+namespace {
+
+Environment evenSky(float radiance, int width = 32, int height = 16) {
+    return {"sky", Image(width, height, 3, radiance)};
+}
+
+EnvironmentCosts costsUnder(const Environment& sky, const Surface& s) {
+    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    lighting.takeCosts();
+    return lighting(s, {}, 5).costs;
+}
+
+TEST(ReferenceEnvironmentCosts, ItsHarmonicsAreThePaths) {
+    Environment sky = evenSky(0, 16, 8);
+    std::mt19937 random(4);
+    for (float& v : sky.radiance.data) v = std::uniform_real_distribution<float>(0, 0.02f)(random);
+    sky.radiance.at(3, 2, 1) = 300;
+    const EnvironmentLight light(sky, 1);
+    const EnvironmentApproximation approximation(light);
+    const Harmonics harmonics = project(LatLong(sky));
+    const double window = leastWindow(harmonics);
+    EXPECT_GT(window, 0);
+    EXPECT_NEAR(approximation.window() / window, 1, 0.02);
+    for (const double damped : {0.0, window}) {
+        const auto polynomial = irradiancePolynomial(harmonics, damped);
+        for (const glm::dvec3 d : {glm::dvec3(1, 0, 0), {0.3, -0.8, 0.5}, {-0.2, 0.7, 0.6}, {0, 0, -1}}) {
+            const glm::dvec3 n = glm::normalize(d), taken = evaluate(polynomial, n);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(approximation.irradiance(n, damped)[c], std::max(taken[c], 0.0), 5e-3) << c;
+        }
+    }
+}
+
+// Only what is sampled is open there.
+TEST(ReferenceEnvironmentCosts, AConstantSkyCostsNothing) {
+    Surface s = mirror(0.5, 0.7);
+    s.metallic = 0;
+    s.dielectric_f0 = glm::dvec3(0.04);
+    s.dielectric_f90 = 1;
+    const EnvironmentCosts costs = costsUnder(evenSky(3), s);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_LE(costs.diffuse[i], 3 * 0.07) << i;
+        EXPECT_LE(costs.split[i], 3 * 0.05) << i;
+    }
+    EXPECT_LE(costs.wider, 3 * 0.05);
+    EXPECT_GT(costs.lobe, 3 * 0.03);
+    EXPECT_LE(costs.lobe, 3 * 0.2);
+}
+
+// Of a sun at the zenith a Lambertian plane gets E / pi = L / pi; order 2 gives (1 + 2 + 5 / 4) / 4 pi of it,
+// and on the other side (1 - 2 + 5 / 4) / 4 pi where there is nothing.
+TEST(ReferenceEnvironmentCosts, ASunsHarmonicsAreOffByAClampedCosines) {
+    Environment sky = evenSky(0, 128, 64);
+    for (int c = 0; c < 3; ++c) sky.radiance.at(31, 31, c) = 1000;
+    const double azimuth = 2 * pi * 31.5 / 128 - pi, down = pi * 31.5 / 64;
+    const glm::dvec3 sun(std::sin(down) * std::sin(azimuth), std::cos(down),
+                         -std::sin(down) * std::cos(azimuth));
+    const double flux = 1000 * (2 * pi / 128) * (pi / 64);
+    const EnvironmentCosts facing = costsUnder(sky, lambertian(sun)),
+                           turned = costsUnder(sky, lambertian(-sun));
+    EXPECT_NEAR(facing.diffuse[0] / (flux * (4.25 / 4 - 1) / pi), 1, 0.2) << "to 1 % of all, which is known";
+    EXPECT_NEAR(turned.diffuse[0] / (flux * 0.25 / 4 / pi), 1, 0.02);
+    EXPECT_LE(turned.diffuse[2], 0.03 * flux / pi) << "a map has nothing there but what its nodes mix";
+    EXPECT_EQ(turned.lobe, 0);
+}
+
+// A light that fills half a lobe costs the split sum much, and less from straight above.
+TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
+    Environment sky = evenSky(0.1f, 64, 32);
+    for (int x = 0; x < 64; ++x)
+        for (int y = 0; y < 12; ++y)
+            for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 5;
+    Surface above = mirror(0.6, 0), grazing = mirror(0.6, 1.4);
+    for (Surface* s : {&above, &grazing}) {
+        // From +Z up to +Y up.
+        s->normal = {0, 1, 0};
+        s->to_viewer = {s->to_viewer.x, s->to_viewer.z, 0};
+    }
+    const EnvironmentCosts a = costsUnder(sky, above), b = costsUnder(sky, grazing);
+    EXPECT_LE(a.split[0] / a.lobe, 0.1);
+    EXPECT_GE(b.split[0] / b.lobe, 0.2);
+}
+
+// ---- what geometry hides -----------------------------------------------------------------------------
+
+// The mean share that is hidden of a floor, seen from above about (0.05, 0, 0).
+double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
+    const Pose pose = poseAt(scene, 0);
+    const View view = viewFrom({0.05, 0.01, 2}, {0.05, 0, 0}, 12, 12, glm::radians(1.0));
+    const Picture picture = draw({.scene = scene,
+                                  .pose = pose,
+                                  .view = view,
+                                  .lights = pose.lights,
+                                  .ambient = ambient,
+                                  .surroundings = true,
+                                  .mode = ReferenceMode::scene,
+                                  .surfaces = nullptr});
+    double all = 0, hidden = 0;
+    for (std::size_t i = 0; i < picture.surroundings.pixels(); ++i) {
+        all += double{picture.surroundings.pixel(i)[0]};
+        hidden += double{picture.surroundings.pixel(i)[1]};
+        EXPECT_NEAR(double{picture.channels.at(0).pixel(i)[0]}, 1, 0.02) << "lit has all of it";
+    }
+    EXPECT_NEAR(all / static_cast<double>(picture.surroundings.pixels()), 1, 0.03) << "radiance 1, white";
+    return hidden / all;
+}
+
+TEST(ReferenceSurroundings, AWallHidesHalf) {
+    Scene scene = floorScene();
+    scene.environment = evenSky(1);
+    EXPECT_EQ(hiddenShare(scene, glm::dvec3(0)), 0);
+    // Of height H at a distance x: (1 - x / sqrt(x^2 + H^2)) / 2.
+    add(scene, quad({0, -1000, 0}, {0, 2000, 0}, {0, 0, 1000}));
+    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0)), 0.5, 0.01);
+    scene.environment->radiance = Image(2, 1, 3, 0.25f);
+    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0.75)), 0.5, 0.01) << "of the environment and ambient light";
+    scene.environment.reset();
+    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(1)), 0.5, 0.01) << "of ambient light alone";
+}
+
+TEST(ReferenceSurroundings, ALowWallHidesWhatItSubtends) {
+    Scene scene = floorScene();
+    scene.environment = evenSky(1);
+    add(scene, quad({0, -1000, 0}, {0, 2000, 0}, {0, 0, 0.05f}));
+    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0)), (1 - std::sqrt(0.5)) / 2, 0.02);
+}
+
+}  // namespace
+}  // namespace diptych::reference

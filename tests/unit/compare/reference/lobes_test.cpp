@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// The reference's material, and its reflection of area lights, against formulas and sums made independently
+// here.
+#include "tests/support/reference_maker.h"
+
+#include "compare/reference/brdf.h"
+
+#include <functional>
+
+namespace diptych::reference {
+namespace {
+
+// glTF 2.0, appendix B, with KHR_materials_specular's f0 and f90, as written there: V = G / (4 n.l n.v) of
+// the height-correlated Smith term, D of Trowbridge and Reitz. Of the first colour component.
+double appendixB(const Surface& s, const glm::dvec3& l) {
+    const double nl = glm::dot(s.normal, l), nv = glm::dot(s.normal, s.to_viewer);
+    if (nl <= 0) return 0;
+    const glm::dvec3 h = glm::normalize(l + s.to_viewer);
+    const double nh = glm::dot(s.normal, h), vh = glm::dot(s.to_viewer, h);
+    const double a2 = std::pow(s.roughness, 4);
+    const double v =
+        0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+    const double d = a2 / (pi * std::pow((nh * nh) * (a2 - 1) + 1, 2));
+    const double schlick = std::pow(1 - vh, 5);
+    const double metal = v * d * (s.albedo.r + (1 - s.albedo.r) * schlick);
+    const glm::dvec3 layer = s.dielectric_f0 + (s.dielectric_f90 - s.dielectric_f0) * schlick;
+    const double base = (1 - std::max({layer.r, layer.g, layer.b})) * s.albedo.r / pi;
+    return (s.metallic * metal + (1 - s.metallic) * (base + layer.r * v * d)) * nl;
+}
+
+double red(const Reflected& r) {
+    return r.diffuse.r + r.specular.r;
+}
+
+Surface plastic(double roughness, double angle, double metallic) {
+    Surface s = mirror(roughness, angle);
+    s.albedo = {0.8, 0.3, 0.1};
+    s.metallic = metallic;
+    s.dielectric_f0 = {0.04, 0.05, 0.02};
+    s.dielectric_f90 = 0.9;
+    return s;
+}
+
+glm::dvec3 direction(double angle, double turn) {
+    return {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
+}
+
+TEST(ReferenceLobes, TheMaterialIsAppendixB) {
+    for (const double roughness : {0.045, 0.1, 0.3, 0.7, 1.0})
+        for (const double metallic : {0.0, 0.4, 1.0})
+            for (const double view : {0.0, 0.6, 1.2, 1.55})
+                for (const double light : {0.01, 0.6, 1.2, 1.5})
+                    for (const double turn : {0.0, 1.0, pi}) {
+                        const Surface s = plastic(roughness, view, metallic);
+                        const double expected = appendixB(s, direction(light, turn));
+                        // For the narrowest lobe the rounding error of (n.h)^2 (a^2 - 1) + 1 is 2e-16 / a^2.
+                        EXPECT_NEAR(red(Brdf(s)(direction(light, turn))), expected, 1e-9 * expected);
+                    }
+    EXPECT_EQ(red(Brdf(plastic(0.3, 0.5, 0.5))(direction(1.6, 0))), 0) << "below the horizon";
+}
+
+TEST(ReferenceLobes, LightAndViewerMayChangePlaces) {
+    for (const double roughness : {0.045, 0.3, 1.0})
+        for (const double metallic : {0.0, 1.0})
+            for (const double turn : {0.3, 2.5}) {
+                Surface there = plastic(roughness, 0, metallic), back = there;
+                there.to_viewer = direction(0.4, 0);
+                back.to_viewer = direction(1.1, turn);
+                EXPECT_NEAR(red(Brdf(there)(back.to_viewer)) / std::cos(1.1),
+                            red(Brdf(back)(there.to_viewer)) / std::cos(0.4),
+                            1e-9 * red(Brdf(there)(back.to_viewer)));
+            }
+}
+
+// A bound of the model (compare/reference/README.md, "The model"): a roughness below 0.045 is 0.045.
+TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
+    const glm::dvec3 l = direction(0.501, pi);
+    EXPECT_EQ(red(Brdf(mirror(0, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));
+    EXPECT_NE(red(Brdf(mirror(0.05, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));
+}
+
+// ---- light from all around ---------------------------------------------------------------------------
+
+// Integrates over the hemisphere by half vectors distributed as D (n.h) (Walter et al. 2007), with even
+// steps in both random numbers and `steps` over half a turn; the viewer is in the plane of x and z. They are
+// densest at the mirrored direction.
+double hemisphere(const Surface& s, int steps) {
+    const Brdf brdf(s);
+    const double a2 = std::pow(std::max(s.roughness, 0.045), 4);
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double u = (i + 0.5) / steps, nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
+        const double d = a2 / (pi * std::pow(nh * nh * (a2 - 1) + 1, 2));
+        for (int j = 0; j < steps / 2; ++j) {
+            const glm::dvec3 h = direction(std::acos(nh), 2 * pi * (j + 0.5) / steps);
+            const double vh = glm::dot(s.to_viewer, h);
+            if (vh > 0) sum += red(brdf(2 * vh * h - s.to_viewer)) * 4 * vh / (d * nh);
+        }
+    }
+    return sum * 2 / (double{1} * steps * steps);
+}
+
+// "White furnace": the figures for a GGX of F = 1 with height-correlated Smith masking, seen straight on.
+TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
+    EXPECT_NEAR(hemisphere(mirror(0.5, 0), 400), 0.9158, 5e-5);
+    EXPECT_NEAR(hemisphere(mirror(1, 0), 400), 0.3069, 5e-5);
+    for (const double roughness : {0.045, 0.2, 0.6, 1.0})
+        for (const double angle : {0.0, 0.7, 1.3, 1.5})
+            EXPECT_LE(hemisphere(mirror(roughness, angle), 200), 1 + 1e-4);
+}
+
+// The loss in %, averaged over all directions of light and viewer, cosine-weighted.
+TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
+    const std::vector<std::pair<double, double>> losses{{0.2, 0.59}, {0.4, 5.97}, {0.5, 11.8},
+                                                        {0.6, 19.7}, {0.8, 39.6}, {1.0, 59.1}};
+    for (const auto& [roughness, loss] : losses) {
+        double mean = 0;
+        constexpr int views = 32;
+        for (int i = 0; i < views; ++i)
+            mean += hemisphere(mirror(roughness, std::acos(std::sqrt((i + 0.5) / views))), 240) / views;
+        EXPECT_NEAR(100 * (1 - mean), loss, loss < 10 ? 0.03 : 0.1) << roughness;
+    }
+}
+
+// ---- light from an area ------------------------------------------------------------------------------
+
+// Simpson's rule with the substitution x = middle + width sinh t: points are dense within `width` of the
+// lobe's middle. The derivative is a further factor.
+struct Crowded {
+    double from, to, middle, width;
+    template <class F>
+    double operator()(int steps, F&& f) const {
+        const double t0 = std::asinh((from - middle) / width), t1 = std::asinh((to - middle) / width);
+        double sum = 0;
+        for (int i = 0; i <= steps; ++i) {
+            const double t = t0 + (t1 - t0) * i / steps;
+            sum += f(middle + width * std::sinh(t)) * width * std::cosh(t) *
+                   (i == 0 || i == steps ? 1
+                    : i % 2              ? 4
+                                         : 2);
+        }
+        return sum * (t1 - t0) / steps / 3;
+    }
+};
+
+// A rectangle at z = 1 facing down, from x0 to x1 and y0 to y1; the lobe's middle is at `mirrored`.
+double ceilingLight(const Surface& s, const glm::dvec4& extent, const glm::dvec2& mirrored) {
+    const double alpha = s.roughness * s.roughness;
+    const Crowded along_x{extent.x, extent.y, mirrored.x, alpha},
+        along_y{extent.z, extent.w, mirrored.y, alpha};
+    return along_x(500, [&](double x) {
+        return along_y(500, [&](double y) {
+            const double square = x * x + y * y + 1;
+            return appendixB(s, glm::normalize(glm::dvec3(x, y, 1))) / (square * std::sqrt(square));
+        });
+    });
+}
+
+Light ceilingRect(const glm::dvec4& e) {
+    Light light = lightOf(LightKind::rect, {(e.x + e.y) / 2, (e.z + e.w) / 2, 1});
+    light.axis = {1, 0, 0};
+    light.width = static_cast<float>(e.y - e.x);
+    light.height = static_cast<float>(e.w - e.z);
+    return light;
+}
+
+// The mirrored direction in the middle of the light, in a corner, on an edge, and beside it; sizes are exact
+// in float32.
+TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
+    for (const double roughness : {0.045, 0.1, 0.3, 1.0})
+        for (const double angle : {0.0, 0.6, 1.2})
+            for (const double metallic : {0.0, 1.0}) {
+                const Surface s = plastic(roughness, angle, metallic);
+                const glm::dvec2 m{-std::tan(angle), 0};
+                for (const glm::dvec4& place : {glm::dvec4(-1, 1, -1, 1),
+                                                {-4, 0.0625, -0.03125, 2},
+                                                {0, 8, -4, 4},
+                                                {0.125, 1, 0.25, 1},
+                                                {-0.015625, 0.5, -0.015625, 0.0625}}) {
+                    // In float32 the light's centre is not exact: relative to the narrowest lobe, by 1e-7 /
+                    // alpha.
+                    Light light = ceilingRect(place);
+                    light.position.x += m.x;
+                    const glm::dvec4 e = place + glm::dvec4(m.x, m.x, 0, 0);
+                    const double expected = ceilingLight(s, e, m);
+                    const Shading shading = shadedBy(std::span(&light, 1), s);
+                    EXPECT_NEAR(red(shading.reflected), expected, 1e-6 * expected)
+                        << roughness << " " << angle << " " << metallic << " " << place.x;
+                    EXPECT_LE(shading.uncertainty, 1e-6 * expected);
+                }
+            }
+}
+
+// At a grazing angle the lobe becomes a streak, which the plane's horizon cuts.
+TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
+    for (const double roughness : {0.045, 0.2, 0.6}) {
+        const Surface s = plastic(roughness, 1.5, 0);
+        Light wall = lightOf(LightKind::rect, {-2, 0, 0}, {1, 0, 0});
+        wall.axis = {0, 1, 0};
+        wall.width = wall.height = 2;  // from z = -1 to 1
+        const double alpha = roughness * roughness, mirrored = 2 / std::tan(1.5);
+        const Crowded along_y{-1, 1, 0, alpha / 4}, along_z{0, 1, mirrored, alpha / 4};
+        const double expected = along_y(600, [&](double y) {
+            return along_z(1200, [&](double z) {
+                const double square = 4 + y * y + z * z;
+                return z > 0 ? appendixB(s, glm::normalize(glm::dvec3(-2, y, z))) * 2 /
+                                   (square * std::sqrt(square))
+                             : 0;
+            });
+        });
+        EXPECT_NEAR(red(shadedBy(std::span(&wall, 1), s).reflected), expected, 2e-6 * expected) << roughness;
+    }
+}
+
+// A disc and a tube that fill the lobe show a mirror's radiance, whatever their outline: the sum over the
+// hemisphere tells how much of 1 F, masking and D leave.
+TEST(ReferenceLobes, ALightThatFillsTheLobeIsSeenInIt) {
+    const Surface s = mirror(0.045, 0.4);
+    const double all = hemisphere(s, 300);
+    Light disc = lightOf(LightKind::disc, {0, 0, 0.5});
+    disc.radius = 400;
+    EXPECT_NEAR(red(shadedBy(std::span(&disc, 1), s).reflected), all, 2e-4);
+    Light tube = lightOf(LightKind::tube, {-0.4 * 3, 0, 3});
+    tube.axis = {0, 1, 0};
+    tube.radius = 1;
+    tube.length = 40;
+    const double mirrored = red(shadedBy(std::span(&tube, 1), s).reflected);
+    EXPECT_NEAR(mirrored, all, 5e-3) << "what is beyond the tube's sides is the lobe's tail";
+    EXPECT_LT(mirrored, all);
+}
+
+TEST(ReferenceLobes, ASunInAMirror) {
+    const Surface s = mirror(0.1, 0.3);
+    Light sun = lightOf(LightKind::directional, {0, 0, 0}, -direction(0.3, pi));
+    sun.angle = 0.0093f;
+    sun.intensity = 1;
+    // In polar coordinates around the sun's centre the lobe is smooth.
+    const glm::dvec3 z = -sun.direction, x = sun.axis, y = glm::cross(z, x);
+    const double edge = double{sun.angle} / 2;
+    double sum = 0;
+    constexpr int steps = 400;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const double a = (i + 0.5) / steps * edge, t = 2 * pi * (j + 0.5) / steps;
+            sum += appendixB(s, z * std::cos(a) + (x * std::cos(t) + y * std::sin(t)) * std::sin(a)) *
+                   std::sin(a);
+        }
+    const double radiance = 1 / (pi * std::pow(std::sin(edge), 2));
+    const double expected = sum * edge / steps * 2 * pi / steps * radiance;
+    EXPECT_NEAR(red(shadedBy(std::span(&sun, 1), s).reflected), expected, 2e-6 * expected);
+}
+
+}  // namespace
+}  // namespace diptych::reference

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// What the reference says of the shadows of points and spots: how much is seen of them, and how far an edge
+// is.
+#include "tests/support/reference_scene.h"
+
+namespace diptych::reference {
+namespace {
+
+// A floor at z = 0 under two lights 2 m above the origin and 2 m to its left, and a screen 1 m above the
+// floor, over x > 0, whose edge throws the first one's shadow from x = 0 on. The picture's one pixel is at x.
+Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
+    Scene scene = floorScene();
+    add(scene, quad({0, -4, 1}, {4, 0, 0}, {0, 8, 0}));
+    scene.lights = {lightOf(LightKind::point, {0, 0, 2}), lightOf(LightKind::spot, {-2, 0, 2}, {1, 0, -1}),
+                    lightOf(LightKind::rect, {0, 0, 2})};
+    const View view = viewFrom({x - 2, 0, 0.5}, {x, 0, 0}, 1, 1);
+    const Pose pose = poseAt(scene, 0);
+    return draw({.scene = scene,
+                 .pose = pose,
+                 .view = view,
+                 .lights = pose.lights,
+                 .casters = std::move(casters),
+                 .shadow_edges = edges,
+                 .mode = ReferenceMode::scene,
+                 .keep = {},
+                 .progress = {}});
+}
+
+double visibility(const Picture& picture) {
+    return double{picture.channels.at(gpu::DEBUG_local_visibility).at(0, 0)};
+}
+
+TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
+    EXPECT_EQ(visibility(seenAt(-0.2, {0})), 1);
+    EXPECT_EQ(visibility(seenAt(0.2, {0})), 0);
+    EXPECT_EQ(visibility(seenAt(0.2, {})), 1) << "none casts";
+    EXPECT_EQ(visibility(seenAt(0.2, {2})), 1) << "an area light is none of these";
+    // The point is hidden; the spot is aslant by 47.7 degrees, 2.7 within its cone of 45, and is seen.
+    const double point = 1 / (4 + 0.04);
+    const glm::dvec3 path = glm::normalize(glm::dvec3(2.2, 0, -2));
+    const double cone =
+        (glm::dot(path, glm::normalize(glm::dvec3(1, 0, -1))) - std::sqrt(0.5)) / (1 - std::sqrt(0.5));
+    const double spot = cone * cone / (4 + 2.2 * 2.2);
+    EXPECT_NEAR(visibility(seenAt(0.2, {0, 1})), spot / (point + spot), 1e-6);
+}
+
+// As a share of the distance from the light, across its rays; a little less, as eight directions are
+// followed.
+TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
+    for (const double x : {-0.4, -0.05, 0.05, 0.4}) {
+        const Picture picture = seenAt(x, {0});
+        const double distance = std::hypot(x, 2.0), across = std::abs(x) * 2 / distance;
+        const double found = double{picture.local_shadow_edge.at(0, 0, 0)};
+        EXPECT_LE(found, across / distance * 1.15) << x << ": lines that leave the light are not parallel";
+        EXPECT_GE(found, 0.8 * across / distance) << x;
+        EXPECT_NEAR(double{picture.local_shadow_edge.at(0, 0, 1)}, 2 / distance / (distance * distance) / pi,
+                    1e-5)
+            << "what it would reflect unshadowed";
+        EXPECT_TRUE(picture.shadow_edge.empty()) << "no sun casts";
+    }
+    EXPECT_TRUE(seenAt(0.2, {}).local_shadow_edge.empty());
+}
+
+// Light is the same where neither edges nor what is seen are asked for, and the picture has neither.
+TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
+    for (const double x : {-0.2, 0.2}) {
+        const Picture with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
+        EXPECT_EQ(without.channels.at(gpu::DEBUG_lit).data, with.channels.at(gpu::DEBUG_lit).data);
+        EXPECT_TRUE(without.local_shadow_edge.empty());
+        for (const int mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility}) {
+            EXPECT_EQ(with.channels.count(mode), 1u);
+            EXPECT_EQ(without.channels.count(mode), 0u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::reference

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The compensations in the reference: against the figures of their papers, and in a white furnace.
+#include "tests/support/reference_maker.h"
+
+#include "compare/reference/ambient.h"
+#include "compare/reference/multiscatter.h"
+
+namespace diptych::reference {
+namespace {
+
+constexpr std::array compensations{Multiscatter::energy, Multiscatter::fdez};
+
+double specularBy(Multiscatter multiscatter, const Surface& s) {
+    return specularAlbedo(s, compensationOf(s, multiscatter)).g;
+}
+double allBy(Multiscatter multiscatter, const Surface& s) {
+    return specularBy(multiscatter, s) + diffuseAlbedo(s, compensationOf(s, multiscatter)).g;
+}
+
+// F0 0.9, alpha 1, n.v 0.95: what the formulas give with the albedo of that view, three digits known.
+TEST(ReferenceMultiscatter, ARoughMetalReflectsWhatThePapersSay) {
+    Surface s = mirror(1, std::acos(0.95));
+    s.albedo = glm::dvec3(0.9);
+    EXPECT_NEAR(specularBy(Multiscatter::off, s), 0.286, 0.001);
+    EXPECT_NEAR(specularBy(Multiscatter::fdez, s), 0.747, 0.001);
+    EXPECT_NEAR(specularBy(Multiscatter::energy, s), 0.839, 0.001);
+}
+
+TEST(ReferenceMultiscatter, AWhiteMetalIsInvisibleInAFurnace) {
+    for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
+        for (const double cosine : {1e-3, 0.05, 0.3, 0.7, 1.0}) {
+            const Surface s = mirror(roughness, std::acos(cosine));
+            EXPECT_LE(specularBy(Multiscatter::off, s), 1 + 1e-6);
+            for (const Multiscatter each : compensations)
+                EXPECT_NEAR(specularBy(each, s), 1, 1e-5)
+                    << nameOf(each) << " " << roughness << " " << cosine;
+        }
+}
+
+// Its base gets what its layer does not reflect; without compensation the two do not add up to 1 (glTF's
+// appendix B).
+TEST(ReferenceMultiscatter, AWhiteDielectricIsInvisibleInAFurnace) {
+    double most = 0;
+    for (const double roughness : {0.0, 0.3, 1.0})
+        for (const double cosine : {1e-3, 0.05, 0.5, 1.0}) {
+            Surface s = mirror(roughness, std::acos(cosine));
+            s.metallic = 0;
+            s.dielectric_f0 = glm::dvec3(0.04);
+            s.dielectric_f90 = 1;
+            most = std::max(most, allBy(Multiscatter::off, s));
+            for (const Multiscatter each : compensations)
+                EXPECT_NEAR(allBy(each, s), 1, 1e-5) << nameOf(each) << " " << roughness << " " << cosine;
+        }
+    EXPECT_GT(most, 1.5) << "appendix B gains nothing at grazing angles: has it changed?";
+}
+
+// The compensation of a mix is the mix of two compensations. That of the mixed F0 is 0.05 and more off.
+TEST(ReferenceMultiscatter, DielectricAndMetalAreCompensatedApart) {
+    Surface s = mirror(1, 0.3);
+    s.albedo = {1.0, 0.6, 0.2};
+    s.dielectric_f0 = glm::dvec3(0.04);
+    s.dielectric_f90 = 1;
+    for (const Multiscatter each : compensations) {
+        const auto at = [&](double metallic) {
+            Surface mixed = s;
+            mixed.metallic = metallic;
+            return specularAlbedo(mixed, compensationOf(mixed, each));
+        };
+        const glm::dvec3 half = at(0.5), expected = 0.5 * (at(0) + at(1));
+        Surface blended = s;
+        blended.albedo = 0.5 * (s.albedo + s.dielectric_f0);
+        const glm::dvec3 wrong = specularAlbedo(blended, compensationOf(blended, each));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(half[c], expected[c], 1e-9) << nameOf(each);
+        EXPECT_GT(std::abs(wrong.r - expected.r), 0.05) << nameOf(each);
+    }
+}
+
+// A directional light at a time, over the hemisphere: direct light is compensated as light from everywhere
+// is.
+TEST(ReferenceMultiscatter, DirectLightSumsToTheSame) {
+    Surface s = mirror(0.9, 0.7);
+    s.metallic = 0.6;
+    s.albedo = {0.95, 0.6, 0.3};
+    s.dielectric_f0 = glm::dvec3(0.04);
+    s.dielectric_f90 = 1;
+    for (const Multiscatter each : compensations) {
+        const Compensation compensation = compensationOf(s, each);
+        constexpr int across = 160;
+        std::vector<Light> suns;
+        for (int i = 0; i < across; ++i)
+            for (int j = 0; j < across; ++j) {
+                const double z = std::sqrt((i + 0.5) / across), r = std::sqrt(1 - z * z),
+                             phi = 2 * pi * (j + 0.5) / across;
+                Light sun = lightOf(LightKind::directional, {}, {-r * std::cos(phi), -r * std::sin(phi), -z});
+                sun.intensity = static_cast<float>(pi / (z * across * across));
+                suns.push_back(sun);
+            }
+        const Shading shading = Lighting(suns, nullptr, 1, {0, 0, 0}, {0, 0, 0}, {}, false, each)(s, {}, 1);
+        const glm::dvec3 specular = specularAlbedo(s, compensation), diffuse = diffuseAlbedo(s, compensation);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(shading.reflected.specular[c], specular[c], 1e-3) << nameOf(each);
+            EXPECT_NEAR(shading.reflected.diffuse[c], diffuse[c], 1e-3) << nameOf(each);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::reference

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// One light of the samples of a pixel: the mean of their radiance, or weighted by a tone curve.
+#include "compare/reference/resolve.h"
+
+#include "tests/support/reference_scene.h"
+
+#include <utility>
+#include <vector>
+
+namespace diptych::reference {
+namespace {
+
+Drawn resolved(const Scene& scene, const View& view, int samples, Resolve resolve,
+               const std::map<int, Image>* surfaces = nullptr) {
+    Drawn result{poseAt(scene, 0), {}};
+    result.picture = draw({.scene = scene,
+                           .pose = result.pose,
+                           .view = view,
+                           .lights = result.pose.lights,
+                           .mode = surfaces ? ReferenceMode::surface : ReferenceMode::scene,
+                           .samples = samples,
+                           .resolve = resolve,
+                           .surfaces = surfaces});
+    return result;
+}
+
+glm::dvec3 radianceOf(const Image& image, int x = 0, int y = 0) {
+    return {double{image.at(x, y, 0)}, double{image.at(x, y, 1)}, double{image.at(x, y, 2)}};
+}
+
+const glm::vec3 lampRadiance(9, 0.5f, 2), floorRadiance(0.125f, 0.25f, 0);
+const View onePixelView = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
+
+// A black floor that glows darkly, and above it, where x is below 0, a bright sheet: half of the pixel.
+Scene halfCovered() {
+    Scene scene = floorScene();
+    scene.materials[0].base_color = {0, 0, 0, 1};
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[0].emissive = floorRadiance;
+    scene.materials[1].emissive = lampRadiance;
+    add(scene, quad({-1, -1, 0.5}, {1, 0, 0}, {0, 2, 0}, 1));
+    return scene;
+}
+
+TEST(ReferenceResolve, AHalfCoveredPixel) {
+    for (const int samples : {64, 256}) {
+        const glm::dvec3 mean =
+            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::linear)[gpu::DEBUG_lit]);
+        // Of evenly spread samples a whole number lies on either side.
+        const glm::dvec3 a(lampRadiance), b(floorRadiance);
+        const double covered = std::round(samples * (mean.x - b.x) / (a.x - b.x)), rest = samples - covered;
+        EXPECT_NEAR(covered, samples / 2, 1);
+        const glm::dvec3 lit =
+            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::tonemapped)[gpu::DEBUG_lit]);
+        const double wa = 1 / (1 + 9.0), wb = 1 / (1 + 0.25);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(mean[c], (covered * a[c] + rest * b[c]) / samples, 1e-6 * a[c]);
+            EXPECT_NEAR(lit[c], (covered * wa * a[c] + rest * wb * b[c]) / (covered * wa + rest * wb),
+                        1e-6 * a[c])
+                << c;
+        }
+        EXPECT_LT(lit.x, 0.4 * mean.x) << "the lamp decides the edge no longer";
+    }
+}
+
+// What covers a part is there twice, as a surface and as a layer that hides all: light is weighted as it is
+// seen, with what blends.
+TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
+    Scene scene = halfCovered();
+    scene.materials[1].alpha_mode = AlphaMode::blend;
+    const Drawn solid = resolved(halfCovered(), onePixelView, 64, Resolve::tonemapped),
+                layer = resolved(scene, onePixelView, 64, Resolve::tonemapped);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(radianceOf(solid[gpu::DEBUG_lit])[c], radianceOf(layer[gpu::DEBUG_lit])[c], 1e-6) << c;
+    // What lies behind it is resolved as if it were not there: half of it is another lamp.
+    Scene behind = floorScene();
+    behind.materials = scene.materials;
+    behind.materials[1].alpha_mode = AlphaMode::opaque;
+    behind.materials[1].emissive = {0, 4, 1};
+    add(behind, quad({-1, 0, 0.25}, {2, 0, 0}, {0, 1, 0}, 1));
+    scene = behind;
+    scene.materials.push_back(halfCovered().materials[1]);
+    scene.materials[2].alpha_mode = AlphaMode::blend;
+    add(scene, quad({-1, -1, 0.5}, {1, 0, 0}, {0, 2, 0}, 2));
+    const Drawn bare = resolved(behind, onePixelView, 64, Resolve::tonemapped),
+                covered = resolved(scene, onePixelView, 64, Resolve::tonemapped);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(radianceOf(covered.picture.unblended)[c], radianceOf(bare[gpu::DEBUG_lit])[c], 1e-6) << c;
+    EXPECT_GT(radianceOf(covered[gpu::DEBUG_lit]).x, 1) << "the layer is there";
+}
+
+// A pixel that shows one radiance shows it by either; so does one sample, bit for bit, and the captured
+// surface, of which there is one.
+TEST(ReferenceResolve, OfOneRadianceIsThatRadiance) {
+    Scene scene = halfCovered();
+    scene.materials[0].emissive = lampRadiance;
+    const glm::dvec3 lit = radianceOf(resolved(scene, onePixelView, 64, Resolve::tonemapped)[gpu::DEBUG_lit]);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], double{lampRadiance[c]}, 1e-6);
+    scene = halfCovered();
+    scene.lights = {lightOf(LightKind::point, {0.3, 0, 2})};
+    const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 9, 7);
+    const Drawn one = resolved(scene, view, 1, Resolve::linear);
+    EXPECT_EQ(one.picture.channels.at(0).data,
+              resolved(scene, view, 1, Resolve::tonemapped).picture.channels.at(0).data);
+    const std::map<int, Image>& surfaces = one.picture.channels;
+    EXPECT_EQ(resolved(scene, view, 1, Resolve::linear, &surfaces).picture.channels.at(0).data,
+              resolved(scene, view, 1, Resolve::tonemapped, &surfaces).picture.channels.at(0).data);
+}
+
+// The parts of light are weighted as all of it, so that they still are its parts.
+TEST(ReferenceResolve, PartsAddUpToLit) {
+    Scene scene = halfCovered();
+    for (Material& m : scene.materials) {
+        m.emissive = {0, 0, 0};
+        m.base_color = {0.5f, 0.75f, 1, 1};
+        m.specular = 1;
+        m.roughness = 0.3f;
+    }
+    scene.materials[1].base_color = {0, 0.01f, 0, 1};
+    scene.lights = {lightOf(LightKind::point, {0.3, 0, 2})};
+    scene.lights[0].intensity = 100;
+    const View view = viewFrom({0.5, 1, 1.5}, {0, 0, 0}, 5, 5);
+    const Drawn d = resolved(scene, view, 16, Resolve::tonemapped),
+                mean = resolved(scene, view, 16, Resolve::linear);
+    int changed = 0;
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 5; ++x) {
+            const glm::dvec3 lit = radianceOf(d[gpu::DEBUG_lit], x, y);
+            const glm::dvec3 parts =
+                radianceOf(d[gpu::DEBUG_lit_diffuse], x, y) + radianceOf(d[gpu::DEBUG_lit_specular], x, y);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], parts[c], 1e-6 * lit[c]) << x << " " << y;
+            changed += lit.y < 0.999 * radianceOf(mean[gpu::DEBUG_lit], x, y).y;
+        }
+    EXPECT_GE(changed, 4) << "or the picture has no edges";
+}
+
+// ---- what is known of it -----------------------------------------------------------------------------
+
+const double sampleRadiance[] = {0.01, 0.4, 3, 50};
+
+// Of grey samples, of which one is off by so much and known to so much.
+Pixel meanOf(Resolve resolve, std::size_t which, double off, double known) {
+    ResolvedLight light(resolve, 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        Pixel sample;
+        sample.lit = sample.unblended = glm::dvec3(sampleRadiance[i] + (i == which ? off : 0));
+        if (i == which) sample.shading.uncertainty = known;
+        if (i == which) sample.shading.costs.sampled = known;
+        light.add(sample);
+    }
+    Pixel mean;
+    light.put(mean);
+    return mean;
+}
+
+TEST(ReferenceResolve, TellsHowFarAnErrorOfASampleMovesIt) {
+    for (const Resolve resolve : {Resolve::linear, Resolve::tonemapped})
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double step = 1e-4 * (1 + sampleRadiance[i]);
+            const double moved = (meanOf(resolve, i, step, 0).lit.x - meanOf(resolve, i, -step, 0).lit.x) / 2;
+            const Pixel mean = meanOf(resolve, i, 0, step);
+            EXPECT_NEAR(mean.shading.uncertainty, moved, 1e-3 * moved) << sampleRadiance[i];
+            EXPECT_NEAR(mean.shading.costs.sampled, moved, 1e-3 * moved) << sampleRadiance[i];
+        }
+}
+
+// Noise of a sample, far below what bends the curve there: the mean over the noise is off by no more than
+// what is stated beyond the slope, and by a part of it that is that of the other samples' weights.
+TEST(ReferenceResolve, TellsWhatTheCurveMakesOfNoise) {
+    double weights = 0;
+    for (const double c : sampleRadiance) weights += resolveWeight(Resolve::tonemapped, glm::dvec3(c));
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double deviation = 0.005 * (1 + sampleRadiance[i]), known = 1.96 * deviation;
+        const auto light = [&](double off) { return meanOf(Resolve::tonemapped, i, off, 0).lit.x; };
+        const double bias = light(0) - (light(deviation) + light(-deviation)) / 2;
+        const double tiny = 1e-6 * known;
+        const double slope = meanOf(Resolve::tonemapped, i, 0, tiny).shading.uncertainty / tiny;
+        const double bend = meanOf(Resolve::tonemapped, i, 0, known).shading.uncertainty - slope * known;
+        const double others = 1 - resolveWeight(Resolve::tonemapped, glm::dvec3(sampleRadiance[i])) / weights;
+        EXPECT_GT(bias, 0) << sampleRadiance[i];
+        EXPECT_NEAR(bias, bend * others, 0.01 * bend) << sampleRadiance[i];
+    }
+}
+
+TEST(ReferenceResolve, WeighsByTheLargestComponent) {
+    EXPECT_EQ(resolveWeight(Resolve::linear, {9, 9, 9}), 1);
+    EXPECT_EQ(resolveWeight(Resolve::tonemapped, {1, 3, 2}), 0.25);
+    EXPECT_EQ(resolveWeight(Resolve::tonemapped, {-1, -3, -2}), 1) << "what is negative is 0";
+}
+
+}  // namespace
+}  // namespace diptych::reference

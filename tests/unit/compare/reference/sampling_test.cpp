@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// How sure the mean of independent estimates is, and the points that are sampled.
+#include "compare/reference/sampling.h"
+
+#include "tests/support/reference_maker.h"
+
+#include <set>
+
+namespace diptych::reference {
+namespace {
+
+Reflected diffuseOf(const glm::dvec3& value) {
+    Reflected reflected;
+    reflected.diffuse = value;
+    return reflected;
+}
+
+// The probability that Student's distribution is between -t and t: its density integrated by Simpson's rule.
+double studentWithin(double t, int freedom) {
+    const double n = freedom;
+    const double scale = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * pi);
+    const auto density = [&](double x) { return scale * std::pow(1 + x * x / n, -(n + 1) / 2); };
+    constexpr int steps = 20000;
+    double sum = density(0) + density(t);
+    for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(t * i / steps);
+    return 2 * sum * t / (3 * steps);
+}
+
+// Alternately 1 - 0.25 and 1 + 0.25 in green, by less in the others. The table has t to four digits.
+TEST(ReferenceSampling, TheIntervalIsStudentsOf95Percent) {
+    for (int count = 2; count <= 40; ++count) {
+        Rounds rounds;
+        double mean = 0, squares = 0;
+        const auto green = [](int i) { return 1 + (i % 2 == 0 ? -0.25 : 0.25); };
+        for (int i = 0; i < count; ++i) {
+            rounds.add(diffuseOf({1, green(i), 1 + (green(i) - 1) / 4}));
+            mean += green(i) / count;
+        }
+        for (int i = 0; i < count; ++i) squares += (green(i) - mean) * (green(i) - mean);
+        const int freedom = count - 1;
+        const double error = std::sqrt(squares / freedom / count);
+        const double within = studentWithin(rounds.halfWidth() / error, freedom);
+        EXPECT_NEAR(rounds.mean().diffuse.g, mean, 1e-12);
+        EXPECT_NEAR(within, freedom <= 15 ? 0.95 : 0.951, freedom <= 15 ? 1e-4 : 1.1e-3) << freedom;
+        EXPECT_GT(within, 0.9499) << freedom;
+    }
+}
+
+TEST(ReferenceSampling, OneEstimateSaysNothingOfItsError) {
+    Rounds rounds;
+    EXPECT_EQ(rounds.halfWidth(), std::numeric_limits<double>::infinity());
+    rounds.add(diffuseOf({1, 1, 1}));
+    EXPECT_EQ(rounds.halfWidth(), std::numeric_limits<double>::infinity());
+    rounds.add(diffuseOf({1, 1, 1}));
+    EXPECT_EQ(rounds.halfWidth(), 0);
+}
+
+// What one lobe has more and the other less is no error of their sum.
+TEST(ReferenceSampling, TheErrorIsOfBothLobesTogether) {
+    Rounds rounds;
+    for (const double more : {0.25, -0.25, 0.125}) {
+        Reflected estimate;
+        estimate.diffuse = glm::dvec3(1 + more);
+        estimate.specular = glm::dvec3(1 - more);
+        rounds.add(estimate);
+    }
+    EXPECT_NEAR(rounds.halfWidth(), 0, 1e-12);
+}
+
+// Of every run of n points each half of the square, and each quarter, has its share.
+TEST(ReferenceSampling, PointsAreSpreadEvenly) {
+    for (const std::uint64_t first : {0u, 1000u})
+        for (const glm::dvec2& shift : {glm::dvec2(0), glm::dvec2(0.7, 0.9)}) {
+            constexpr int points = 256;
+            int west = 0, south = 0, both = 0;
+            for (std::uint64_t i = first; i < first + points; ++i) {
+                const glm::dvec2 p = evenly(i, shift);
+                ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << i;
+                west += p.x < 0.5;
+                south += p.y < 0.5;
+                both += p.x < 0.5 && p.y < 0.5;
+            }
+            EXPECT_NEAR(west, points / 2, 4);
+            EXPECT_NEAR(south, points / 2, 4);
+            EXPECT_NEAR(both, points / 4, 8);
+        }
+}
+
+TEST(ReferenceSampling, StreamsHaveNoNumberInCommon) {
+    std::set<double> numbers;
+    for (const std::uint64_t seed : {1u, 2u})
+        for (std::uint64_t stream = 0; stream < 16; ++stream) {
+            Random random(streamOf(seed, stream));
+            double mean = 0;
+            for (int i = 0; i < 256; ++i) {
+                const double value = random();
+                ASSERT_TRUE(value >= 0 && value < 1);
+                EXPECT_TRUE(numbers.insert(value).second) << seed << " " << stream << " " << i;
+                mean += value / 256;
+            }
+            EXPECT_NEAR(mean, 0.5, 4 * std::sqrt(1.0 / 12 / 256));
+        }
+}
+
+}  // namespace
+}  // namespace diptych::reference

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Where the reference's shadow rays begin and end: screens a millimetre from the surface or from the light,
+// before and behind it, seen from near and far.
+#include "tests/support/reference_scene.h"
+
+namespace diptych::reference {
+namespace {
+
+// A wall z = 0 that faces +Z, seen straight on at the origin in a picture of one pixel; light comes aslant,
+// at 80 degrees from its normal, so that what stands in its way does not stand before the camera.
+const glm::dvec3 toLight{std::sin(glm::radians(80.0)), 0, std::cos(glm::radians(80.0))};
+
+Scene wallScene(const Light& light) {
+    Scene scene = floorScene();
+    scene.lights = {light};
+    return scene;
+}
+Light lampAt(double distance) {
+    Light light = lightOf(LightKind::point, toLight * distance, -toLight);
+    light.intensity = static_cast<float>(distance * distance);  // E = cos 80
+    return light;
+}
+
+// A square of this half width at right angles to the light's way, `from` metres from the surface.
+void addScreen(Scene& scene, double from, double half) {
+    const glm::dvec3 y(0, 1, 0), x = glm::cross(y, toLight), corner = toLight * from - (x + y) * half;
+    add(scene, quad(glm::vec3(corner), glm::vec3(x * (2 * half)), glm::vec3(y * (2 * half))));
+}
+
+enum class From { scene, capture, rounded_capture };
+
+// The radiance of the pixel over that in full light, cos 80 / pi.
+double litShare(const Scene& scene, double camera, From from) {
+    const View view = viewFrom({0, 0, camera}, {0, 0, 0}, 1, 1);
+    Drawn first = drawn(scene, view, true);
+    const double whole = toLight.z / pi;
+    if (from == From::scene) return double{first[gpu::DEBUG_lit].at(0, 0, 0)} / whole;
+    // As a path's capture: where its depth is that of the scene, the ray's begin is found again exactly.
+    if (from == From::rounded_capture) first.picture.channels.at(gpu::DEBUG_depth).data[0] *= 1.001f;
+    const Picture shaded = draw({.scene = scene,
+                                 .pose = first.pose,
+                                 .view = view,
+                                 .lights = first.pose.lights,
+                                 .casters = everyLight(first.pose.lights),
+                                 .shadowed_environment = true,
+                                 .mode = ReferenceMode::surface,
+                                 .surfaces = &first.picture.channels,
+                                 .keep = {},
+                                 .progress = {}});
+    return double{shaded.channels.at(gpu::DEBUG_lit).at(0, 0, 0)} / whole;
+}
+
+constexpr double cameras[] = {1, 10, 100};
+
+TEST(ReferenceShadowRays, InTheOpenTheWallIsFullyLit) {
+    for (const double camera : cameras)
+        for (const double distance : {0.05, 1.0, 30.0})
+            for (const From from : {From::scene, From::capture, From::rounded_capture})
+                EXPECT_NEAR(litShare(wallScene(lampAt(distance)), camera, from), 1, 2e-6)
+                    << camera << " " << distance;
+}
+
+// The least distance from the surface at which a screen throws its shadow: a tenth of a millimetre above the
+// wall, 0.58 mm along the ray. A capture that is off by more than its depth's rounding begins 1e-5 of the
+// camera's distance away: there 0.1 m^-3 of it is asked for, ten times that.
+TEST(ReferenceShadowRays, BeginAtTheSurface) {
+    for (const double camera : cameras)
+        for (const double distance : {0.5, 1.0, 30.0})
+            for (const From from : {From::scene, From::capture, From::rounded_capture})
+                for (const double along : {0.58e-3, 2e-3, 6e-3, 0.02, 0.25}) {
+                    if (from == From::rounded_capture && along < 1e-4 * camera) continue;
+                    Scene scene = wallScene(lampAt(distance));
+                    addScreen(scene, along, 0.3 * along);
+                    EXPECT_EQ(litShare(scene, camera, from), 0)
+                        << along << " m from the surface, camera " << camera << ", light " << distance;
+                }
+}
+
+// What lies behind the surface is not in the way, a tenth of a millimetre or a centimetre below it.
+TEST(ReferenceShadowRays, DoNotBeginBehindTheSurface) {
+    for (const double camera : cameras)
+        for (const From from : {From::scene, From::capture})
+            for (const double behind : {1e-4, 1e-3, 6e-3, 0.02}) {
+                Scene scene = wallScene(lampAt(1));
+                add(scene, quad({-10, -10, static_cast<float>(-behind)}, {20, 0, 0}, {0, 20, 0}));
+                addScreen(scene, -behind, 0.3 * behind);
+                EXPECT_NEAR(litShare(scene, camera, from), 1, 2e-6)
+                    << behind << " m behind, camera " << camera;
+            }
+}
+
+// A screen before the light hides it and one behind it does not, by what is more than the ray's own 1e-5 of
+// its length: half a millimetre, 2 mm, 6 mm and 2 cm, of a lamp that is 5 cm to 30 m away.
+TEST(ReferenceShadowRays, EndAtTheLight) {
+    for (const double camera : cameras)
+        for (const double distance : {0.05, 1.0, 30.0})
+            for (const From from : {From::scene, From::capture, From::rounded_capture})
+                for (const double gap : {0.5e-3, 2e-3, 6e-3, 0.02}) {
+                    Scene before = wallScene(lampAt(distance)), behind = before;
+                    addScreen(before, distance - gap, 0.2 * distance);
+                    addScreen(behind, distance + gap, 0.2 * distance);
+                    EXPECT_EQ(litShare(before, camera, from), 0)
+                        << gap << " m before a light at " << distance;
+                    EXPECT_NEAR(litShare(behind, camera, from), 1, 2e-6)
+                        << gap << " m behind a light at " << distance;
+                }
+}
+
+// A light on a ceiling is not hidden by the ceiling; one a millimetre above it is.
+TEST(ReferenceShadowRays, ALampOnACeilingShines) {
+    for (const double gap : {0.0, 1e-3}) {
+        Scene scene = wallScene(lampAt(3));
+        addScreen(scene, 3 - gap, 1);
+        EXPECT_NEAR(litShare(scene, 5, From::scene), gap == 0 ? 1 : 0, 2e-6) << gap;
+    }
+}
+
+// Of the sun a screen hides all, however far it is; of an area light, that covers it, from a millimetre
+// before it.
+TEST(ReferenceShadowRays, OfTheSunAndOfAreasReachTheirLights) {
+    Light sun = lightOf(LightKind::directional, {0, 0, 0}, -toLight);
+    sun.intensity = 1;
+    for (const double along : {1e-3, 0.02, 1.0, 1000.0}) {
+        Scene scene = wallScene(sun);
+        EXPECT_NEAR(litShare(scene, 10, From::scene), 1, 2e-6);
+        addScreen(scene, along, 0.3 * along);
+        EXPECT_EQ(litShare(scene, 10, From::scene), 0) << along;
+    }
+    Light area = lightOf(LightKind::rect, toLight * 2.0, -toLight);
+    area.width = area.height = 0.1f;
+    for (const double gap : {1e-3, 6e-3, 0.02}) {
+        Scene open = wallScene(area), before = open, behind = open;
+        addScreen(before, 2 - gap, 0.5);
+        addScreen(behind, 2 + gap, 0.5);
+        const double whole = litShare(open, 10, From::scene);
+        EXPECT_GT(whole, 1e-3);
+        EXPECT_EQ(litShare(before, 10, From::scene), 0) << gap;
+        EXPECT_NEAR(litShare(behind, 10, From::scene), whole, 1e-6 * whole) << gap;
+    }
+}
+
+}  // namespace
+}  // namespace diptych::reference

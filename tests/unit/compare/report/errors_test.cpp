@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// How errors are spread over their sizes and over the picture, and what the page shows of it.
+#include "compare/report/error_figures.h"
+#include "compare/report/report.h"
+#include "tests/support/files.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace diptych {
+namespace {
+
+Image errorsOf(int width, int height, const std::vector<std::pair<int, float>>& set) {
+    Image errors(width, height, 1);
+    for (const auto& [pixel, error] : set) errors.data[static_cast<std::size_t>(pixel)] = error;
+    return errors;
+}
+std::uint64_t sumOf(const ErrorHistogram& histogram) {
+    return std::accumulate(histogram.bins.begin(), histogram.bins.end(), std::uint64_t{0});
+}
+
+TEST(ErrorHistogram, EveryCoveredPixelIsCountedOnceWhereItBelongs) {
+    const Image errors = errorsOf(10, 1, {{0, 0.002f}, {1, 0.0019f}, {2, 0.5f}, {3, HUGE_VALF}, {9, 0.7f}});
+    Coverage coverage = everyPixel(10);
+    coverage.covered[9] = 0;
+    const ErrorHistogram histogram = errorHistogram(errors, coverage);
+    EXPECT_EQ(histogram.equal, 5u);
+    EXPECT_EQ(histogram.infinite, 1u);
+    EXPECT_EQ(sumOf(histogram), 3u) << "the background's 0.7 is none";
+    EXPECT_EQ(histogram.first_decade, -3);
+    EXPECT_DOUBLE_EQ(histogram.edge(histogram.bins.size()), 1);
+    for (std::size_t i = 0; i < histogram.bins.size(); ++i)
+        for (const auto& [error, count] : {std::pair{0.002, 2u}, {0.5, 1u}})
+            if (histogram.edge(i) <= error && error < histogram.edge(i + 1)) {
+                EXPECT_EQ(histogram.bins[i], count) << error;
+            }
+}
+
+TEST(ErrorHistogram, ItsRangeIsLimitedAndSaysHowManyAreBelow) {
+    const ErrorHistogram histogram =
+        errorHistogram(errorsOf(3, 1, {{0, 1e-30f}, {1, 1e-11f}, {2, 0.9f}}), everyPixel(3));
+    EXPECT_EQ(histogram.first_decade, -12);
+    EXPECT_EQ(histogram.smaller, 1u);
+    EXPECT_EQ(histogram.bins.front(), 1u);
+    EXPECT_EQ(sumOf(histogram), 3u);
+}
+
+TEST(ErrorHistogram, OneErrorOrNoneHasABinOrNone) {
+    for (const float error : {1e-6f, 1.0f, 10.0f, 180.0f, 3e38f}) {
+        const ErrorHistogram histogram = errorHistogram(errorsOf(1, 1, {{0, error}}), everyPixel(1));
+        EXPECT_EQ(sumOf(histogram), 1u) << error;
+        EXPECT_GE(histogram.edge(histogram.bins.size()), double{error} * (1 - 1e-6));
+        EXPECT_EQ(histogram.smaller, 0u);
+    }
+    const ErrorHistogram none = errorHistogram(errorsOf(4, 1, {{1, HUGE_VALF}}), everyPixel(4));
+    EXPECT_TRUE(none.bins.empty());
+    EXPECT_EQ(none.equal, 3u);
+    EXPECT_EQ(none.infinite, 1u);
+}
+
+TEST(WorstPixels, AreApartAndLargestFirst) {
+    // A spot of 5 x 5 around (10, 10), and smaller ones at its side, just near and just far enough.
+    Image errors(40, 20, 1);
+    for (int y = 8; y <= 12; ++y)
+        for (int x = 8; x <= 12; ++x) errors.at(x, y) = 1;
+    errors.at(10, 10) = 2;
+    errors.at(17, 10) = 0.5f;
+    errors.at(18, 10) = 0.25f;
+    errors.at(39, 19) = 0.75f;
+    const std::vector<WorstPixel> worst = worstPixels(errors, 10, 8);
+    ASSERT_EQ(worst.size(), 3u);
+    const auto is = [&](std::size_t i, int x, int y, double error) {
+        EXPECT_EQ(worst[i].x, x);
+        EXPECT_EQ(worst[i].y, y);
+        EXPECT_EQ(worst[i].error, error);
+    };
+    is(0, 10, 10, 2);
+    is(1, 39, 19, 0.75);
+    is(2, 18, 10, 0.25);
+    EXPECT_EQ(worstPixels(errors, 1, 8).size(), 1u);
+    EXPECT_EQ(worstPixels(errors, 10, 8, 12, 12)[0].x, 12) << "the statistics' own stands first";
+    EXPECT_TRUE(worstPixels(Image(3, 3, 1), 10, 8).empty());
+}
+
+TEST(WorstPixels, InfinityIsTheWorst) {
+    const std::vector<WorstPixel> worst = worstPixels(errorsOf(40, 1, {{3, 1e30f}, {30, HUGE_VALF}}), 10, 8);
+    ASSERT_EQ(worst.size(), 2u);
+    EXPECT_EQ(worst[0].x, 30);
+    EXPECT_TRUE(std::isinf(worst[0].error));
+}
+
+std::string cardOf(const std::string& page, const std::string& channel) {
+    const std::size_t start = page.find("id=\"c0-" + channel + "\"");
+    return page.substr(start, page.find("<details", start) - start);
+}
+
+TEST(ReportErrors, ThePageTellsThem) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames)  // no background
+        std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[1].channels[gpu::DEBUG_material_id].at(0, 0) = 4;
+    const std::filesystem::path out = folder() / "report";
+    writeReport(reportOf(std::move(frames)), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_EQ(markupFault(page, htmlVoids), "");
+    const std::string rough = cardOf(page, "roughness"), id = cardOf(page, "material_id"),
+                      lit = cardOf(page, "lit");
+    EXPECT_NE(rough.find("11 of 12 are equal"), std::string::npos) << rough;
+    EXPECT_NE(rough.find(": 1 pixel</title>"), std::string::npos);
+    EXPECT_NE(rough.find("class=\"beyond\""), std::string::npos) << "0.25 is beyond the tolerance";
+    EXPECT_NE(rough.find("href=\"#c0-roughness@1,2\" data-pixel=\"1,2\""), std::string::npos);
+    EXPECT_NE(id.find("data-pixel=\"0,0\""), std::string::npos);
+    EXPECT_EQ(id.find("class=\"histogram\""), std::string::npos) << "an exact channel's errors are all 1";
+    EXPECT_EQ(lit.find("data-pixel"), std::string::npos) << "nothing differs";
+}
+
+// The card of roughness, a pixel of which is 0.25 off, judged by a rule; `shown`: its FLIP.
+std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    Report report = reportOf(std::move(frames));
+    for (ChannelDiff& channel : report.comparisons[0].channels) {
+        if (channel.mode->name != "roughness") continue;
+        channel.rule = "rules.json, rule 1";
+        channel.tolerance.max = HUGE_VAL;
+        channel.criterion = criterion;
+        if (!shown) continue;
+        channel.shown_error = std::make_shared<Image>(*shown);
+        channel.shown_error_name = "FLIP";
+    }
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    return cardOf(contentsOf(out / "index.html"), "roughness");
+}
+
+TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
+    const std::string largest = judgedCard({.figure = "max", .measured = 0.25, .limit = 0.002});
+    EXPECT_NE(largest.find("line: limit 0.002"), std::string::npos) << largest;
+    EXPECT_NE(largest.find("<rect class=\"beyond\""), std::string::npos);
+    EXPECT_NE(largest.find("</i>beyond the limit"), std::string::npos) << "in the difference's legend";
+    const std::string within = judgedCard({.figure = "p999", .measured = 0.25, .limit = 0.5});
+    EXPECT_NE(within.find("line: limit 0.5"), std::string::npos) << within;
+    EXPECT_EQ(within.find("<rect class=\"beyond\""), std::string::npos);
+    for (const char* figure : {"mean", "flip", "relative_max", "angle_max"}) {
+        const std::string other = judgedCard({.figure = figure, .measured = 0.25, .limit = 0.002});
+        EXPECT_NE(other.find("class=\"plot unbounded\""), std::string::npos)
+            << "no colour says that it passes";
+        EXPECT_NE(other.find(fmt::format("the limit is on {}, not on these errors", figure)),
+                  std::string::npos)
+            << other;
+        EXPECT_EQ(other.find("line: "), std::string::npos);
+    }
+}
+
+// One order: that of the errors which are drawn, and each pixel beside its own.
+TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
+    Image flip(4, 3, 1, 0.0f);
+    flip.at(1, 2) = 0.125f;
+    const std::string card = judgedCard({.figure = "flip", .measured = 0.25, .limit = 0.002}, &flip);
+    EXPECT_NE(card.find("<h4>Worst pixels, by FLIP</h4>"), std::string::npos) << card;
+    EXPECT_NE(card.find("data-pixel=\"1,2\">1, 2</a><span>0.125</span>"), std::string::npos) << card;
+    EXPECT_NE(card.find("worst pixel 1, 2, by FLIP<br><span class=\"values\"> 0.125</span>"),
+              std::string::npos)
+        << card;
+    EXPECT_NE(card.find("pixels by FLIP, the height"), std::string::npos);
+    EXPECT_NE(card.find("<title>0.121 to 0.133: 1 pixel</title>"), std::string::npos)
+        << "and not where 0.25 lies: " << card;
+    EXPECT_NE(card.find("the limit is on flip, not on these errors"), std::string::npos) << "it is a mean";
+    EXPECT_EQ(
+        judgedCard({.figure = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
+        std::string::npos)
+        << "nothing of it is worst";
+}
+
+TEST(ReportErrors, OnlyAFailingChannelHasItsCommand) {
+    std::vector<Frame> frames = bothFrames("my scene.glb");
+    for (Frame& frame : frames) frame.settings.gbuffer = GBufferEncoding::compact;
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    const std::filesystem::path out = folder() / "report";
+    writeReport(reportOf(std::move(frames)), out, {});
+    const std::string page = contentsOf(out / "index.html"),
+                      command =
+                          "diptych compare --channels roughness --gbuffer compact --size 4x3 &#39;my "
+                          "scene.glb&#39;";
+    EXPECT_NE(cardOf(page, "roughness").find("<code>" + command + "</code>"), std::string::npos)
+        << cardOf(page, "roughness");
+    EXPECT_EQ(cardOf(page, "albedo").find("<code>"), std::string::npos);
+    EXPECT_NE(contentsOf(out / "junit.xml").find("again: " + command + "\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Every report prints each figure under its own name, and the worst pixel where it is.
+#include "compare/report/json.h"
+#include "compare/report/picture_diff_text.h"
+#include "compare/report/report.h"
+#include "compare/report/titles.h"
+#include "compare/verdict/picture_diff.h"
+#include "shared/image/exr.h"
+#include "tests/support/error_spread.h"
+#include "tests/support/files.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+#include <sstream>
+
+namespace diptych {
+
+using namespace error_spread;
+
+namespace {
+
+Figures printedFigures() {
+    return ofPixels(errorsOf(spread()).absolute);
+}
+
+// lit, of both paths and the reference, is the same but for `scale`; roughness has the errors of the spread.
+Frame spreadFrame(Path path, const Image& lit, const Image& roughness) {
+    Frame frame;
+    frame.name = std::string(nameOf(path));
+    frame.scene = "builtin:one";
+    frame.settings.path = path;
+    frame.settings.size = {wide, high};
+    frame.channels[litMode] = lit;
+    frame.channels[gpu::DEBUG_roughness] = roughness;
+    Image& ids = frame.channels[idMode] = Image(wide, high, 1, -1.0f);
+    for (std::size_t i = 0; i < counted; ++i) ids.data[spreadPixel(i)] = 3;
+    return frame;
+}
+
+// Component 0 of the spread: its absolute errors are the steps.
+Image redOf(const Image& image) {
+    Image red(wide, high, 1);
+    for (std::size_t i = 0; i < everywhere; ++i) red.data[i] = image.pixel(i)[0];
+    return red;
+}
+
+Report spreadReport() {
+    const Spread s = spread();
+    return reportOf({spreadFrame(Path::deferred, s.reference, redOf(s.reference)),
+                     spreadFrame(Path::forward_plus, s.reference, redOf(s.test))});
+}
+
+nlohmann::json roughnessIn(const nlohmann::json& channels) {
+    for (const auto& channel : channels)
+        if (channel["name"] == "roughness") return channel;
+    return {};
+}
+
+// Cells of a table's row, by the words of its head.
+std::map<std::string, std::string> byHead(const std::string& head, const std::string& row) {
+    std::istringstream heads(head), cells(row);
+    std::map<std::string, std::string> found;
+    for (std::string name, cell; heads >> name && cells >> cell;) found[name] = cell;
+    return found;
+}
+std::string lineWith(const std::string& text, const std::string& start) {
+    const std::size_t at = text.find("\n  " + start + " ") + 1;
+    return text.substr(at, text.find('\n', at) - at);
+}
+std::string withoutTags(const std::string& html) {
+    return std::regex_replace(html, std::regex("<[^>]*>"), " ");
+}
+
+const std::size_t worstPlace = spreadPixel(counted - 1);
+
+TEST(PrintedFigures, ReportJsonHasThemUnderTheirKeys) {
+    const auto report = nlohmann::json::parse(reportJson(spreadReport(), nullptr));
+    const auto channel = roughnessIn(report["comparisons"][0]["channels"]);
+    for (const auto& [name, value] : printedFigures())
+        EXPECT_NEAR(channel[name].get<double>(), value, 1e-12) << name;
+    EXPECT_EQ(report["comparisons"][0]["covered_pixels"], counted);
+    EXPECT_EQ(channel["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
+    EXPECT_EQ(channel["worst_values"]["baseline"][0], magnitudeOf(counted - 1));
+    EXPECT_EQ(channel["worst_values"]["test"][0], magnitudeOf(counted - 1) + stepOf(counted - 1));
+}
+
+TEST(PrintedFigures, TheTableHasThemUnderTheirHeads) {
+    const std::string table = reportTable(spreadReport());
+    const auto cells = byHead(lineWith(table, "channel"), lineWith(table, "roughness"));
+    const Figures expected = printedFigures();
+    for (const auto& [head, name] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
+        EXPECT_EQ(cells.at(head), page::number(expected.at(name))) << table;
+    EXPECT_NE(table.find(fmt::format("worst at {},{}", worstPlace % wide, worstPlace / wide)),
+              std::string::npos)
+        << table;
+}
+
+TEST(PrintedFigures, ThePageHasThemBesideTheirNames) {
+    const Report report = spreadReport();
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    const Figures expected = printedFigures();
+    const std::string card = page.substr(page.find("id=\"c0-roughness\""));
+    for (const auto& [name, figure] :
+         {std::pair{"max", "max"}, {"mean", "mean"}, {"rmse", "rmse"}, {"p99", "p99"}, {"p99.9", "p999"}})
+        EXPECT_NE(card.find(fmt::format("<dt>{}</dt><dd>{}</dd>", name, page::number(expected.at(figure)))),
+                  std::string::npos)
+            << name;
+    // The overview's heads and cells, in one order.
+    const std::size_t row = page.find("<a href=\"#c0-roughness\">roughness</a><span");
+    const std::size_t head = page.rfind("<th>channel</th>", row);
+    const auto cells =
+        byHead(std::regex_replace(withoutTags(page.substr(head, page.find("</tr>", head) - head)),
+                                  std::regex("max of tolerance"), "used"),
+               "roughness " + withoutTags(page.substr(page.find("</td>", row),
+                                                      page.find("</tr>", row) - page.find("</td>", row))));
+    for (const auto& [name, figure] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
+        EXPECT_EQ(cells.at(name), page::number(expected.at(figure))) << name;
+    EXPECT_NE(card.find(fmt::format("worst pixel {}, {}", worstPlace % wide, worstPlace / wide)),
+              std::string::npos);
+    EXPECT_NE(
+        card.find(fmt::format("--u:{:.5f};--v:{:.5f}", (static_cast<double>(worstPlace % wide) + 0.5) / wide,
+                              (static_cast<double>(worstPlace / wide) + 0.5) / high)),
+        std::string::npos)
+        << "the ring is around its centre";
+}
+
+TEST(PrintedFigures, JunitNamesThem) {
+    const std::filesystem::path out = folder() / "report";
+    writeReport(spreadReport(), out, {});
+    const std::string junit = contentsOf(out / "junit.xml");
+    const Figures expected = printedFigures();
+    EXPECT_NE(
+        junit.find(fmt::format("max {} mean {} p99.9 {} (absolute), worst at {},{}",
+                               page::number(expected.at("max")), page::number(expected.at("mean")),
+                               page::number(expected.at("p999")), worstPlace % wide, worstPlace / wide)),
+        std::string::npos)
+        << junit;
+}
+
+// Deferred is off the reference by the spread, forward+ by three quarters of it, and deferred from forward+
+// by less.
+TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
+    const Spread s = spread();
+    Image nearer = s.reference;
+    for (std::size_t i = 0; i < nearer.data.size(); ++i)
+        nearer.data[i] += 0.75f * (s.test.data[i] - s.reference.data[i]);
+    const Image rough = redOf(s.reference);
+    std::vector<Frame> frames{spreadFrame(Path::reference, s.reference, rough),
+                              spreadFrame(Path::deferred, s.test, rough),
+                              spreadFrame(Path::forward_plus, nearer, rough)};
+    const Report report = makeReferenceReport(frames, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"},
+                                              {}, {}, {{"a", "b", "c", "d"}});
+    const std::vector<double> deferred = errorsOf(s).relative;
+    std::vector<double> forward, between;
+    for (std::size_t i = 0; i < counted; ++i) {
+        forward.push_back(0.75 * deferred[i]);
+        const double by = magnitudeOf(i) + stepOf(i);
+        between.push_back(0.25 * stepOf(i) / by);
+    }
+    const auto json = nlohmann::json::parse(reportJson(report, nullptr))["truth"][0]["channels"][0];
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    const std::string table = page.substr(page.find("<th>errors</th>"));
+    for (const auto& [name, errors] :
+         {std::pair{"deferred", deferred}, {"forward_plus", forward}, {"between", between}}) {
+        const Figures expected = ofPixels(errors);
+        const auto& found = name == std::string("between") ? json["between"] : json["error"][name];
+        for (const auto& [figure, value] : expected)
+            EXPECT_NEAR(found[figure].get<double>(), value, 1e-12) << name << " " << figure;
+        EXPECT_NEAR(found["relative_rmse"].get<double>(), expected.at("rmse"), 1e-12) << name;
+    }
+    for (const auto& [name, figure] :
+         {std::pair{"mean", "mean"}, {"p99", "p99"}, {"p99.9", "p999"}, {"max", "max"}}) {
+        std::string row;
+        for (const auto& errors : {deferred, forward, between})
+            row += fmt::format(" {}", page::number(ofPixels(errors).at(figure)));
+        const std::size_t at = table.find(fmt::format("<td class=\"soft\">{}</td>", name));
+        std::istringstream cells(withoutTags(table.substr(at, table.find("</tr>", at) - at)));
+        std::string found, cell;
+        cells >> cell;
+        while (cells >> cell) found += " " + cell;
+        EXPECT_EQ(found, row) << name;
+    }
+}
+
+TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
+    const std::filesystem::path here = folder();
+    const Spread s = spread();
+    Image kept = s.test;  // files have no background: what does not count is equal
+    for (std::size_t i = counted; i < everywhere; ++i)
+        std::copy_n(s.reference.pixel(spreadPixel(i)), 3, kept.pixel(spreadPixel(i)));
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &s.reference}});
+    writeExr(here / "b.exr", {{{"R", "G", "B"}, &kept}});
+    PictureDiffOptions options;
+    options.metric = "p999";
+    options.metric_given = true;
+    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    const auto json = nlohmann::json::parse(pictureDiffJson(diff))["channels"][0];
+    std::vector<double> pixels = errorsOf(s).absolute, components = errorsOf(s).components;
+    pixels.resize(everywhere);
+    components.resize(3 * everywhere);
+    // ceil(0.99 x 2501) = 2476, ceil(0.999 x 2501) = 2499.
+    const Figures expected{{"max", errorOfRank(pixels, everywhere)},
+                           {"mean", meanOf(components)},
+                           {"rmse", rootMeanSquareOf(components)},
+                           {"p99", errorOfRank(pixels, 2476)},
+                           {"p999", errorOfRank(pixels, 2499)}};
+    for (const auto& [name, value] : expected) {
+        EXPECT_NEAR(json[name].get<double>(), value, 1e-12) << name;
+        EXPECT_NEAR(json["metrics"][name].get<double>(), value, 1e-12) << name;
+    }
+    EXPECT_EQ(json["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
+    const std::string table = pictureDiffTable(diff);
+    const auto cells = byHead(lineWith(table, "channel"), lineWith(table, "lit"));
+    EXPECT_EQ(cells.at("figure"), "p999");
+    EXPECT_EQ(cells.at("value"), page::number(expected.at("p999")));
+    EXPECT_EQ(cells.at("max"), page::number(expected.at("max")));
+    EXPECT_EQ(cells.at("rmse"), page::number(expected.at("rmse")));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The page's table of channels, and what stands around its index.
+#include "compare/report/report.h"
+#include "tests/support/files.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+std::string rowOf(const std::string& page, const std::string& channel) {
+    const std::size_t row = page.find("<tr><td><a href=\"#c0-" + channel + "\">");
+    return page.substr(row, page.find("</tr>", row) - row);
+}
+
+// Of one covered pixel, whose roughness differs by 0.25.
+TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    const std::filesystem::path out = folder() / "report";
+    Report report = reportOf(std::move(frames));
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
+    // On a narrow page these three cells stay, and the share of what fails.
+    EXPECT_NE(roughness.find(
+                  "<td class=\"soft by\">max</td><td class=\"n\">0.25</td><td class=\"n\">0.000123</td>"),
+              std::string::npos)
+        << roughness;
+    EXPECT_NE(roughness.find("<span class=\"beyond\">100 % of the pixels</span>"), std::string::npos)
+        << roughness;
+    EXPECT_NE(
+        lit.find("<td class=\"soft by\">pixels unexplained</td><td class=\"n\">0</td><td class=\"n\">0</td>"),
+        std::string::npos)
+        << lit;
+    EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
+    // The figure of a rule is not the largest error.
+    for (ChannelDiff& channel : report.comparisons[0].channels)
+        if (channel.mode->name == "roughness")
+            channel.criterion = {.figure = "mean", .measured = 0.125, .limit = 0.5};
+    writeReport(report, out, {});
+    EXPECT_NE(rowOf(contentsOf(out / "index.html"), "roughness")
+                  .find("<td class=\"soft by\">mean</td><td class=\"n\">0.125</td><td class=\"n\">0.5</td>"),
+              std::string::npos);
+    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
+        << "the verdict's line";
+}
+
+// Of the Settings those are coloured in which the two differ, and no others.
+TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
+    Report report = reportOf(bothFrames());
+    report.frames[1].settings.light_cutoff = 0.25f;
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    for (const char* key : {"path", "light_<wbr>cutoff"})
+        EXPECT_NE(page.find(std::string("<tr class=\"differs\"><td>") + key + "</td>"), std::string::npos)
+            << key;
+    for (const char* key : {"size", "assign", "gbuffer"})
+        EXPECT_NE(page.find(std::string("<tr><td>") + key + "</td>"), std::string::npos) << key;
+}
+
+// Notes stand below the index, each once with its scenes; scenes that could not be drawn are failures.
+TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a/x.glb", "a/y.glb", "a/z.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    for (Frame& frame : frames) frame.notes = {"of all"};
+    frames[2].notes = {"of all", "took 1 s"};
+    frames[4].notes = {"of all", "took 2 s"};
+    Report report = reportOf(std::move(frames));
+    report.errors = {{"a/bad.glb", "a/bad.glb: is cut short"}};
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_NE(page.find("<li><b><bdi>3 scenes: </bdi></b><bdi>of all</bdi></li>"), std::string::npos);
+    EXPECT_NE(page.find("<li><b><bdi>y.glb, z.glb, other numbers each: </bdi></b><bdi>took 1 s</bdi></li>"),
+              std::string::npos);
+    EXPECT_LT(page.find("<section class=\"index\">"), page.find("<b><bdi>3 scenes: </bdi></b>"));
+    EXPECT_NE(page.find("<li>a/bad.glb: is cut short</li>"), std::string::npos);
+    EXPECT_NE(page.find("<h1><span class=\"verdict fail\">fail</span>"), std::string::npos);
+    EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
+}
+
+TEST(ReportOverview, ErrorsThatAreAnglesHaveAUnit) {
+    const std::filesystem::path out = folder() / "report";
+    writeReport(reportOf(bothFrames()), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_NE(page.find(">normals</a>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"optional soft\">angular, \u00b0</td>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"optional soft\">relative</td>"), std::string::npos);
+}
+
+// The tables have more rows than the verdict counts.
+TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
+    const Report report = reportOf(bothFrames());
+    const auto alone =
+        std::ranges::count(report.comparisons[0].channels, Verdict::forward_only, &ChannelDiff::verdict);
+    ASSERT_GT(alone, 1);
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    EXPECT_NE(contentsOf(out / "index.html")
+                  .find(fmt::format(" are within tolerance ({} more on one side alone)", alone)),
+              std::string::npos);
+}
+
+// What fails without a comparison fails the whole, and page, JSON and JUnit name it; with it gone all pass.
+TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
+    Report report = reportOf(bothFrames());
+    ASSERT_TRUE(report.passed());
+    for (const bool lacking : {false, true}) {
+        if (lacking) report.failures = {{"only_a.exr", "is in A alone"}};
+        const std::filesystem::path out = folder() / (lacking ? "lacking" : "whole");
+        writeReport(report, out, {});
+        EXPECT_EQ(report.passed(), !lacking);
+        const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
+                          junit = contentsOf(out / "junit.xml");
+        EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
+        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone</p>"), lacking);
+        EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A alone</li>"), lacking);
+        EXPECT_EQ(countOf(json, "\n  \"verdict\": \"fail\""), lacking);
+        EXPECT_EQ(countOf(json, "\"scene\": \"only_a.exr\""), lacking);
+        EXPECT_EQ(countOf(junit, "<testsuite name=\"only_a.exr\" tests=\"1\" failures=\"1\" errors=\"0\""),
+                  lacking);
+        EXPECT_EQ(countOf(junit, "<failure type=\"scene\" message=\"only_a.exr: is in A alone\"/>"), lacking);
+    }
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Which picture a page shows where: left the baseline's, right the other's, and their difference. Told by the
+// pixels of the files and data URIs that the page names.
+#include "compare/report/report.h"
+#include "shared/image/png.h"
+#include "tests/support/base64.h"
+#include "tests/support/files.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What one card shows: the bytes of each picture's upper left pixel, and the name on each side.
+struct CardPictures {
+    std::array<int, 3> left{}, right{}, difference{};
+    std::string left_name, right_name, left_button, right_button;
+    std::vector<std::array<int, 3>> loupes;
+    bool operator==(const CardPictures&) const = default;
+};
+
+std::array<int, 3> firstPixel(const fs::path& folder, const std::string& source) {
+    fs::path file = folder / source;
+    const std::string uri = "data:image/png;base64,";
+    if (source.starts_with(uri)) {
+        file = folder / "embedded.png";
+        std::ofstream(file, std::ios::binary) << fromBase64(source.substr(uri.size()));
+    }
+    const Image8 picture = readPng(file);
+    return {picture.data[0], picture.data[1], picture.data[2]};
+}
+
+std::string between(const std::string& text, const std::string& start, const std::string& end,
+                    std::size_t from = 0) {
+    const std::size_t at = text.find(start, from);
+    if (at == std::string::npos) return "nothing";
+    return text.substr(at + start.size(), text.find(end, at + start.size()) - at - start.size());
+}
+
+CardPictures cardIn(const std::string& page, const fs::path& folder, const std::string& id) {
+    const std::size_t start = page.find("id=\"" + id + "\"");
+    const std::string card = page.substr(start, page.find("<details class=\"box card", start + 1) - start);
+    CardPictures shown;
+    const auto stage = [&](const std::string& side, std::array<int, 3>& pixel, std::string& name) {
+        const std::size_t at = card.find("<div class=\"stage" + side + "\">");
+        EXPECT_NE(at, std::string::npos) << id << side;
+        pixel = firstPixel(folder, between(card, "src=\"", "\"", at));
+        name = between(card, "<span class=\"tag\">", "<", at);
+    };
+    std::string none;
+    stage(" left", shown.left, shown.left_name);
+    stage(" right", shown.right, shown.right_name);
+    stage("", shown.difference, none);
+    shown.left_button = between(card, "<button data-show=\"left\" title=\"1\">", "<");
+    shown.right_button = between(card, "<button data-show=\"right\" title=\"2\">", "<");
+    static const std::regex loupe("<span class=\"loupe\"><img[^>]* src=\"([^\"]*)\"");
+    for (std::sregex_iterator i(card.begin(), card.end(), loupe), none_left; i != none_left; ++i)
+        shown.loupes.push_back(firstPixel(folder, (*i)[1]));
+    return shown;
+}
+
+// Of the channels that fail, the baseline has 0.25 everywhere and the other 0.75; those of a second scene 0
+// and 1.
+std::vector<Frame> greyFrames(float deferred, float forward, const std::string& scene) {
+    std::vector<Frame> frames = bothFrames(scene);
+    for (Frame& frame : frames) {
+        std::erase_if(frame.channels, [](const auto& channel) {
+            const std::string_view name = debugMode(channel.first).name;
+            return name != "roughness" && name != "metallic" && name != "material_id";
+        });
+        const float value = frame.settings.path == Path::deferred ? deferred : forward;
+        for (auto& [mode, image] : frame.channels)
+            std::ranges::fill(image.data, debugMode(mode).kind == ChannelKind::id ? 3.0f : value);
+    }
+    return frames;
+}
+
+constexpr std::array<int, 3> quarter{64, 64, 64}, most{191, 191, 191}, black{0, 0, 0}, white{255, 255, 255};
+
+// The colour of an error of 0.5, which is beyond the channel's tolerance many times.
+std::array<int, 3> errorOfHalf(const Report& report, const std::string& name) {
+    for (const ChannelDiff& channel : report.comparisons[0].channels)
+        if (channel.mode->name == name) {
+            const Image8 pixel = errorPicture(Image(1, 1, 1, 0.5f), channel.tolerance.max);
+            return {pixel.data[0], pixel.data[1], pixel.data[2]};
+        }
+    return {};
+}
+
+TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
+    for (const Path baseline : {Path::deferred, Path::forward_plus})
+        for (const bool single : {false, true}) {
+            CompareOptions options;
+            options.baseline = baseline;
+            const Report report = makeReport(greyFrames(0.25f, 0.75f, "builtin:one"),
+                                             std::vector<Requirements>(2), {"a CPU", "1.0", "cpu"}, options);
+            ReportOptions how;
+            how.single_file = single;
+            const fs::path out = folder() / "report";
+            writeReport(report, out, how);
+            const std::string page = contentsOf(out / "index.html");
+            for (const char* channel : {"c0-roughness", "c0-metallic"}) {
+                const std::array<int, 3> apart = errorOfHalf(report, channel + 3);
+                CardPictures expected{quarter,        most,       apart,          "deferred",
+                                      "forward_plus", "deferred", "forward_plus", {quarter, most, apart}};
+                if (baseline == Path::forward_plus)
+                    expected = {most,       quarter,        apart,      "forward_plus",
+                                "deferred", "forward_plus", "deferred", {most, quarter, apart}};
+                if (single) expected.loupes.clear();  // half as large, so that nothing can be enlarged
+                const CardPictures shown = cardIn(page, out, channel);
+                EXPECT_EQ(shown.left, expected.left) << channel << single;
+                EXPECT_EQ(shown.right, expected.right) << channel << single;
+                EXPECT_TRUE(shown == expected) << channel << single;
+            }
+        }
+}
+
+// The reference first, then both paths against each other; and of several scenes each its own.
+TEST(ReportPictures, EveryPairHasItsOwnPictures) {
+    std::vector<Frame> frames = greyFrames(0.25f, 0.75f, "builtin:one");
+    for (Frame& frame : greyFrames(0, 1, "builtin:two")) frames.push_back(std::move(frame));
+    const fs::path out = folder() / "report";
+    writeReport(reportOf(frames), out, {});
+    std::string page = contentsOf(out / "index.html");
+    EXPECT_EQ(cardIn(page, out, "c0-roughness").left, quarter);
+    EXPECT_EQ(cardIn(page, out, "c0-roughness").right, most);
+    EXPECT_EQ(cardIn(page, out, "c1-roughness").left, black);
+    EXPECT_EQ(cardIn(page, out, "c1-roughness").right, white);
+
+    Frame reference = frames[2];
+    reference.name = "reference";
+    reference.settings.path = Path::reference;
+    std::vector<Frame> three{reference, frames[0], frames[1]};
+    for (Frame& frame : three) frame.scene = "builtin:one";
+    writeReport(
+        makeReferenceReport(three, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"}, {}, {}, {{}}), out,
+        {});
+    page = contentsOf(out / "index.html");
+    for (const auto& [card, left, right, first, second] :
+         {std::tuple{"c0-roughness", black, quarter, "reference", "deferred"},
+          {"c1-roughness", black, most, "reference", "forward_plus"},
+          {"c2-roughness", quarter, most, "deferred", "forward_plus"}}) {
+        const CardPictures shown = cardIn(page, out, card);
+        EXPECT_EQ(shown.left, left) << card;
+        EXPECT_EQ(shown.right, right) << card;
+        EXPECT_EQ(shown.left_name, first) << card;
+        EXPECT_EQ(shown.right_name, second) << card;
+    }
+}
+
+// Negative control: with one file for both sides the cards are not as expected.
+TEST(ReportPictures, OneFileOnBothSidesIsSeen) {
+    const fs::path out = folder() / "report";
+    writeReport(reportOf(greyFrames(0.25f, 0.75f, "builtin:one")), out, {});
+    std::string page = contentsOf(out / "index.html");
+    const std::string wrong = "src=\"roughness.forward_plus.png\"";
+    const std::size_t at = page.find(wrong, page.find("id=\"c0-roughness\""));
+    ASSERT_NE(at, std::string::npos);
+    page.replace(at, wrong.size(), "src=\"roughness.deferred.png\"");
+    EXPECT_EQ(cardIn(page, out, "c0-roughness").right, quarter);
+}
+
+}  // namespace
+}  // namespace diptych

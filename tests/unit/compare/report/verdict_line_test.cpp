@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// What a verdict is read by: the figure that decides and its limit, the share of pixels, the last line,
+// notes.
+#include "compare/report/json.h"
+#include "compare/report/report.h"
+#include "compare/report/titles.h"
+#include "compare/verdict/criterion.h"
+#include "shared/text/did_you_mean.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+const ReportDevice lineDevice{"a CPU", "1.0", "cpu"};
+
+const ChannelDiff& channelIn(const Report& report, gpu::uint mode) {
+    for (const ChannelDiff& channel : report.comparisons.at(0).channels)
+        if (channel.mode->number == static_cast<int>(mode)) return channel;
+    throw std::runtime_error("no such channel");
+}
+
+Report reportWith(std::vector<Frame> frames, const CompareOptions& options) {
+    const std::vector<Requirements> needs(frames.size());
+    return makeReport(std::move(frames), needs, lineDevice, options);
+}
+
+TEST(Criterion, SaysHowMuchOfItsLimitIsUsed) {
+    EXPECT_EQ(usedOf({.figure = "max", .measured = 1, .limit = 4}), 0.25);
+    EXPECT_EQ(usedOf({.figure = "psnr", .measured = 80, .limit = 40, .least = true}), 0.5);
+    EXPECT_EQ(usedOf({.figure = "max", .measured = 0, .limit = 0}), 0);
+    EXPECT_EQ(usedOf({.figure = "max", .measured = 1, .limit = 0}), std::numeric_limits<double>::infinity());
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(usedOf({.figure = "psnr", .measured = endless, .limit = endless, .least = true}), 1);
+}
+
+TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
+    EXPECT_EQ(percentText(0), "0 %");
+    EXPECT_EQ(percentText(1), "100 %");
+    EXPECT_EQ(percentText(0.123456), "12.3 %");
+    EXPECT_EQ(percentText(1e-9), "under 0.01 %");
+    EXPECT_EQ(percentText(1 - 1e-9), "over 99.99 %");
+}
+
+// Of several bounds the one that is used most decides, of alternatives the one that is used least.
+TEST(Criterion, IsTheBoundThatDecides) {
+    const Measured measured = [](const Quantity& q) -> std::optional<double> {
+        return q.figure == "max" ? 0.5 : q.figure == "mean" ? 0.1 : 30;
+    };
+    const auto bound = [](const char* figure, double limit) {
+        return Condition{Condition::Kind::bound, {figure, 0}, limit, {}};
+    };
+    const Condition all{Condition::Kind::all, {}, 0, {bound("max", 1), bound("mean", 0.11)}},
+        any{Condition::Kind::any, {}, 0, {bound("max", 0.1), bound("psnr", 40)}};
+    EXPECT_EQ(decidingBound(all, measured)->figure, "mean");
+    EXPECT_EQ(decidingBound(any, measured)->figure, "psnr");
+    EXPECT_TRUE(decidingBound(any, measured)->least);
+    EXPECT_FALSE(decidingBound({Condition::Kind::all, {}, 0, {}}, measured).has_value());
+}
+
+// Lit is judged by the pixels that the encoding does not explain, and not by a tolerance fitted to the
+// result.
+TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
+    std::vector<Frame> frames = bothFrames();
+    frames[0].channels.at(litMode).at(1, 2) = frames[1].through_gbuffer.at(litMode).at(1, 2) = 0.55f;
+    for (const bool explained : {true, false}) {
+        if (!explained) frames[1].through_gbuffer.at(litMode).at(1, 2) = 0.5f;
+        const Report report = reportOf(frames);
+        const Criterion& criterion = channelIn(report, gpu::DEBUG_lit).criterion.value();
+        EXPECT_EQ(criterion.figure, "pixels unexplained");
+        EXPECT_EQ(criterion.measured, explained ? 0 : 1);
+        EXPECT_EQ(criterion.limit, 0);
+        EXPECT_EQ(criterion.share, explained ? 0 : 1) << "of one covered pixel";
+        const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+        EXPECT_EQ(json["comparisons"][0]["channels"][0]["criterion"],
+                  (nlohmann::json{{"figure", "pixels unexplained"},
+                                  {"measured", explained ? 0.0 : 1.0},
+                                  {"limit", 0.0},
+                                  {"pixels_beyond", explained ? 0 : 1},
+                                  {"share_beyond", explained ? 0.0 : 1.0}}));
+        const std::string table = reportTable(report);
+        EXPECT_NE(table.find("pixels unexplained"), std::string::npos) << table;
+        EXPECT_EQ(
+            table.find("lit: the encoding explains up to 0.0909, 0.0909 at the mean, FLIP ") != table.npos,
+            explained)
+            << table;
+        EXPECT_EQ(table.find("1 pixel(s) (100 %) differ from what the encoding explains") != table.npos,
+                  !explained)
+            << table;
+    }
+}
+
+// The share of pixels beyond the limit stands in the message.
+TEST(Criterion, CountsThePixelsBeyond) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames)
+        for (auto& [mode, image] : frame.channels)
+            for (int c = 0; c < image.components; ++c)
+                for (int x = 0; x < 4; ++x) image.at(x, 2, c) = image.at(1, 2, c);
+    frames[0].channels.at(gpu::DEBUG_metallic).at(0, 2) = 0.6f;
+    const Report report = reportOf(frames);
+    const ChannelDiff& metallic = channelIn(report, gpu::DEBUG_metallic);
+    EXPECT_EQ(metallic.criterion->figure, "max");
+    EXPECT_EQ(metallic.criterion->pixels, 1u);
+    EXPECT_EQ(metallic.criterion->share, 0.25);
+    EXPECT_EQ(metallic.reason, "max 0.1 exceeds 0.001961 at 25 % of the pixels");
+    const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
+    EXPECT_NE(junit.find("max 0.1 exceeds 0.001961 at 25 % of the pixels"), junit.npos) << junit;
+}
+
+TEST(VerdictLine, ANanComesFirst) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels.at(gpu::DEBUG_metallic).at(1, 2) = std::nanf("");
+    EXPECT_TRUE(channelIn(reportOf(frames), gpu::DEBUG_metallic)
+                    .reason.starts_with("NaN or infinity at 1 pixel(s) of forward_plus; max inf exceeds"))
+        << channelIn(reportOf(frames), gpu::DEBUG_metallic).reason;
+    CompareOptions options;
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "*", "max": 9, "because": "any"}]})", "t.json");
+    EXPECT_TRUE(
+        channelIn(reportWith(frames, options), gpu::DEBUG_metallic).reason.starts_with("1 pixel(s) are NaN"));
+}
+
+TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a.glb", "b.glb", "c.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    frames[0].channels.at(gpu::DEBUG_metallic).at(1, 2) = 0;
+    frames[4].channels.at(gpu::DEBUG_metallic).at(1, 2) = 0;
+    Report report = reportOf(frames);
+    EXPECT_EQ(verdictLine(report),
+              "FAIL: 2 of 3 comparisons failed: a.glb, c.glb (metallic beyond tolerance)");
+    EXPECT_NE(reportTable(report).find("  FAIL a.glb, metallic: max 0.5 exceeds"), std::string::npos);
+    report.errors = {{"d.glb", "d.glb: is cut short"}};
+    EXPECT_TRUE(verdictLine(report).starts_with("ERROR: 1 scene could not be drawn: d.glb; FAIL: 2 of 3"));
+    EXPECT_NE(reportTable(report).find("\nERROR d.glb: is cut short\n"), std::string::npos);
+    const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
+    EXPECT_EQ(countOf(junit, "<error type=\"scene\" message=\"d.glb: is cut short\"/>"), 1u) << junit;
+    EXPECT_NE(junit.find("errors=\"1\" time"), std::string::npos);
+    const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+    EXPECT_EQ(json["errors"], (nlohmann::json{{{"scene", "d.glb"}, {"message", "d.glb: is cut short"}}}));
+}
+
+TEST(VerdictLine, SaysThatPicturesShowNothing) {
+    CompareOptions options;
+    std::vector<Frame> empty = bothFrames();
+    for (Frame& frame : empty) std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, -1.0f);
+    std::vector<Frame> black = bothFrames();
+    for (Frame& frame : black) std::ranges::fill(frame.channels.at(litMode).data, 0.0f);
+    black[1].through_gbuffer.at(litMode) = black[0].channels.at(litMode);
+    const std::pair<std::vector<Frame>, std::string> cases[] = {
+        {bothFrames(), ""},
+        {empty, ", but both pictures are empty: no surface is in view"},
+        {black, ", but both pictures are black: no light reaches what is in view"}};
+    const auto shared = std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
+        return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
+    });
+    const std::string passes =
+        fmt::format("pass: all {} compared channels are within tolerance ({} more on one side alone)", shared,
+                    std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker));
+    for (const auto& [frames, words] : cases) {
+        EXPECT_EQ(verdictLine(reportWith(frames, {})), passes + words);
+        options.allow_empty = true;
+        options.strict = false;
+        EXPECT_EQ(verdictLine(reportWith(frames, options)), passes);
+        options.strict = true;
+        EXPECT_TRUE(reportWith(frames, options).passed());
+        options.allow_empty = false;
+        EXPECT_EQ(reportWith(frames, options).passed(), words.empty());
+    }
+    const auto json = nlohmann::json::parse(reportJson(reportWith(empty, {}), nullptr));
+    EXPECT_EQ(json["comparisons"][0]["emptiness"], "both pictures are empty: no surface is in view");
+}
+
+// A surface on 1 % of the picture is one; on less, the background decides every picture.
+TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
+    for (const int shown : {1, 2}) {
+        std::vector<Frame> frames = bothFrames();
+        for (Frame& frame : frames) {
+            frame.settings.size = {40, 5};
+            for (auto* images : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+                for (auto& [mode, image] : *images) {
+                    Image wide(40, 5, image.components, images == &frame.channels && mode == idMode ? -1 : 0);
+                    for (int x = 0; x < shown; ++x)
+                        for (int c = 0; c < image.components; ++c) wide.at(x, 0, c) = image.at(1, 2, c);
+                    image = std::move(wide);
+                }
+        }
+        EXPECT_EQ(reportWith(frames, {}).comparisons.at(0).emptiness,
+                  shown == 1 ? "only 0.5 % of the picture shows the scene" : "");
+    }
+}
+
+TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a.glb", "b.glb", "c.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    frames[0].notes = {"the same", "it took 1.5 s"};
+    frames[2].notes = {"the same", "it took 22 s"};
+    frames[4].notes = {"the same", "another"};
+    const std::string table = reportTable(reportOf(frames));
+    EXPECT_NE(table.find("\nnote, 3 scenes: the same\n"), table.npos) << table;
+    EXPECT_NE(table.find("\nnote, a.glb, b.glb, with other numbers each: it took 1.5 s\n"), table.npos)
+        << table;
+    EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
+}
+
+// Within one scene each stands by itself: a fault of three materials is three notes, and another scene's
+// joins the one that it equals.
+TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a.glb", "b.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    frames[0].notes = {"material 1: roughness 2", "material 2: roughness 3", "material 3: roughness 4"};
+    frames[2].notes = {"material 2: roughness 3", "material 4: roughness 5"};
+    const std::string table = reportTable(reportOf(frames));
+    EXPECT_NE(table.find("\nnote, 2 scenes: material 2: roughness 3\n"), table.npos) << table;
+    EXPECT_NE(table.find("\nnote, a.glb: material 3: roughness 4\n"), table.npos) << table;
+    EXPECT_NE(table.find("\nnote, 2 scenes, with other numbers each: material 1: roughness 2\n"), table.npos)
+        << table;
+    EXPECT_EQ(countOf(table, "\nnote"), 3u) << table;
+}
+
+TEST(DidYouMean, FindsTheNearestWordOrNone) {
+    const std::vector<std::string> words{"gallery", "spheres", "furnace", "lit"};
+    EXPECT_EQ(didYouMean("galery", words), "; did you mean gallery?");
+    EXPECT_EQ(nearestWord("shperes", words), "spheres") << "two letters exchanged";
+    EXPECT_EQ(nearestWord("Furnace", words), "furnace");
+    EXPECT_EQ(nearestWord("lut", words), "lit");
+    EXPECT_EQ(nearestWord("normals", words), "");
+    EXPECT_EQ(nearestWord("", words), "");
+    EXPECT_EQ(nearestWord(std::string(100000, 'x'), words), "");
+}
+
+}  // namespace
+}  // namespace diptych

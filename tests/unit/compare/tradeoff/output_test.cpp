@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// The output of a sweep: table, CSV, JSON, plots and page.
+#include "compare/cli/command_line.h"
+#include "compare/plot/log_axis.h"
+#include "compare/tradeoff/html.h"
+#include "compare/tradeoff/plot.h"
+#include "compare/tradeoff/tradeoff.h"
+#include "tests/support/nonfinite.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace diptych {
+
+using namespace cli;
+using namespace tradeoff;
+
+namespace {
+
+TradeoffRow row(const char* path, const char* option, const char* value, double ms, const Errors& errors) {
+    TradeoffRow made;
+    made.settings.set("path", path);
+    if (*option) made.settings.set(option, value);
+    CameraRow camera;
+    camera.camera = "a, \"b\" <c>";
+    camera.visits = {{ms, 0.9 * ms, 1.5 * ms, 5}};
+    camera.passes = {{"shade", ms / 2}};
+    camera.bytes = {1000, 200, 24};
+    camera.errors = errors;
+    camera.pixels = 12;
+    made.cameras = {camera};
+    made.errors = errors;
+    made.picture = made.errors_map = "x.png";
+    return made;
+}
+
+Tradeoff several() {
+    Tradeoff tradeoff;
+    tradeoff.scene = "a & b's <scene>.glb";
+    tradeoff.cameras = {"0"};
+    tradeoff.device = {"llvmpipe", "Mesa", "cpu"};
+    tradeoff.runs = 5;
+    tradeoff.rows = {row("forward_plus", "", "", 8, {0, 0, 0}),
+                     row("deferred", "", "", 4, {0.01, 0.02, 0.04}),
+                     row("deferred", "size", "320x180", 1, {0.2, 3, 4}),
+                     row("deferred", "gbuffer", "compact", 5, {inf, inf, inf})};
+    for (TradeoffRow& made : tradeoff.rows) made.settings.camera = "0";
+    tradeoff.given.camera = "0";
+    tradeoff.rows[1].warnings = {"one, \"two\""};
+    tradeoff.skips = {{{{"path", "deferred"}, {"msaa", "4"}}, "--msaa 4 is not built yet; use 1"}};
+    return tradeoff;
+}
+
+// RFC 4180, implemented independently of the writer.
+std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
+    std::vector<std::vector<std::string>> lines(1, {""});
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '"' && text[i + 1] == '"')
+            lines.back().back() += text[++i];
+        else if (c == '"')
+            quoted = !quoted;
+        else if (!quoted && c == ',')
+            lines.back().emplace_back();
+        else if (!quoted && c == '\r' && text[i + 1] == '\n' && i + 2 < text.size())
+            ++i, lines.push_back({""});
+        else if (quoted || (c != '\r' && c != '\n'))
+            lines.back().back() += c;
+    }
+    return lines;
+}
+
+TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
+    const auto lines = parseCsv(tradeoffCsv(several()));
+    ASSERT_EQ(lines.size(), 5u);
+    for (const auto& line : lines) EXPECT_EQ(line.size(), lines[0].size());
+    const auto at = [&](std::size_t line, const std::string& name) {
+        const auto column = std::ranges::find(lines[0], name) - lines[0].begin();
+        return lines[line][static_cast<std::size_t>(column)];
+    };
+    EXPECT_EQ(at(2, "ms"), "4");
+    EXPECT_EQ(at(2, "ms_max"), "6");
+    EXPECT_EQ(at(2, "warnings"), "one, \"two\"");
+    EXPECT_EQ(at(2, "relative_p99"), "0.04");
+    EXPECT_EQ(at(4, "flip"), "inf");
+    EXPECT_EQ(at(4, "front_flip"), "0");
+    EXPECT_EQ(at(3, "front_flip"), "1");
+    EXPECT_EQ(at(3, "size"), "320x180");
+    EXPECT_EQ(at(4, "prepass"), "") << "deferred has none";
+    EXPECT_EQ(at(4, "gbuffer"), "compact");
+    EXPECT_EQ(at(1, "ms: shade"), "4");
+    EXPECT_EQ(at(1, "compare").find("diptych compare --baseline reference"), 0u);
+    EXPECT_EQ(at(3, "compare"), "") << "not as large as the reference";
+}
+
+// The command line parses the printed commands back to the row's Settings.
+TEST(TradeoffOutput, CommandsAreOfTheRow) {
+    Tradeoff tradeoff = several();
+    tradeoff.scene = "builtin:one";
+    const auto parse = [](const std::string& command) {
+        std::vector<std::string> words;  // no word here holds a space
+        std::string text = command;
+        std::erase(text, '\'');
+        for (std::size_t from = 0; from <= text.size();) {
+            const std::size_t end = std::min(text.find(' ', from), text.size());
+            words.push_back(text.substr(from, end - from));
+            from = end + 1;
+        }
+        return parseCommandLine({words.begin() + 1, words.end()});
+    };
+    const Options full = parse(measuringCommand(tradeoff, tradeoff.rows[3]));
+    EXPECT_EQ(full.settings, tradeoff.rows[3].settings);
+    EXPECT_EQ(full.command, "tradeoff");
+    EXPECT_EQ(full.grid, R"({"settings":{}})");
+    const Options half = parse(measuringCommand(tradeoff, tradeoff.rows[2]));
+    EXPECT_EQ(half.settings.size, tradeoff.given.size) << "the reference's";
+    EXPECT_EQ(half.grid, R"({"settings":{"size":"320x180"}})");
+    EXPECT_EQ(parse(renderingCommand(tradeoff, tradeoff.rows[2])).settings, tradeoff.rows[2].settings);
+    // Settings that the reference depends on stay as given, except in the row itself.
+    tradeoff.rows[1].settings.shadows = Shadows::off;
+    tradeoff.given.spp = 16;
+    const Options shadowed = parse(measuringCommand(tradeoff, tradeoff.rows[1]));
+    EXPECT_EQ(shadowed.settings.shadows, tradeoff.given.shadows);
+    EXPECT_EQ(shadowed.settings.spp, 16);
+    EXPECT_EQ(shadowed.grid, R"({"settings":{"shadows":"off"}})");
+    EXPECT_EQ(comparingCommand(tradeoff, tradeoff.rows[1]), "") << "its reference would have none";
+    tradeoff.cameras = {"0", "1"};
+    tradeoff.runs = 9;
+    const Options both = parse(measuringCommand(tradeoff, tradeoff.rows[1]));
+    EXPECT_EQ(both.cameras, tradeoff.cameras);
+    EXPECT_EQ(both.runs, 9);
+}
+
+TEST(TradeoffOutput, RowsSurviveTheirJson) {
+    for (TradeoffRow made : several().rows) {
+        made.cameras[0].visits[0].median = 1.0 / 3;
+        made.settings.camera = "eye=1,2,3";
+        const TradeoffRow back = tradeoffRowFrom(nlohmann::ordered_json::parse(jsonOf(made).dump()));
+        EXPECT_EQ(jsonOf(back), jsonOf(made));
+        EXPECT_EQ(back.settings, made.settings);
+        EXPECT_EQ(back.errors, made.errors);
+        EXPECT_EQ(back.cameras[0].visits[0].median, 1.0 / 3);
+    }
+}
+
+TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
+    const Tradeoff tradeoff = several();
+    for (std::size_t figure = 0; figure < tradeoff::errorFigures.size(); ++figure)
+        for (const std::optional<Path> path : {std::optional<Path>(), std::optional(Path::deferred)}) {
+            const std::string svg = tradeoffPlot(tradeoff, figure, path, PlotPlace::file);
+            EXPECT_EQ(markupFault(svg), "");
+            EXPECT_EQ(svg.find("nan"), std::string::npos);
+            EXPECT_NE(svg.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos);
+            std::size_t points = 0;
+            for (std::size_t i = svg.find("data-row"); i != svg.npos; i = svg.find("data-row", i + 1))
+                ++points;
+            EXPECT_EQ(points, path ? 3u : 4u);
+            EXPECT_NE(svg.find("\u221e"), std::string::npos) << "an infinite error has its lane";
+            EXPECT_EQ(svg.find(">0</text>") != std::string::npos, !path) << "and an error of 0";
+        }
+    const std::string page = tradeoffHtml(tradeoff);
+    EXPECT_EQ(markupFault(page, {"meta", "img"}), "");
+    EXPECT_EQ(page.find("<scene>"), std::string::npos);
+}
+
+// Rows fit the terminal: numbers are left out one by one, then Settings are cut short.
+TEST(TradeoffOutput, RowsFitTheTerminal) {
+    const Tradeoff tradeoff = several();
+    std::vector<Settings> rows;
+    for (const TradeoffRow& row : tradeoff.rows) rows.push_back(row.settings);
+    std::size_t before = 1000;
+    for (const std::size_t columns : {200u, 120u, 100u, 80u, 60u, 50u}) {
+        const TradeoffTable table(tradeoff, rows, columns, false);
+        std::string text = table.head();
+        for (std::size_t i = 0; i < rows.size(); ++i) text += table.line(tradeoff, i);
+        std::size_t longest = 0;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = text.find('\n', at);
+            longest = std::max(longest, end - at);
+            at = end + 1;
+        }
+        EXPECT_LE(longest, columns);
+        EXPECT_LE(longest, before);
+        before = longest;
+        EXPECT_NE(text.find("FLIP"), std::string::npos);
+        EXPECT_EQ(text.find("diptych tradeoff"), std::string::npos);
+    }
+    const TradeoffTable free(tradeoff, rows, 0, true);
+    EXPECT_NE(free.head().find("memory"), std::string::npos);
+    EXPECT_EQ(free.line(tradeoff, 0).find("..."), std::string::npos);
+    EXPECT_NE(free.line(tradeoff, 0).find(measuringCommand(tradeoff, tradeoff.rows[0])), std::string::npos);
+}
+
+TEST(TradeoffOutput, FrontsAreOfWhatTheirPlotShows) {
+    const Tradeoff tradeoff = several();
+    EXPECT_EQ(frontOf(tradeoff, 0), (std::vector<std::size_t>{2, 1, 0}));
+    EXPECT_EQ(frontOf(tradeoff, 0, Path::deferred), (std::vector<std::size_t>{2, 1}));
+    EXPECT_EQ(frontOf(tradeoff, 0, Path::forward_plus), std::vector<std::size_t>{0});
+}
+
+TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
+    TradeoffRow made = row("deferred", "", "", 2, {0.5, 0.5, 0.5});
+    made.cameras.push_back(made.cameras[0]);
+    made.cameras[1].visits = {{4, 3, 10, 5}};
+    made.cameras[1].errors = {0.25, 1, 0.5};
+    made.cameras[1].bytes = {5000, 0, 24};
+    const Spread time = timeOf(made);
+    EXPECT_DOUBLE_EQ(time.value, 3);
+    EXPECT_DOUBLE_EQ(time.low, (1.8 + 3) / 2);
+    EXPECT_DOUBLE_EQ(time.high, (3.0 + 10) / 2);
+    EXPECT_EQ(errorOf(made, 0).low, 0.25);
+    EXPECT_EQ(errorOf(made, 1).high, 1);
+    EXPECT_EQ(memoryOf(made), 5000u);
+    EXPECT_DOUBLE_EQ(passesOf(made)[0].ms, 1);
+}
+
+TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
+    Tradeoff tradeoff = several();
+    EXPECT_FALSE(driftOf(tradeoff)) << "one visit";
+    for (TradeoffRow& made : tradeoff.rows) made.cameras[0].visits.push_back(made.cameras[0].visits[0]);
+    tradeoff.rows[0].cameras[0].visits[1] = {16, 15, 17, 2};
+    tradeoff.rows[2].cameras[0].visits[1] = {0.5, 0.25, 0.5, 2};
+    const FrameTime time = timeOf(tradeoff.rows[0].cameras[0]);
+    EXPECT_DOUBLE_EQ(time.median, 12) << "8 of five frames and 16 of two";
+    EXPECT_DOUBLE_EQ(time.min, 7.2);
+    EXPECT_DOUBLE_EQ(time.max, 17);
+    EXPECT_EQ(time.runs, 7);
+    const std::optional<Spread> drift = driftOf(tradeoff);
+    ASSERT_TRUE(drift);
+    EXPECT_DOUBLE_EQ(drift->value, 1);
+    EXPECT_DOUBLE_EQ(drift->low, 0.5);
+    EXPECT_DOUBLE_EQ(drift->high, 2);
+}
+
+TEST(LogAxis, TicksLieWithinAndSome) {
+    for (const std::vector<double>& values : std::vector<std::vector<double>>{
+             {1e-7, 1}, {3, 4}, {100, 100.5}, {5}, {0.02, 60}, {}, {0, -1, inf}, {1e-30, 1e30}}) {
+        const LogAxis axis(values);
+        std::size_t named = 0;
+        double last = -1;
+        for (const Tick& tick : axis.ticks()) {
+            if (tick.text.empty()) continue;
+            ++named;
+            EXPECT_GE(tick.value, axis.low() * 0.999999);
+            EXPECT_LE(tick.value, axis.high() * 1.000001);
+            EXPECT_GT(tick.value, last);
+            EXPECT_NEAR(std::stod(tick.text), tick.value, 1e-3 * tick.value) << tick.text;
+            last = tick.value;
+        }
+        EXPECT_GE(named, 2u) << axis.low() << " to " << axis.high();
+        EXPECT_LE(named, 12u) << axis.low() << " to " << axis.high();
+        for (const double v : values)
+            if (v > 0 && v < inf) {
+                EXPECT_GT(axis.place(v), 0);
+                EXPECT_LT(axis.place(v), 1);
+            }
+    }
+    const LogAxis axis({1, 100});
+    EXPECT_NEAR(axis.place(10), 0.5, 1e-12);
+    EXPECT_EQ(axis.place(0), 0);
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// A difference of lit that what is blended makes, and that was not there before it, fails by name.
+#include "compare/verdict/after_blending.h"
+
+#include "compare/report/json.h"
+#include "compare/report/report.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+constexpr int blendWide = 50, blendHigh = 40;
+constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // of these the first are behind something
+
+// Opaque 1 everywhere, and 0.5 of 3 over it.
+Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
+    Frame frame;
+    frame.name = std::string(nameOf(path));
+    frame.scene = "a scene";
+    frame.settings.path = path;
+    frame.settings.gbuffer = encoding;
+    frame.settings.size = {blendWide, blendHigh};
+    frame.unblended = Image(blendWide, blendHigh, 3, 1.0f);
+    frame.channels[litMode] = frame.unblended;
+    frame.channels[idMode] = Image(blendWide, blendHigh, 1, 3.0f);
+    for (std::size_t i = 0; i < 3 * blendCovered; ++i) frame.channels[litMode].data[i] = 2;
+    if (path == Path::reference) {
+        frame.blended = Image(blendWide, blendHigh, 1);
+        for (std::size_t i = 0; i < blendCovered; ++i) frame.blended.data[i] = 0.5f;
+    }
+    return frame;
+}
+
+// `behind` is what the pixel's opaque surface shows.
+void setPixel(Frame& frame, std::size_t i, float behind, float all) {
+    frame.unblended.pixel(i)[1] = behind;
+    frame.channels[litMode].pixel(i)[1] = all;
+}
+
+Report blendReport(Frame a, Frame b, const std::string& device = "cpu", CompareOptions options = {}) {
+    Report report;
+    report.device = {"a device", "1.0", device};
+    report.frames = {std::move(a), std::move(b)};
+    report.comparisons.push_back(compareFrames(report, 0, 1, {}, options));
+    return report;
+}
+const Comparison& only(const Report& report) {
+    return report.comparisons.front();
+}
+bool isNamed(const std::vector<std::string>& lines) {
+    return std::ranges::any_of(
+        lines, [](const std::string& line) { return line.starts_with("after the transparent draw: "); });
+}
+
+TEST(AfterBlending, EqualPicturesPassAndAreCounted) {
+    const Report report = blendReport(blendFrame(Path::deferred), blendFrame(Path::forward_plus));
+    const std::optional<AfterBlending>& found = only(report).after_blending;
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->covered, blendCovered);
+    EXPECT_EQ(found->pixels, 0u);
+    EXPECT_EQ(found->before, 0u);
+    EXPECT_TRUE(only(report).passed());
+    EXPECT_EQ(faultOf(*found), "");
+}
+
+TEST(AfterBlending, ADifferenceOfItsOwnFailsByNameInAllReports) {
+    Frame wrong = blendFrame(Path::forward_plus);
+    setPixel(wrong, 7, 1, 2.5f);
+    setPixel(wrong, 60, 1, std::nextafter(2.0f, 3.0f));
+    const Report report = blendReport(blendFrame(Path::deferred), wrong);
+    const std::string expected =
+        "after the transparent draw: 2 pixel(s) of lit differ that did not before it, or not as much "
+        "(largest 0.25 at 7,0); 200 pixel(s) show what is blended, 0 differed before it";
+    EXPECT_EQ(only(report).failures, std::vector<std::string>{expected});
+    EXPECT_NE(reportTable(report).find("FAIL a scene"), std::string::npos);
+    EXPECT_NE(reportTable(report).find(expected), std::string::npos);
+    const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+    const auto& found = json.at("comparisons").at(0).at("after_blending");
+    EXPECT_EQ(found.at("pixels"), 2);
+    EXPECT_EQ(found.at("blended_pixels"), 200);
+    EXPECT_EQ(found.at("pixel"), nlohmann::json({7, 0}));
+    EXPECT_EQ(found.at("verdict"), "fail");
+}
+
+// What is different behind glass is weaker before it: that fails as lit does, and is no fault of blending.
+TEST(AfterBlending, WhatDifferedBeforeIsNotNamed) {
+    Frame other = blendFrame(Path::forward_plus);
+    setPixel(other, 7, 1.5f, 2.25f);
+    const Report report = blendReport(blendFrame(Path::deferred), other);
+    EXPECT_FALSE(only(report).passed()) << "lit differs";
+    EXPECT_FALSE(isNamed(only(report).failures));
+    EXPECT_EQ(only(report).after_blending->before, 1u);
+    setPixel(other, 7, 1.5f, 2.75f);
+    EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), other)).failures)) << "more than before";
+}
+
+// On a GPU sums may be rounded otherwise, by 16 ULP.
+TEST(AfterBlending, AGpusRoundingIsGranted) {
+    Frame near = blendFrame(Path::forward_plus), far = near;
+    setPixel(near, 7, 1, 2 + 8 * 0x1p-22f);
+    setPixel(far, 7, 1, 2 + 40 * 0x1p-22f);
+    EXPECT_FALSE(isNamed(only(blendReport(blendFrame(Path::deferred), near, "discrete GPU")).failures));
+    EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), far, "discrete GPU")).failures));
+    EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), near)).failures)) << "not on a CPU";
+}
+
+TEST(AfterBlending, ANanIsNamed) {
+    Frame wrong = blendFrame(Path::forward_plus);
+    setPixel(wrong, 7, 1, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), wrong)).failures));
+}
+
+// What forward+ shows of surfaces that were encoded is what deferred must show, before and after.
+TEST(AfterBlending, OfAPackedGBufferWhatItExplainsIsNoDifference) {
+    const auto packed = GBufferEncoding::standard;
+    Frame deferred = blendFrame(Path::deferred, packed), forward = blendFrame(Path::forward_plus, packed);
+    setPixel(deferred, 7, 1.01f, 2.005f);
+    forward.through_gbuffer[litMode] = deferred.channels[litMode];
+    forward.unblended_through_gbuffer = deferred.unblended;
+    forward.encoding_bound[litMode] = Image(blendWide, blendHigh, 1, 0.1f);
+    EXPECT_TRUE(only(blendReport(deferred, forward)).passed());
+    setPixel(deferred, 7, 1.01f, 2.004f);  // nearer to forward+'s own, and not what the encoding makes
+    EXPECT_TRUE(isNamed(only(blendReport(deferred, forward)).failures));
+}
+
+// Of the reference 2 of 2000 pixels may be beyond, but of the 200 that something covers one.
+TEST(AfterBlending, AgainstTheReferenceAThousandthOfWhatIsCovered) {
+    Frame wrong = blendFrame(Path::deferred);
+    // Within two pixels of others the reference's own change is granted, so not at the end of what is
+    // covered.
+    setPixel(wrong, 20, 1, 2.2f);
+    EXPECT_TRUE(only(blendReport(blendFrame(Path::reference), wrong)).passed()) << "one";
+    setPixel(wrong, 24, 1, 2.2f);
+    const Report report = blendReport(blendFrame(Path::reference), wrong);
+    EXPECT_EQ(only(report).channels.front().verdict, Verdict::pass) << "as a whole";
+    EXPECT_TRUE(isNamed(only(report).failures));
+    EXPECT_FALSE(only(report).passed());
+    setPixel(wrong, 20, 1.2f, 2.2f);
+    EXPECT_TRUE(only(blendReport(blendFrame(Path::reference), wrong)).passed()) << "it was there before";
+    setPixel(wrong, 20, 1, 2.0001f);
+    EXPECT_TRUE(only(blendReport(blendFrame(Path::reference), wrong)).passed()) << "within the tolerance";
+}
+
+TEST(AfterBlending, ARuleThatJudgesLitTurnsItIntoANote) {
+    Frame wrong = blendFrame(Path::forward_plus);
+    setPixel(wrong, 7, 1, 2.5f);
+    CompareOptions options;
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "lit", "max": 1, "because": "so"}]})", "t.json");
+    const Report report = blendReport(blendFrame(Path::deferred), wrong, "cpu", options);
+    EXPECT_TRUE(only(report).passed());
+    EXPECT_TRUE(isNamed(only(report).notes));
+}
+
+TEST(AfterBlending, WithoutBlendingOrWithoutKnowingThereIsNothingToSay) {
+    Frame a = blendFrame(Path::deferred), b = blendFrame(Path::forward_plus);
+    setPixel(b, 7, 1, 2.5f);
+    b.unblended = {};
+    const Report report = blendReport(a, b);
+    EXPECT_FALSE(only(report).after_blending);
+    EXPECT_FALSE(isNamed(only(report).failures));
+    EXPECT_EQ(nlohmann::json::parse(reportJson(report, nullptr)).at("comparisons").at(0).at("after_blending"),
+              nullptr);
+}
+
+// Glass before the sky shows no opaque surface, and is a pixel that counts.
+TEST(AfterBlending, PixelsThatOnlySomethingBlendedCoversCount) {
+    for (const Path path : {Path::deferred, Path::reference}) {
+        Frame a = blendFrame(path), b = blendFrame(Path::forward_plus);
+        for (Frame* frame : {&a, &b}) std::ranges::fill(frame->channels[idMode].data, -1.0f);
+        const Coverage covered = coverage(a, b);
+        EXPECT_TRUE(covered.known);
+        EXPECT_EQ(covered.count, blendCovered) << nameOf(path);
+        EXPECT_TRUE(only(blendReport(a, b)).emptiness.find("no surface") == std::string::npos);
+        for (const std::size_t i : {8u, 9u}) b.channels[litMode].pixel(i)[0] = 2.5f;
+        EXPECT_FALSE(only(blendReport(a, b)).passed()) << nameOf(path);
+        a.unblended = b.unblended = {};
+        if (path == Path::deferred) {
+            EXPECT_EQ(coverage(a, b).count, 0u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// When a channel passes: the last value that does and the first that does not, and what another device and
+// noise are granted.
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+// Both paths of the small scene, of which this channel alone is compared.
+std::vector<Frame> framesOf(gpu::uint mode) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) frame.requested = {static_cast<int>(mode)};
+    return frames;
+}
+
+const ChannelDiff& channelIn(const Comparison& comparison, gpu::uint mode) {
+    return *std::ranges::find_if(comparison.channels, [&](const ChannelDiff& channel) {
+        return channel.mode->number == static_cast<int>(mode);
+    });
+}
+
+// Of deferred against forward+ on a CPU, or as `device` says.
+Comparison comparedPair(const std::vector<Frame>& frames, const CompareOptions& options = {},
+                        const ReportDevice& device = {"a CPU", "1.0", "cpu"}) {
+    Report report;
+    report.device = device;
+    report.frames = frames;
+    return compareFrames(report, 0, 1, {}, options);
+}
+
+TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
+    for (const gpu::uint mode : {gpu::DEBUG_metallic, gpu::DEBUG_roughness, gpu::DEBUG_occlusion}) {
+        std::vector<Frame> frames = framesOf(mode);
+        const double most = channelIn(comparedPair(frames), mode).tolerance.max;
+        ASSERT_GT(most, 0) << mode;
+        const auto verdictAt = [&](double share) {
+            frames[1].channels.at(static_cast<int>(mode)).at(1, 2) = static_cast<float>(0.5 + share * most);
+            const Comparison comparison = comparedPair(frames);
+            EXPECT_EQ(comparison.passed(), channelIn(comparison, mode).verdict == Verdict::pass);
+            return channelIn(comparison, mode).verdict;
+        };
+        EXPECT_EQ(verdictAt(0.99), Verdict::pass) << mode;
+        EXPECT_EQ(verdictAt(1.01), Verdict::fail) << mode;
+        EXPECT_EQ(verdictAt(-0.99), Verdict::pass) << mode;
+        EXPECT_EQ(verdictAt(-1.01), Verdict::fail) << mode;
+        EXPECT_EQ(verdictAt(1.9), Verdict::fail) << mode;
+    }
+}
+
+// Bit for bit where this very CPU drew both; what another device or driver drew, or a GPU, may be 16 ULP off.
+TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
+    std::vector<Frame> frames = framesOf(gpu::DEBUG_depth);
+    float& depth = frames[0].channels.at(static_cast<int>(gpu::DEBUG_depth)).at(1, 2);
+    depth = std::nextafter(depth, 1.0f);
+    const auto verdict = [&](const ReportDevice& device) {
+        return channelIn(comparedPair(frames, {}, device), gpu::DEBUG_depth).verdict;
+    };
+    const ReportDevice here{"a CPU", "1.0", "cpu"};
+    EXPECT_EQ(verdict(here), Verdict::fail);
+    EXPECT_EQ(verdict({"a GPU", "1.0", "discrete"}), Verdict::pass);
+    for (Frame& frame : frames) {
+        frame.origin = {"kept.exr", "a CPU", "1.0", ""};
+        EXPECT_EQ(verdict(here), Verdict::fail) << "a file of this device";
+        frame.origin = {"kept.exr", "another CPU", "1.0", ""};
+        EXPECT_EQ(verdict(here), Verdict::pass);
+        frame.origin = {"kept.exr", "a CPU", "0.9", ""};
+        EXPECT_EQ(verdict(here), Verdict::pass);
+        frame.origin = {};
+    }
+    depth += 20 * 0x1p-24f;
+    EXPECT_EQ(verdict({"a GPU", "1.0", "discrete"}), Verdict::fail) << "20 ULP of a half";
+}
+
+// What two runs of a path differ by is granted of both paths together, and no more.
+TEST(ChannelDiff, TheNoiseOfBothPathsIsGranted) {
+    std::vector<Frame> frames = framesOf(gpu::DEBUG_roughness);
+    const int mode = static_cast<int>(gpu::DEBUG_roughness);
+    frames[0].noise[mode] = {3, 0.125};
+    frames[1].noise[mode] = {1, 0.25};
+    frames[1].channels.at(mode).at(1, 2) += 0.375f;
+    CompareOptions allowed;
+    allowed.allow_noise = true;
+    const ReportDevice card{"a GPU", "1.0", "discrete"};
+    const Comparison strict = comparedPair(frames, {}, card), noisy = comparedPair(frames, allowed, card);
+    EXPECT_FALSE(strict.passed());
+    EXPECT_TRUE(noisy.passed());
+    EXPECT_NEAR(channelIn(noisy, gpu::DEBUG_roughness).tolerance.max,
+                channelIn(strict, gpu::DEBUG_roughness).tolerance.max + 0.375, 1e-12);
+    frames[1].channels.at(mode).at(1, 2) += 0.01f;
+    EXPECT_FALSE(comparedPair(frames, allowed, card).passed());
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Options of comparing two paths: rules, masks, noise; and comparison with an earlier picture.
+#include "compare/verdict/measurement.h"
+#include "compare/verdict/pair_reports.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+Report compared(std::vector<Frame> frames, const CompareOptions& options, const char* device = "cpu") {
+    const std::vector<Requirements> needs(frames.size());
+    return makeReport(std::move(frames), needs, {"a device", "1.0", device}, options);
+}
+
+const ChannelDiff& litOf(const Report& report) {
+    for (const ChannelDiff& channel : report.comparisons.at(0).channels)
+        if (channel.mode->number == litMode) return channel;
+    throw std::runtime_error("no lit");
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& words) {
+    return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(words) != l.npos; });
+}
+
+// Two paths whose lit differs by a relative 0.25 at the only covered pixel, which no encoding explains.
+std::vector<Frame> framesApart() {
+    std::vector<Frame> frames = bothFrames("one.glb");
+    frames[0].channels.at(litMode).at(1, 2) = 1;
+    frames[1].channels.at(litMode).at(1, 2) = 1.25f;
+    frames[1].through_gbuffer.clear();
+    return frames;
+}
+
+TEST(CompareOptions, ARuleDecidesInPlaceOfTheTolerance) {
+    EXPECT_EQ(litOf(compared(framesApart(), {})).verdict, Verdict::fail);
+    CompareOptions options;
+    options.rules = rulesFromJson(
+        R"({"rules": [{"channel": "lit", "max": 0.25, "warn": {"max": 0.2}, "because": "a quarter"}]})",
+        "t.json");
+    const ChannelDiff channel = litOf(compared(framesApart(), options));
+    EXPECT_EQ(channel.verdict, Verdict::pass);
+    EXPECT_EQ(channel.rule, "t.json, rule 1: max <= 0.25");
+    EXPECT_EQ(channel.warning, "max 0.25 exceeds 0.2, at 100 % of the pixels");
+    EXPECT_EQ(channel.tolerance.max, 0.25);
+    EXPECT_EQ(channel.tolerance.because, "a quarter");
+    options.rules =
+        rulesFromJson(R"({"rules": [{"channel": "lit", "max": 0.2, "because": "a fifth"}]})", "t.json");
+    EXPECT_EQ(litOf(compared(framesApart(), options)).reason, "max 0.25 exceeds 0.2, at 100 % of the pixels");
+}
+
+TEST(CompareOptions, PixelsThatAreLeftOutDoNotCount) {
+    std::vector<Frame> frames = framesApart();
+    for (Frame& frame : frames) frame.channels.at(gpu::DEBUG_material_id).at(0, 0) = 3;  // a second pixel
+    CompareOptions options;
+    options.selection.crop = Crop{0, 0, 1, 1};
+    EXPECT_EQ(litOf(compared(frames, options)).stats.different, 0u);
+    options.selection.crop = Crop{1, 2, 1, 1};
+    EXPECT_EQ(litOf(compared(frames, options)).stats.max, 0.25);
+}
+
+TEST(CompareOptions, ColoursHaveAFlip) {
+    const Report report = compared(framesApart(), {});
+    EXPECT_GT(litOf(report).flip.value(), 0);
+    for (const ChannelDiff& channel : report.comparisons[0].channels)
+        EXPECT_EQ(channel.flip.has_value(), channel.mode->kind == ChannelKind::color) << channel.mode->name;
+}
+
+// A second run of a path that differs from the first by 0.3 at 2 pixels.
+std::vector<Frame> noisyFrames() {
+    std::vector<Frame> frames = framesApart();
+    frames[0].noise[litMode] = {2, 0.3};
+    frames[1].noise[litMode] = {0, 0};
+    return frames;
+}
+
+TEST(CompareOptions, NoiseIsARaceOnACpu) {
+    const Report report = compared(
+        noisyFrames(), {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true});
+    EXPECT_TRUE(
+        says(report.comparisons[0].failures, "two runs differ in lit at 2 pixel(s), by up to 0.3: a race"));
+    EXPECT_EQ(litOf(report).verdict, Verdict::fail) << "nothing is granted for a race";
+}
+
+TEST(CompareOptions, NoiseOfAGpuIsSaidAndGrantedOnlyWhereAsked) {
+    Report report = compared(noisyFrames(), {}, "discrete");
+    EXPECT_TRUE(says(report.comparisons[0].notes, "--allow-noise adds that to the tolerance"));
+    EXPECT_TRUE(report.comparisons[0].failures.empty());
+    EXPECT_EQ(litOf(report).verdict, Verdict::fail);
+    report = compared(noisyFrames(),
+                      {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true},
+                      "discrete");
+    EXPECT_EQ(litOf(report).verdict, Verdict::pass);
+    EXPECT_NE(litOf(report).tolerance.because.find("and 0.3 that two runs of one path differ by"),
+              std::string::npos);
+    EXPECT_GE(litOf(report).tolerance.max, 0.3);
+}
+
+TEST(CompareOptions, ABaselineIsHeldAgainstBothPaths) {
+    std::vector<Frame> frames = framesApart();
+    Frame baseline = frames[0];
+    baseline.name = "baseline";
+    baseline.origin = {"b.exr", "a device", "1.0", "abc"};
+    const Report report = makeBaselineReport(baseline, frames, {}, {"a device", "1.0", "cpu"}, {},
+                                             {"baseline: commit abc (now def)"});
+    ASSERT_EQ(report.comparisons.size(), 3u);
+    EXPECT_EQ(report.first_notes.size(), 1u);
+    EXPECT_EQ(report.baseline(report.comparisons[0]).name, "baseline");
+    EXPECT_EQ(report.test(report.comparisons[1]).name, frames[1].name);
+    EXPECT_EQ(litOf(report).stats.different, 0u) << "the same path, unchanged";
+    EXPECT_FALSE(report.passed()) << "the other path";
+}
+
+// FLIP, means and SSIM stay finite for NaN, but no bound on them may let a NaN against a number pass.
+TEST(Measurement, NothingPassesANan) {
+    const Image a(16, 16, 3, 0.5f);
+    Image b = a;
+    b.data[300] = std::nanf("");
+    const Coverage all = everyPixel(a.pixels());
+    const Measurement same({Metric::absolute, ChannelKind::color, true, b, b, &all, nullptr, {}}),
+        one({Metric::absolute, ChannelKind::color, true, a, b, &all, nullptr, {}}),
+        other({Metric::absolute, ChannelKind::color, false, b, a, &all, nullptr, {}});
+    EXPECT_EQ(same({"flip", 0}), 0);
+    EXPECT_EQ(one({"flip", 0}), 1.0 / 256) << "error 1 there, counted, not spread";
+    EXPECT_EQ(other({"flip", 0}), 1.0 / 256) << "in the reference, too";
+    EXPECT_EQ(one({"failing", 1e30}), 1.0 / 256);
+    for (const Figure& figure : figures()) {
+        Rule rule;
+        const double worst = figure.more_is_better ? -std::numeric_limits<double>::infinity() : 1e300;
+        rule.fail = {Condition::Kind::bound, {std::string(figure.name), 0}, worst, {}};
+        if (!same(rule.fail.quantity)) continue;
+        EXPECT_EQ(decide(rule, same).level, Level::pass) << figure.name;
+        EXPECT_EQ(decide(rule, one).level, Level::fail) << figure.name;
+    }
+    Rule share;
+    share.fail = {Condition::Kind::bound, {"failing", 0}, 0.004, {}};
+    EXPECT_EQ(decide(share, one).level, Level::pass) << "1 of 256 pixels may fail";
+    share.fail.limit = 0.0039;
+    EXPECT_EQ(decide(share, one).level, Level::fail);
+}
+
+}  // namespace
+}  // namespace diptych

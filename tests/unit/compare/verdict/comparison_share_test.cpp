@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Against the reference, a thousandth of the pixels may be beyond the tolerance, and not one more; between
+// the paths none.
+#include "compare/verdict/comparison.h"
+#include "tests/support/modes.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+constexpr std::size_t shareWide = 50, shareHigh = 50, shareCovered = 2000;  // the others are background
+
+Frame shareFrame(Path path, std::size_t wrong) {
+    Frame frame;
+    frame.name = std::string(nameOf(path));
+    frame.settings.path = path;
+    frame.settings.size = {shareWide, shareHigh};
+    frame.channels[litMode] = Image(shareWide, shareHigh, 3, 1.0f);
+    frame.channels[idMode] = Image(shareWide, shareHigh, 1, -1.0f);
+    std::fill_n(frame.channels[idMode].data.begin(), shareCovered, 3.0f);
+    for (std::size_t i = 0; i < wrong; ++i) frame.channels[litMode].pixel(7 * i)[1] = 2;
+    for (std::size_t i = shareCovered; i < shareWide * shareHigh; ++i)
+        frame.channels[litMode].pixel(i)[0] = path == Path::reference ? 1.0f : 9.0f;
+    return frame;
+}
+
+Verdict litVerdict(Path left, Path right, std::size_t wrong) {
+    Report report;
+    report.device = {"a CPU", "1.0", "cpu"};
+    report.frames = {shareFrame(left, 0), shareFrame(right, wrong)};
+    const Comparison comparison = compareFrames(report, 0, 1, {}, {});
+    for (const ChannelDiff& channel : comparison.channels)
+        if (channel.mode->number == litMode) return channel.verdict;
+    throw std::runtime_error("no lit");
+}
+
+TEST(ComparisonShare, OneInAThousandOfTheCoveredPixelsMayBeBeyond) {
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        EXPECT_EQ(litVerdict(Path::reference, path, 0), Verdict::pass);
+        EXPECT_EQ(litVerdict(Path::reference, path, 2), Verdict::pass) << "2 of 2000";
+        EXPECT_EQ(litVerdict(Path::reference, path, 3), Verdict::fail) << "of 2500 it would be 0.12 %";
+    }
+    EXPECT_EQ(litVerdict(Path::deferred, Path::forward_plus, 0), Verdict::pass);
+    EXPECT_EQ(litVerdict(Path::deferred, Path::forward_plus, 1), Verdict::fail);
+}
+
+}  // namespace
+}  // namespace diptych

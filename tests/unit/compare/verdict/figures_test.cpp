@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Every figure of two images from its definition, over errors of which no two figures are alike.
+#include "compare/verdict/measurement.h"
+#include "tests/support/error_spread.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace diptych {
+
+using namespace error_spread;
+
+namespace {
+
+Figures plainFigures(const Errors& e) {
+    const double mse = rootMeanSquareOf(e.components) * rootMeanSquareOf(e.components);
+    return {{"mse", mse},
+            {"mae", meanOf(e.components)},
+            {"relative_mse", meanOf(e.relative_squares)},
+            {"relative_max", errorOfRank(e.relative, counted)},
+            {"relative_mean", meanOf(e.relative)},
+            {"relative_p99", errorOfRank(e.relative, 1981)},
+            {"relative_p999", errorOfRank(e.relative, 1999)},
+            {"psnr", 10 * std::log10(9 / mse)},  // the reference's largest component is 3
+            {"ulp_max", errorOfRank(e.ulps, e.ulps.size())},
+            {"ulp_mean", meanOf(e.ulps)}};
+}
+
+// Those of relative errors are computed in float32.
+double boundOf(const std::string& figure, double value) {
+    return (figure.starts_with("relative_m") || figure.starts_with("relative_p") ? 0x1p-22 : 1e-12) *
+           std::abs(value);
+}
+
+void expectFigures(const Measurement& m, const Figures& expected, const std::set<std::string>& elsewhere) {
+    std::set<std::string> found;
+    for (const auto& [name, value] : m.all()) {
+        found.insert(name);
+        if (elsewhere.contains(name)) continue;
+        ASSERT_TRUE(expected.contains(name)) << name << " is not tested";
+        EXPECT_NEAR(value, expected.at(name), boundOf(name, expected.at(name))) << name;
+        EXPECT_EQ(m(Quantity{name, 0}), value) << name;
+    }
+    for (const auto& [name, value] : expected) EXPECT_TRUE(found.contains(name)) << name;
+}
+
+TEST(Figures, NoTwoOfTheSpreadAreAlike) {
+    const Errors e = errorsOf(spread());
+    Figures all = plainFigures(e);
+    for (const auto& [metric, errors] : {std::pair{"absolute", &e.absolute}, {"angular", &e.angles}})
+        for (const auto& [name, value] : ofPixels(*errors)) all[std::string(metric) + " " + name] = value;
+    for (const auto& [a, x] : all)
+        for (const auto& [b, y] : all)
+            if (a < b) {
+                EXPECT_GT(std::abs(x - y), 3 * boundOf("relative_max", x)) << a << " and " << b;
+            }
+    // The neighbouring ranks are other errors.
+    for (const std::size_t rank : {1981u, 1999u})
+        for (const std::size_t other : {rank - 1, rank + 1})
+            for (const std::vector<double>* errors : {&e.absolute, &e.relative, &e.angles})
+                EXPECT_GT(std::abs(errorOfRank(*errors, rank) - errorOfRank(*errors, other)),
+                          1e-5 * errorOfRank(*errors, rank));
+}
+
+TEST(Figures, OfAChannelFollowTheirDefinitions) {
+    const Spread s = spread();
+    const Errors e = errorsOf(s);
+    for (const auto& [metric, errors] : {std::pair{Metric::absolute, &e.absolute},
+                                         {Metric::relative, &e.relative},
+                                         {Metric::angular, &e.angles}}) {
+        const ChannelStats stats = channelStats(metric, ChannelKind::vector, s.reference, s.test, s.covered);
+        const Figures expected = ofPixels(*errors);
+        for (const auto& [name, value] : {std::pair{"max", stats.max},
+                                          {"mean", stats.mean},
+                                          {"rmse", stats.rmse},
+                                          {"p99", stats.p99},
+                                          {"p999", stats.p999}})
+            EXPECT_NEAR(value, expected.at(name), 1e-12 * value) << nameOf(metric) << " " << name;
+        EXPECT_EQ(stats.different, counted);
+        const auto worst = static_cast<std::size_t>(std::ranges::max_element(*errors) - errors->begin());
+        EXPECT_EQ(stats.worst_x, spreadPixel(worst) % wide) << nameOf(metric);
+        EXPECT_EQ(stats.worst_y, spreadPixel(worst) / wide) << nameOf(metric);
+    }
+}
+
+// The largest difference of two covered vectors' lengths.
+double longestApart(const Spread& s) {
+    double most = 0;
+    for (std::size_t i = 0; i < s.reference.pixels(); ++i) {
+        const float *r = s.reference.pixel(i), *t = s.test.pixel(i);
+        const double apart =
+            std::abs(std::sqrt(double{r[0]} * r[0] + double{r[1]} * r[1] + double{r[2]} * r[2]) -
+                     std::sqrt(double{t[0]} * t[0] + double{t[1]} * t[1] + double{t[2]} * t[2]));
+        if (s.covered.covered[i] && std::isfinite(apart)) most = std::max(most, apart);
+    }
+    return most;
+}
+
+TEST(Figures, AreGivenByTheirNames) {
+    const Spread s = spread();
+    const Errors e = errorsOf(s);
+    Figures vectors = plainFigures(e);
+    vectors.merge(Figures{{"angle_max", errorOfRank(e.angles, counted)},
+                          {"angle_mean", meanOf(e.angles)},
+                          {"length_max", longestApart(s)}});
+    vectors.merge(ofPixels(e.angles));
+    const Measurement angular({Metric::angular, ChannelKind::vector, false, s.reference, s.test, &s.covered});
+    expectFigures(angular, vectors, {});
+
+    // Of absolute errors, mean and root are over components, as in other programs.
+    Figures colors = plainFigures(e), pixels = ofPixels(e.absolute);
+    pixels["mean"] = meanOf(e.components);
+    pixels["rmse"] = rootMeanSquareOf(e.components);
+    colors.merge(pixels);
+    const Measurement absolute(
+        {Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
+    ASSERT_NE(absolute.flip(), nullptr);
+    const HdrFlipResult& flip = *absolute.flip();
+    colors.merge(Figures{{"flip", flip.mean}, {"flip_median", flip.weighted_median}, {"flip_max", flip.max}});
+    EXPECT_NE(flip.mean, flip.weighted_median);
+    EXPECT_LT(flip.weighted_median, flip.max);
+    expectFigures(absolute, colors, {"ssim"});
+
+    // With statistics that are known already these are the channel's, whatever the metric.
+    ChannelStats known = channelStats(Metric::absolute, ChannelKind::color, s.reference, s.test, s.covered);
+    const Measurement given(
+        {Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered, &known});
+    for (const auto& [name, value] : ofPixels(e.absolute))
+        EXPECT_NEAR(given({name, 0}).value_or(-1), value, 1e-12 * value) << name;
+}
+
+TEST(Figures, OfPlainMetricsArePixelsToo) {
+    const Spread s = spread();
+    const PlainMetrics m = plainMetrics(s.reference, s.test, ChannelKind::color, Range::linear, s.covered);
+    EXPECT_EQ(m.pixels, counted);
+    EXPECT_EQ(m.different, counted);
+}
+
+// The colours' exposure range and the display's pixels per degree reach FLIP.
+TEST(Figures, FlipIsToldItsOptions) {
+    const Spread s = spread();
+    const auto mean = [&](const HdrFlipOptions& flip, bool display) {
+        return Measurement({Metric::absolute, ChannelKind::color, display, s.reference, s.test, &s.covered,
+                            nullptr, flip})({"flip", 0})
+            .value_or(-1);
+    };
+    HdrFlipOptions usual, near, one;
+    near.pixels_per_degree = 20;
+    one.start_exposure = one.stop_exposure = 0;
+    one.exposures = 1;
+    EXPECT_NE(mean(usual, false), mean(near, false));
+    EXPECT_NE(mean(usual, true), mean(near, true));
+    EXPECT_NE(mean(usual, false), mean(one, false));
+}
+
+// A share of failing pixels: an error that is the bound itself passes.
+TEST(Figures, AShareIsOfTheCountedPixelsBeyond) {
+    const Spread s = spread();
+    const Measurement m({Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1000}, counted - 2, counted - 1})
+        EXPECT_EQ(m({FAILING, stepOf(i)}), static_cast<double>(counted - 1 - i) / counted) << i;
+    EXPECT_EQ(m({FAILING, stepOf(0) / 2}), 1.0);
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// Which pixels of a comparison with a reference in mode scene are held tightly and which by FLIP, and that
+// either can fail.
+#include "compare/verdict/footprint.h"
+#include "compare/metrics/flip.h"
+#include "compare/verdict/comparison.h"
+#include "shared/frame/made_channels.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+constexpr int side = 32;
+
+// The reference in mode scene and forward+, a picture of one material; every channel even.
+std::vector<Frame> evenFrames() {
+    std::vector<Frame> frames(2);
+    for (const Path path : {Path::reference, Path::forward_plus}) {
+        Frame& frame = frames[path == Path::forward_plus];
+        frame.name = std::string(nameOf(path));
+        frame.scene = "builtin:one";
+        frame.settings.path = path;
+        frame.settings.size = {side, side};
+        frame.settings.reference_mode =
+            path == Path::reference ? ReferenceMode::scene : ReferenceMode::surface;
+        for (const DebugMode& mode : debugModes()) {
+            if (!isMadeByReference(mode)) continue;
+            Image& image = frame.channels[mode.number] =
+                Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
+            if (mode.domain == Domain::unit)
+                for (std::size_t i = 0; i < image.pixels(); ++i)
+                    std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
+        }
+    }
+    return frames;
+}
+
+Image& channelIn(Frame& frame, gpu::uint mode) {
+    return frame.channels.at(static_cast<int>(mode));
+}
+
+ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptions& options = {}) {
+    Report report;
+    report.device = {"a CPU", "1.0", "cpu"};
+    report.frames = std::move(frames);
+    const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    const bool traced = std::ranges::any_of(report.frames, [](const Frame& frame) {
+        return frame.settings.reference_mode == ReferenceMode::scene;
+    });
+    EXPECT_EQ(
+        std::ranges::any_of(comparison.notes, [](const auto& n) { return n.starts_with("mode scene: "); }),
+        traced);
+    for (const ChannelDiff& channel : comparison.channels)
+        if (channel.mode->number == static_cast<int>(mode)) return channel;
+    throw std::runtime_error("no such channel");
+}
+
+// A checkerboard of two values, in the left half.
+void addDetail(Image& image, float low, float high, int phase = 0) {
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side / 2; ++x)
+            for (int c = 0; c < image.components; ++c) image.at(x, y, c) = (x + y + phase) % 2 ? low : high;
+}
+
+TEST(Footprint, EvenPixelsAreHeldTightly) {
+    std::vector<Frame> frames = evenFrames();
+    const ChannelDiff even = judged(frames, gpu::DEBUG_roughness);
+    ASSERT_TRUE(even.footprints.has_value());
+    EXPECT_EQ(even.footprints->smooth, std::uint64_t{side * side});
+    EXPECT_EQ(even.footprints->detailed, 0u);
+    EXPECT_EQ(even.verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9e-4f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.2e-4f;
+    const ChannelDiff off = judged(frames, gpu::DEBUG_roughness);
+    EXPECT_EQ(off.verdict, Verdict::fail);
+    EXPECT_NE(off.reason.find("1.2 times it"), std::string::npos) << off.reason;
+}
+
+// Of 1,024 pixels one may be beyond its bound and two may not: p99.9.
+TEST(Footprint, OnePixelInAThousandMayBeBeyond) {
+    for (const int count : {1, 2}) {
+        std::vector<Frame> frames = evenFrames();
+        for (int i = 0; i < count; ++i) channelIn(frames[1], gpu::DEBUG_depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
+        // Its own range makes up for a sixty-fourth of the error.
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, static_cast<std::uint64_t>(count));
+    }
+}
+
+TEST(Footprint, DetailIsJudgedByFlip) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
+    const ChannelDiff alike = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_EQ(alike.footprints->detailed, std::uint64_t{side * (side / 2 + 1)})
+        << "the board, and the even column beside it";
+    EXPECT_EQ(alike.footprints->flip, 0);
+    EXPECT_EQ(alike.verdict, Verdict::pass);
+    // Another mean is another texture; the right half stays as it is.
+    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
+    const ChannelDiff other = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_EQ(other.footprints->beyond, 0u);
+    EXPECT_GT(other.footprints->flip, detailFlip);
+    EXPECT_EQ(other.verdict, Verdict::fail);
+    EXPECT_NE(other.reason.find("FLIP is"), std::string::npos) << other.reason;
+    EXPECT_NE(other.tolerance.because.find("to a mean FLIP"), std::string::npos);
+}
+
+// FLIP is the mean over the pixels with detail, however many others the picture has.
+TEST(Footprint, FlipIsOfTheDetailAlone) {
+    std::vector<Frame> frames = evenFrames();
+    addDetail(channelIn(frames[0], gpu::DEBUG_albedo), 0.2f, 0.8f);
+    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
+    std::vector<std::uint8_t> detailed(side * side, 0);
+    for (std::size_t i = 0; i < detailed.size(); ++i) detailed[i] = i % side <= side / 2;
+    FlipOptions options;
+    options.covered = detailed;
+    const double expected =
+        ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo), channelIn(frames[1], gpu::DEBUG_albedo), options)
+            .mean;
+    const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_NEAR(albedo.footprints->flip, expected, 1e-12);
+    EXPECT_GT(expected, 1.5 * ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo),
+                                      channelIn(frames[1], gpu::DEBUG_albedo), {})
+                                  .mean);
+}
+
+// Detail in either picture is detail: a path may filter away what the reference has, and the other way round.
+TEST(Footprint, APixelIsSmoothOnlyInBoth) {
+    for (const std::size_t other : {0u, 1u}) {
+        std::vector<Frame> frames = evenFrames();
+        addDetail(channelIn(frames[other], gpu::DEBUG_albedo), 0.47f, 0.53f);
+        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        EXPECT_EQ(albedo.footprints->detailed, std::uint64_t{side * (side / 2 + 1)}) << other;
+        EXPECT_EQ(albedo.footprints->beyond, 0u);
+        EXPECT_EQ(albedo.verdict, Verdict::pass) << albedo.reason;
+    }
+}
+
+// What is judged does not widen what it is held to, be it on the left or on the right: here a path's depths
+// that are wrong around one that is wronger, and albedo that is uneven where the reference is even.
+TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
+    for (const std::size_t path : {1u, 0u}) {
+        std::vector<Frame> frames = evenFrames();
+        if (path == 0) std::swap(frames[0], frames[1]);
+        Image& depth = channelIn(frames[path], gpu::DEBUG_depth);
+        for (int y = 9; y < 12; ++y)
+            for (int x = 9; x < 12; ++x) depth.at(x, y) = 0.6f;
+        depth.at(10, 10) = 100;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, 9u);
+        addDetail(channelIn(frames[path], gpu::DEBUG_albedo), 0.496f, 0.504f);
+        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        EXPECT_EQ(albedo.footprints->smooth, std::uint64_t{side * side});
+        EXPECT_EQ(albedo.footprints->beyond, std::uint64_t{side * side / 2});
+        EXPECT_EQ(albedo.verdict, Verdict::fail);
+        // The control: what is uneven in the reference may be as uneven in the path.
+        std::swap(frames[0].channels, frames[1].channels);
+        EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).footprints->beyond, 0u);
+    }
+}
+
+// An edge between two materials is nobody's fault in geometry; a moved camera is, everywhere else.
+TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames)
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side / 2; ++x) {
+                channelIn(frame, gpu::DEBUG_material_id).at(x, y) = 4;
+                channelIn(frame, gpu::DEBUG_depth).at(x, y) = 7;
+            }
+    channelIn(frames[1], gpu::DEBUG_depth).at(side / 2 - 1, 5) = 0.5f;
+    const ChannelDiff edge = judged(frames, gpu::DEBUG_depth);
+    EXPECT_EQ(edge.verdict, Verdict::pass);
+    EXPECT_EQ(edge.footprints->edges, std::uint64_t{2 * side});
+    for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v *= 1.001f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail);
+}
+
+// Another material all over is no edge, and neither is an object that is not drawn.
+TEST(Footprint, AnotherMaterialIsNoEdge) {
+    for (const float id : {5.0f, -1.0f}) {
+        std::vector<Frame> frames = evenFrames();
+        for (float& v : channelIn(frames[1], gpu::DEBUG_material_id).data) v = id;
+        for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v = id < 0 ? 0 : 0.7f;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_material_id).verdict, Verdict::fail) << id;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail) << id;
+    }
+}
+
+// A NaN is a fault wherever it is: FLIP's mean over the detail would hide two of them.
+TEST(Footprint, NansAreNeverDetail) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
+    for (const int x : {3, 7})
+        channelIn(frames[1], gpu::DEBUG_albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+}
+
+// Nor does a reference that knows nothing of its light excuse one.
+TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
+    std::vector<Frame> frames = evenFrames();
+    frames[0].uncertainty = Image(side, side, 1, std::numeric_limits<float>::infinity());
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v = 0.9f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).footprints->used, 0) << "it excuses any number";
+    for (const int x : {3, 7})
+        channelIn(frames[1], gpu::DEBUG_lit).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    const ChannelDiff lit = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(lit.footprints->beyond, 2u);
+    EXPECT_EQ(lit.footprints->used, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(lit.footprints->x, 3) << "where it is";
+    EXPECT_EQ(lit.footprints->y, 4);
+    EXPECT_EQ(lit.verdict, Verdict::fail);
+}
+
+// Light is held tightly where both have one surface: elsewhere the surface's own channel fails.
+TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
+    std::vector<Frame> frames = evenFrames();
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_metallic).data) v += 0.01f;
+    const ChannelDiff light = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(light.footprints->smooth, 0u);
+    EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.3";
+    EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
+}
+
+// Light is judged alike whichever channels are compared: the others are helpers, and what neither picture has
+// does not count. What one lacks may differ, and then a verdict of FLIP alone says so, or fails.
+TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
+    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) frame.requested = {lit};
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
+    for (Frame& frame : frames) frame.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail) << "neither has albedo";
+    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_metallic));
+    const ChannelDiff loose = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(loose.footprints->closeShare(), 0);
+    EXPECT_EQ(loose.verdict, Verdict::pass);
+    Report report;
+    report.device = {"a CPU", "1.0", "cpu"};
+    report.frames = std::move(frames);
+    CompareOptions options;
+    const std::string line =
+        "hardly a pixel is held to a bound of its own in lit (0 of 1024 pixels, the others by a mean FLIP of "
+        "0.3)";
+    EXPECT_EQ(compareFrames(report, 0, 1, {}, options).emptiness, line);
+    options.strict = true;
+    const Comparison strict = compareFrames(report, 0, 1, {}, options);
+    EXPECT_EQ(strict.failures, std::vector<std::string>{line + ", and --strict asks for more"});
+    EXPECT_FALSE(strict.passed());
+}
+
+TEST(Footprint, TheChannelsOfASurfaceAreThoseThatLightNeeds) {
+    const std::vector<int> channels = footprintChannels();
+    for (const gpu::uint mode : {gpu::DEBUG_albedo, gpu::DEBUG_metallic, gpu::DEBUG_roughness,
+                                 gpu::DEBUG_normals, gpu::DEBUG_emission, gpu::DEBUG_material_id})
+        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 1) << mode;
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_depth, gpu::DEBUG_light_count})
+        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 0) << mode;
+}
+
+// What the device makes of texels is granted as it is measured: at this code and no more.
+TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
+    CompareOptions options;
+    TextureSampling& texels = options.texels.emplace();
+    for (std::size_t code = 0; code < 256; ++code) {
+        texels.linear[code] = static_cast<float>(code) / 255;
+        texels.srgb[code] = static_cast<float>(exactSrgb(code));
+    }
+    std::vector<Frame> frames = evenFrames();
+    // A code at a half is 0.006 wide, which mip levels may be off by.
+    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.005f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.012f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail);
+    texels.srgb[220] = static_cast<float>(exactSrgb(220) * 1.02);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
+    texels.srgb[220] = static_cast<float>(exactSrgb(220));
+    texels.srgb[100] = static_cast<float>(exactSrgb(100) * 1.02);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail)
+        << "no factor brightens a darker code to a half";
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9f / 255;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.1f / 255;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::fail);
+}
+
+TEST(Footprint, OtherComparisonsHaveNone) {
+    std::vector<Frame> frames = evenFrames();
+    frames[0].settings.reference_mode = ReferenceMode::surface;
+    EXPECT_FALSE(judged(frames, gpu::DEBUG_roughness).footprints.has_value());
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+// A channel that only one side has is said by name, and fails where the same channels on both sides are asked
+// for.
+#include "compare/cli/command_line.h"
+#include "compare/cli/verdict_words.h"
+#include "compare/files/frame_exr.h"
+#include "compare/report/json.h"
+#include "compare/report/picture_diff_text.h"
+#include "compare/report/report.h"
+#include "compare/verdict/picture_diff.h"
+#include "shared/image/exr.h"
+#include "tests/support/files.h"
+#include "tests/support/modes.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Lines = std::vector<std::string>;
+const ReportDevice strictDevice{"a CPU", "1.0", "cpu"};
+
+// Both paths with a few channels of every kind.
+std::vector<Frame> fewChannels() {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames)
+        std::erase_if(frame.channels, [](const auto& channel) {
+            const DebugMode& mode = debugMode(channel.first);
+            return mode.maker == MadeBy::both && mode.name != "lit" && mode.name != "albedo" &&
+                   mode.name != "metallic" && mode.name != "material_id";
+        });
+    return frames;
+}
+
+CompareOptions strictly(bool strict) {
+    CompareOptions options;
+    options.strict = strict;
+    return options;
+}
+
+// Both paths against an earlier deferred Frame with `without` fewer channels and, where `more`, one of its
+// own.
+Report againstBaseline(const std::vector<gpu::uint>& without, const std::string& more, bool strict) {
+    Frame baseline = fewChannels()[0];
+    baseline.name = "baseline";
+    baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
+    if (!more.empty()) baseline.origin.left_out = {more};
+    for (const gpu::uint mode : without) baseline.channels.erase(static_cast<int>(mode));
+    return makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+}
+
+TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
+    for (const bool strict : {false, true}) {
+        const Report report = againstBaseline({gpu::DEBUG_albedo}, "", strict);
+        EXPECT_EQ(report.passed(), !strict);
+        for (const std::size_t pair : {0u, 1u}) {
+            const Comparison& c = report.comparisons.at(pair);
+            const std::string name = pair == 0 ? "deferred" : "forward_plus";
+            const Lines said{"albedo is in " + name +
+                             (strict ? " alone, and --strict asks for the same channels on both sides"
+                                     : " alone and was not compared")};
+            EXPECT_EQ(c.failures, strict ? said : Lines{}) << pair;
+            EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
+        }
+        EXPECT_TRUE(report.comparisons.at(2).passed()) << "the paths have the same channels";
+        // In what users and CI read.
+        const std::string table = reportTable(report), file = report.frames[0].name,
+                          pairs = file + "/deferred, builtin:one " + file + "/forward_plus";
+        const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus alone, and --strict"
+                                        : "\nnote: albedo is in forward_plus alone and was not compared\n";
+        EXPECT_NE(table.find(line), std::string::npos) << table;
+        EXPECT_EQ(countOf(table, "albedo is in forward_plus alone"), 1u) << table;
+        EXPECT_EQ(table.find("\nFAIL: 2 of 3 comparisons failed: builtin:one " + pairs +
+                             " (albedo is in deferred alone, and --strict asks for the same channels on both "
+                             "sides), and 1 more\n") != table.npos,
+                  strict)
+            << table;
+        const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+        EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
+        EXPECT_EQ(json["comparisons"][0][strict ? "failures" : "notes"].size(), 1u);
+        const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
+        EXPECT_EQ(countOf(junit, "<failure "), strict ? 2u : 0u);
+        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred alone, and --strict asks"),
+                  strict ? 1u : 0u);
+        EXPECT_NE(junit.find("albedo is in deferred alone"), std::string::npos) << junit;
+    }
+}
+
+TEST(Strict, EitherSideMayLackIt) {
+    std::vector<Frame> frames = fewChannels();
+    frames[1].channels.erase(gpu::DEBUG_metallic);
+    const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
+    EXPECT_EQ(report.comparisons[0].failures,
+              Lines{"metallic is in deferred alone, and --strict asks for the same channels on both sides"});
+    EXPECT_FALSE(report.passed());
+}
+
+// Of two paths alike: what forward+ alone can make is no difference.
+TEST(Strict, ForwardOnlyIsNoFailure) {
+    const Report report =
+        makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, strictly(true));
+    EXPECT_TRUE(report.passed());
+    EXPECT_TRUE(againstBaseline({}, "", true).passed()) << "an earlier deferred Frame lacks it by nature";
+}
+
+// Our reference has no lists of lights by nature; another renderer's file lacks them like anything else.
+TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
+    for (const bool ours : {true, false}) {
+        Frame baseline = fewChannels()[0];
+        baseline.name = "baseline";
+        baseline.settings.path = Path::reference;
+        baseline.origin = {"b.exr", ours ? "a CPU" : "", "", ""};
+        for (const DebugMode& mode : debugModes())
+            if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.number);
+        const Report report =
+            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(true), {});
+        Lines said, pathsOnly;
+        for (const DebugMode& mode : debugModes())
+            if (mode.maker == MadeBy::paths_only) pathsOnly.emplace_back(mode.name);
+        EXPECT_GT(pathsOnly.size(), 1u);
+        for (const DebugMode& mode : debugModes()) {
+            const std::string line =
+                std::string(mode.name) +
+                " is in deferred alone, and --strict asks for the same channels on both sides";
+            if (std::ranges::count(report.comparisons[0].failures, line) > 0) said.emplace_back(mode.name);
+        }
+        EXPECT_EQ(said, ours ? Lines{} : pathsOnly) << nlohmann::json(report.comparisons[0].failures);
+    }
+}
+
+TEST(Strict, OnlyChannelsThatWereAskedForCount) {
+    for (const bool asked : {false, true}) {
+        Frame baseline = fewChannels()[0];
+        baseline.origin = {"b.exr", "a CPU", "1.0", "abc", {"mystery"}};
+        baseline.channels.erase(gpu::DEBUG_albedo);
+        std::vector<Frame> frames = fewChannels();
+        baseline.requested = frames[0].requested = frames[1].requested = {litMode};
+        if (asked)
+            for (Frame* frame : {&baseline, &frames[0], &frames[1]})
+                frame->requested.push_back(gpu::DEBUG_albedo);
+        const Report report = makeBaselineReport(baseline, frames, {}, strictDevice, strictly(true), {});
+        EXPECT_EQ(report.passed(), !asked);
+    }
+}
+
+// A baseline's own channels are read, and named.
+TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
+    const std::filesystem::path file = folder() / "b.exr";
+    const Image lit(4, 3, 3, 0.5f), other(4, 3, 1, 1.0f);
+    writeExr(file, {{{"R", "G", "B"}, &lit}, {{"mystery.Y"}, &other}});
+    Frame baseline = frameFromExr(file);
+    EXPECT_EQ(baseline.origin.left_out, Lines{"mystery"});
+    for (const bool strict : {false, true}) {
+        const Report report =
+            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+        const Comparison& c = report.comparisons[0];
+        EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
+                                     "mystery of baseline: none of our channels, not compared"),
+                  1);
+    }
+    EXPECT_FALSE(againstBaseline({}, "mystery", true).passed());
+    EXPECT_TRUE(againstBaseline({}, "mystery", false).passed());
+}
+
+// ---- Two files ----
+
+PictureDiff diffOf(const std::vector<std::string>& left, const std::vector<std::string>& right, bool strict,
+                   const std::vector<std::string>& channels = {}) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    for (const auto& [file, names] : {std::pair{"a.exr", left}, {"b.exr", right}}) {
+        std::vector<ExrLayerView> layers;
+        for (const std::string& name : names) layers.push_back({{name + ".Y"}, &grey});
+        writeExr(here / file, layers);
+    }
+    PictureDiffOptions options;
+    options.strict = strict;
+    options.channels = channels;
+    return diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+}
+
+TEST(Strict, DiffSaysWhichFileLacksWhat) {
+    for (const bool strict : {false, true}) {
+        const PictureDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
+        const std::string ending =
+            strict ? ", and --strict asks for the same channels on both sides" : " and was not compared";
+        const Lines said{"one is in the reference alone" + ending, "other is in the test alone" + ending};
+        EXPECT_EQ(diff.passed(), !strict);
+        EXPECT_EQ(strict ? diff.failures : Lines{}, strict ? said : Lines{});
+        EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
+        const std::string table = pictureDiffTable(diff);
+        for (const std::string& line : said)
+            EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line + "\n"), std::string::npos)
+                << table;
+        EXPECT_EQ(table.ends_with("FAIL: " + said[0] + "\n"), strict) << table;
+        const auto json = nlohmann::json::parse(pictureDiffJson(diff));
+        EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
+        EXPECT_EQ(json["failures"].size(), strict ? 2u : 0u);
+    }
+    EXPECT_TRUE(diffOf({"metallic"}, {"metallic"}, true).passed());
+    EXPECT_TRUE(diffOf({"metallic", "one"}, {"metallic"}, true, {"metallic"}).passed())
+        << "one was not asked for";
+    EXPECT_FALSE(diffOf({"metallic", "one"}, {"metallic"}, true).passed());
+    EXPECT_FALSE(diffOf({"metallic"}, {"metallic", "one"}, true).passed());
+}
+
+// A rule or --channels that names a channel demands it on both sides; a rule for all channels does not.
+TEST(Strict, WhatIsNamedIsDemanded) {
+    const auto failures = [](const std::string& pattern, std::vector<int> required) {
+        Frame baseline = fewChannels()[0];
+        baseline.name = "baseline";
+        baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
+        baseline.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+        CompareOptions options;
+        options.required = std::move(required);
+        if (!pattern.empty())
+            options.rules = rulesFromJson(
+                R"({"rules": [{"channel": ")" + pattern + R"(", "max": 9, "because": "any"}]})", "t.json");
+        const Report report = makeBaselineReport(baseline, fewChannels(), {}, strictDevice, options, {});
+        return report.comparisons[0].failures;
+    };
+    EXPECT_EQ(failures("", {}), Lines{});
+    EXPECT_EQ(failures("*", {}), Lines{});
+    EXPECT_EQ(failures("lit", {}), Lines{});
+    EXPECT_EQ(failures("albedo", {}), Lines{"albedo is in deferred alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(failures("alb*", {}).size(), 1u);
+    EXPECT_EQ(failures("", {litMode}), Lines{});
+    EXPECT_EQ(failures("", {static_cast<int>(gpu::DEBUG_albedo)}),
+              Lines{"albedo is in deferred alone, and --channels asks for it"});
+}
+
+// What only forward+ can make fails where a rule is to judge it: nothing does.
+TEST(Strict, ARuleOnWhatForwardAloneHasIsNeverMet) {
+    CompareOptions options;
+    options.rules =
+        rulesFromJson(R"({"rules": [{"channel": "texcoords", "max": 9, "because": "any"}]})", "t.json");
+    const Report report = makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, options);
+    EXPECT_EQ(report.comparisons[0].failures,
+              Lines{"texcoords is in forward_plus alone, and t.json, rule 1 judges it"});
+}
+
+TEST(Strict, DiffDemandsWhatARuleNames) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
+    writeExr(here / "b.exr", {{{"one.Y"}, &grey}});
+    PictureDiffOptions options;
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "two", "max": 1, "because": "any"}]})", "t.json");
+    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    EXPECT_EQ(diff.failures, Lines{"two is in the reference alone, and t.json, rule 1 judges it"});
+}
+
+// Pictures that show nothing pass with a word about it, and fail where --strict asks for more.
+TEST(Strict, FailsADiffOfBlackPictures) {
+    const std::filesystem::path here = folder();
+    const Image none(4, 3, 3);
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &none}});
+    const auto diff = [&](bool strict, bool allowed) {
+        PictureDiffOptions options;
+        options.strict = strict;
+        options.allow_empty = allowed;
+        return diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+    };
+    const std::string line = "both pictures are black: every value compared is 0";
+    EXPECT_TRUE(diff(false, false).passed());
+    EXPECT_EQ(diff(false, false).emptiness, line);
+    EXPECT_EQ(diff(true, false).failures, Lines{line + "; --allow-empty grants that"});
+    EXPECT_FALSE(diff(true, false).passed());
+    EXPECT_TRUE(diff(true, true).passed());
+}
+
+// A rule for one channel that neither side has judges nothing: that is a mistake, a pattern's is none, and
+// neither is a channel that --channels left out.
+TEST(Strict, ARuleForAChannelOfNeitherFileFails) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
+    PictureDiffOptions options;
+    options.channels = {"one"};
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "tow", "max": 1, "because": "any"},
+                                                {"channel": "three*", "max": 1, "because": "any"},
+                                                {"channel": "two", "max": 1, "because": "any"}]})",
+                                  "t.json");
+    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+    EXPECT_EQ(diff.failures, Lines{"t.json, rule 1: no channel here is called tow; did you mean two?"});
+    EXPECT_EQ(diff.notes.back(), "t.json, rule 2: no channel here is called three*");
+}
+
+// One for a channel that one side has is judged there: it is no rule without a channel.
+TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
+    CompareOptions options;
+    options.rules =
+        rulesFromJson(R"({"rules": [{"channel": "albedo", "max": 1, "because": "any"}]})", "t.json");
+    std::vector<Frame> frames = fewChannels();
+    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+    Report report;
+    report.device = strictDevice;
+    report.frames = std::move(frames);
+    const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    EXPECT_EQ(comparison.failures, Lines{"albedo is in forward_plus alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(comparison.notes, Lines{});
+}
+
+// compare knows all channels that there can be.
+TEST(Rules, AreRefusedForAChannelThatIsNone) {
+    const std::vector<Rule> rules =
+        rulesFromJson(R"({"rules": [{"channel": "lit*", "max": 1, "because": "any"},
+                                    {"channel": "albdeo", "max": 1, "because": "any"}]})",
+                      "t.json");
+    const std::vector<std::string> known{"lit", "albedo"};
+    EXPECT_NO_THROW(checkChannels(std::span(rules).first(1), known));
+    EXPECT_NO_THROW(checkChannels(std::span(rules).first(1), {"other"})) << "a pattern may match nothing";
+    try {
+        checkChannels(rules, known);
+        ADD_FAILURE() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "t.json, rule 2: no channel is called albdeo; did you mean albedo?");
+    }
+}
+
+// The option reaches both commands, and the command that a report prints.
+TEST(Strict, IsAnOptionOfCompareAndDiff) {
+    for (const Lines& words :
+         {Lines{"compare", "builtin:points", "--strict"}, Lines{"diff", "a.exr", "b.exr", "--strict"}}) {
+        const cli::Options options = cli::parseCommandLine(words);
+        EXPECT_TRUE(options.strict);
+        EXPECT_EQ(cli::wordsOfWhatCounts(options).back(), "--strict");
+        EXPECT_FALSE(options.allow_empty);
+        EXPECT_NE(cli::parseCommandLine({words[0], "--help"}).help.find("--strict"), std::string::npos);
+    }
+    EXPECT_FALSE(cli::parseCommandLine({"compare"}).strict);
+    EXPECT_THROW(cli::parseCommandLine({"render", "--strict"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// TIFFs made byte by byte, so that nothing of what reads them also made them.
+#include "shared/image/tiff.h"
+#include "shared/image/picture_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// TIFF 6.0, section 2: a header, one directory of 12 bytes a tag, and one strip behind it. Little-endian.
+struct MadeTiff {
+    // TIFF's numbers: 256 width, 257 height, 258 bits, 259 compression, 262 colours, 273 offset, 277 samples,
+    // 278 rows a strip, 279 bytes, 284 planes, 339 format, 274 orientation.
+    std::map<int, std::uint32_t> tags;
+    std::string strip;
+
+    std::string bytes() const {
+        std::string out("II*\0\x08\0\0\0", 8);
+        const auto put = [&](std::uint32_t value, int size) {
+            for (int i = 0; i < size; ++i) out += static_cast<char>(value >> (8 * i));
+        };
+        put(static_cast<std::uint32_t>(tags.size()), 2);
+        // Of several samples the bits and the format are written once each, which libtiff takes for all.
+        const std::uint32_t begin = static_cast<std::uint32_t>(8 + 2 + 12 * tags.size() + 4);
+        for (const auto& [tag, value] : tags) {
+            put(static_cast<std::uint32_t>(tag), 2);
+            put(4, 2);  // LONG
+            put(1, 4);
+            put(tag == 273 ? begin : value, 4);
+        }
+        put(0, 4);
+        return out + strip;
+    }
+};
+
+MadeTiff made(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint32_t bits,
+              std::uint32_t format, const std::string& strip) {
+    const auto bytes = static_cast<std::uint32_t>(strip.size());
+    return {{{256, width},
+             {257, height},
+             {258, bits},
+             {259, 1},
+             {262, samples < 3 ? 1u : 2u},
+             {273, 0},
+             {277, samples},
+             {278, height},
+             {279, bytes},
+             {284, 1},
+             {339, format}},
+            strip};
+}
+
+template <class T>
+std::string stored(const std::vector<T>& values) {
+    std::string out(sizeof(T) * values.size(), '\0');
+    std::memcpy(out.data(), values.data(), out.size());
+    return out;
+}
+
+TiffPicture read(const MadeTiff& file, std::uint64_t most = 1 << 20) {
+    const std::string bytes = file.bytes();
+    return readTiff(std::as_bytes(std::span(bytes)), "a.tif", most);
+}
+
+std::string tiffFault(const std::string& bytes, std::uint64_t most = 1 << 20) {
+    try {
+        readTiff(std::as_bytes(std::span(bytes)), "a.tif", most);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "reads";
+}
+
+TEST(Tiff, EverySampleIsReadAsItIs) {
+    using Values = PixelData;
+    const TiffPicture octets = read(made(2, 2, 1, 8, 1, stored<std::uint8_t>({0, 51, 102, 255})));
+    EXPECT_EQ(octets.image.data, (Values{0, 51 / 255.0f, 102 / 255.0f, 1}));
+    EXPECT_EQ(octets.sample, "8 bit");
+    EXPECT_FALSE(octets.linear);
+    const TiffPicture words = read(made(2, 1, 1, 16, 1, stored<std::uint16_t>({1, 65535})));
+    EXPECT_EQ(words.image.data, (Values{1 / 65535.0f, 1}));
+    EXPECT_EQ(words.sample, "16 bit");
+    const TiffPicture longs = read(made(2, 1, 1, 32, 1, stored<std::uint32_t>({0x80000000u, 0xffffffffu})));
+    EXPECT_FLOAT_EQ(longs.image.data[0], 0.5f);
+    EXPECT_EQ(longs.image.data[1], 1);
+    const TiffPicture reals = read(made(1, 2, 3, 32, 3, stored<float>({0.1f, -2, 1e30f, 4, 5, 6})));
+    EXPECT_EQ(reals.image.components, 3);
+    EXPECT_EQ(reals.image.data, (Values{0.1f, -2, 1e30f, 4, 5, 6}));
+    EXPECT_EQ(reals.sample, "float");
+    EXPECT_TRUE(reals.linear);
+    const TiffPicture halves = read(made(2, 1, 1, 16, 3, stored<std::uint16_t>({0x3c00, 0xc000})));
+    EXPECT_EQ(halves.image.data, (Values{1, -2}));
+    EXPECT_EQ(halves.sample, "half");
+}
+
+TEST(Tiff, RowsAndColumnsStandWhereTheOrientationSays) {
+    const std::vector<float> values{1, 2, 3, 4};
+    const std::map<std::uint32_t, PixelData> expected{
+        {1, {1, 2, 3, 4}}, {2, {2, 1, 4, 3}}, {3, {4, 3, 2, 1}}, {4, {3, 4, 1, 2}}};
+    for (const auto& [orientation, data] : expected) {
+        MadeTiff file = made(2, 2, 1, 32, 3, stored(values));
+        file.tags[274] = orientation;
+        EXPECT_EQ(read(file).image.data, data) << orientation;
+    }
+}
+
+TEST(Tiff, WhiteMayBeZero) {
+    MadeTiff file = made(2, 1, 1, 8, 1, stored<std::uint8_t>({0, 255}));
+    file.tags[262] = 0;
+    EXPECT_EQ(read(file).image.data, (PixelData{1, 0}));
+    MadeTiff seen = made(2, 1, 2, 8, 1, stored<std::uint8_t>({0, 51, 255, 255}));
+    seen.tags[262] = 0;
+    seen.tags[338] = 2;
+    EXPECT_EQ(read(seen).image.data, (PixelData{1, 51 / 255.0f, 0, 1})) << "alpha is not turned over";
+}
+
+TEST(Tiff, IsAPictureFileLikeOthers) {
+    const std::string bytes = made(1, 1, 3, 8, 1, stored<std::uint8_t>({255, 0, 51})).bytes();
+    const PictureFile file = readPicture(std::as_bytes(std::span(bytes)), "whatever.png");
+    EXPECT_EQ(file.format, "TIFF");
+    EXPECT_TRUE(file.display_referred);
+    ASSERT_EQ(file.layers.size(), 1u);
+    EXPECT_EQ(file.layers[0].channels, (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(file.layers[0].sample, "8 bit");
+    EXPECT_EQ(file.layers[0].image.data, (PixelData{1, 0, 51 / 255.0f}));
+}
+
+TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
+    const MadeTiff sound = made(2, 2, 1, 8, 1, std::string(4, 'x'));
+    struct Case {
+        int tag;
+        std::uint32_t value;
+        const char* said;
+    };
+    for (const Case& wrong :
+         {Case{259, 7, "compression 7"}, Case{262, 5, "photometric interpretation 5"},
+          Case{258, 4, "4 bit samples"}, Case{339, 2, "format 2"}, Case{277, 2, "reads"},
+          Case{277, 4, "4 samples"}, Case{274, 6, "orientation 6"}, Case{256, 70000, "70000 x 2 pixels"},
+          Case{257, 60000, "bytes cannot hold"}, Case{256, 0, "a.tif"}}) {
+        MadeTiff file = sound;
+        file.tags[wrong.tag] = wrong.value;
+        if (wrong.tag == 277 && wrong.value == 2) {  // grey and alpha, which are there
+            file.strip.resize(8, 'x');
+            file.tags[279] = 8;
+        }
+        const std::string fault = tiffFault(file.bytes());
+        EXPECT_NE(fault.find(wrong.said), std::string::npos) << wrong.tag << ": " << fault;
+        EXPECT_EQ(fault.find('\n'), std::string::npos);
+    }
+    EXPECT_NE(tiffFault(sound.bytes(), 8).find("a.tif: "), std::string::npos) << "more memory than allowed";
+}
+
+// Cut anywhere, and with every byte changed in turn: it reads, or says why in a line.
+TEST(Tiff, BrokenFilesAreOneLine) {
+    const std::string sound = made(3, 2, 3, 16, 1, std::string(36, 'y')).bytes();
+    ASSERT_EQ(tiffFault(sound), "reads");
+    int refused = 0;
+    const auto check = [&](const std::string& bytes) {
+        const std::string fault = tiffFault(bytes);
+        refused += fault != "reads";
+        EXPECT_TRUE(fault == "reads" || fault.starts_with("a.tif: ")) << fault;
+        EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+    };
+    for (std::size_t size = 0; size < sound.size(); ++size) check(sound.substr(0, size));
+    EXPECT_EQ(refused, static_cast<int>(sound.size())) << "none of the cut ones is whole";
+    for (std::size_t i = 4; i < sound.size() - 36; ++i)
+        for (const char value : {'\0', '\x01', '\x7f', '\xff'}) {
+            std::string bytes = sound;
+            bytes[i] = value;
+            check(bytes);
+        }
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+// KHR_animation_pointer: what pointers name, what of it moves and how far.
+#include "shared/scene/model/animated.h"
+#include "shared/scene/motion/pose.h"
+#include "shared/scene/requirements.h"
+#include "tests/support/gltf_maker.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const onePixel =
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5E"
+    "rkJggg==";
+
+// A morphed triangle of a textured material, a spot, a sun, and both kinds of camera.
+struct PointerFile : GltfFile {
+    PointerFile() : GltfFile(triangle()) {
+        const int up = accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, FLOAT, "VEC3", 3);
+        primitive()["targets"] = {{{"POSITION", up}}, {{"POSITION", up}}};
+        primitive()["attributes"]["TEXCOORD_0"] = accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC2", 2);
+        primitive()["material"] = 0;
+        json["meshes"][0]["weights"] = {0.5, 0.25};
+        const Json texture = {{"index", 0}};
+        json["materials"] = {
+            {{"pbrMetallicRoughness", {{"baseColorTexture", texture}, {"metallicRoughnessTexture", texture}}},
+             {"normalTexture", texture},
+             {"occlusionTexture", texture},
+             {"emissiveTexture", texture},
+             {"extensions",
+              {{"KHR_materials_specular",
+                {{"specularTexture", texture}, {"specularColorTexture", texture}}}}}}};
+        json["images"] = {{{"uri", onePixel}}};
+        json["textures"] = {{{"source", 0}}};
+        json["cameras"] = {
+            {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.5}, {"zfar", 10}}}},
+            {{"type", "orthographic"},
+             {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 10}}}}};
+        json["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "spot"}, {"range", 5}, {"spot", {{"innerConeAngle", 0.125}, {"outerConeAngle", 0.5}}}},
+            {{"type", "directional"}}};
+        const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
+        json["nodes"][0]["extensions"] = light(0);
+        json["nodes"].push_back({{"camera", 0}, {"extensions", light(1)}});
+        json["nodes"].push_back({{"camera", 1}, {"extensions", light(0)}});
+        json["scenes"] = {{{"nodes", {0, 1, 2}}}};
+        json["extensionsUsed"] = {"KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_specular"};
+    }
+    // Keys at 0 s and 1 s.
+    PointerFile& channel(const std::string& pointer, const std::vector<float>& values,
+                         const char* interpolation = "LINEAR") {
+        const std::size_t width = values.size() / (std::string(interpolation) == "CUBICSPLINE" ? 6 : 2);
+        const bool array = pointer.ends_with("/weights");
+        const char* const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+        return channelTo(pointer, accessor(values, FLOAT, array ? "SCALAR" : types[width], array ? 1 : width),
+                         interpolation);
+    }
+    PointerFile& channelTo(const std::string& pointer, int output, const char* interpolation = "LINEAR") {
+        Json& a = json["animations"][0];
+        a["samplers"].push_back({{"input", accessor<float>({0, 1}, FLOAT, "SCALAR", 1)},
+                                 {"output", output},
+                                 {"interpolation", interpolation}});
+        a["channels"].push_back(
+            {{"sampler", a["samplers"].size() - 1},
+             {"target",
+              {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+        return *this;
+    }
+};
+
+const Material& materialAt(const Scene& scene, const Pose& pose) {
+    return materialsOf(scene, pose).at(0);
+}
+
+// ---- every property ----------------------------------------------------------------------------------
+
+// Each moves from 0.25 to 0.75 alone: at half a second it is 0.5, in every component.
+TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
+    using Read = std::function<std::vector<double>(const Scene&, const Pose&)>;
+    const auto material = [](auto member) {
+        return [member](const Scene& s, const Pose& p) {
+            return std::vector<double>{static_cast<double>(materialAt(s, p).*member)};
+        };
+    };
+    const auto rgb = [](const glm::vec3& c) { return std::vector<double>{c.r, c.g, c.b}; };
+    const std::string lights = "/extensions/KHR_lights_punctual/lights/0/", m = "/materials/0/";
+    const std::tuple<std::string, std::size_t, Read> cases[] = {
+        {"/nodes/0/translation", 3,
+         [](const Scene&, const Pose& p) {
+             const glm::dmat4& w = p.instances.at(0).world_from_object;
+             return std::vector<double>{w[3].x, w[3].y, w[3].z};
+         }},
+        {"/nodes/0/scale", 3,
+         [](const Scene&, const Pose& p) {
+             const glm::dmat4& w = p.instances.at(0).world_from_object;
+             return std::vector<double>{w[0].x, w[1].y, w[2].z};
+         }},
+        {"/nodes/0/weights", 2, [](const Scene&, const Pose& p) { return p.weights.at(0); }},
+        {"/meshes/0/weights", 2, [](const Scene&, const Pose& p) { return p.weights.at(0); }},
+        {lights + "color", 3, [&](const Scene&, const Pose& p) { return rgb(p.lights.at(1).color); }},
+        {lights + "intensity", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.lights.at(1).intensity}; }},
+        {lights + "range", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.lights.at(2).range}; }},
+        {lights + "spot/outerConeAngle", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.lights.at(2).outer_cone}; }},
+        {"/cameras/0/perspective/yfov", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(0).yfov}; }},
+        {"/cameras/0/perspective/znear", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(0).near}; }},
+        {"/cameras/1/orthographic/ymag", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(1).ymag}; }},
+        {"/cameras/1/orthographic/znear", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(1).near}; }},
+        {m + "pbrMetallicRoughness/baseColorFactor", 4,
+         [](const Scene& s, const Pose& p) {
+             const glm::vec4& c = materialAt(s, p).base_color;
+             return std::vector<double>{c.r, c.g, c.b, c.a};
+         }},
+        {m + "pbrMetallicRoughness/metallicFactor", 1, material(&Material::metallic)},
+        {m + "pbrMetallicRoughness/roughnessFactor", 1, material(&Material::roughness)},
+        {m + "normalTexture/scale", 1, material(&Material::normal_scale)},
+        {m + "occlusionTexture/strength", 1, material(&Material::occlusion_strength)},
+        {m + "emissiveFactor", 3,
+         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).emissive); }},
+        {m + "alphaCutoff", 1, material(&Material::alpha_cutoff)},
+        {m + "extensions/KHR_materials_specular/specularFactor", 1, material(&Material::specular)},
+        {m + "extensions/KHR_materials_specular/specularColorFactor", 3,
+         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).specular_color); }},
+        {m + "extensions/KHR_materials_transmission/transmissionFactor", 1,
+         material(&Material::transmission)},
+    };
+    for (const auto& [pointer, width, read] : cases) {
+        PointerFile f;
+        std::vector<float> values(2 * width, 0.25f);
+        std::fill(values.begin() + static_cast<std::ptrdiff_t>(width), values.end(), 0.75f);
+        f.channel(pointer, values);
+        const Scene scene = f.load();
+        ASSERT_EQ(scene.animations.size(), 1u) << pointer << (scene.notes.empty() ? "" : scene.notes[0]);
+        for (const auto& [seconds, value] : {std::pair{0.0, 0.25}, {0.5, 0.5}, {1e6, 0.75}})
+            EXPECT_EQ(read(scene, poseAt(scene, seconds)), std::vector<double>(width, value))
+                << pointer << " at " << seconds;
+        EXPECT_FALSE(mentions(scene.notes, "animation")) << pointer;
+    }
+}
+
+TEST(GltfAnimationPointer, RestIsAsTheFileSays) {
+    PointerFile f;
+    f.channel("/materials/0/alphaCutoff", {0.25f, 0.75f});
+    const Scene scene = f.load();
+    Material moved = poseAt(scene, 0.5).materials.at(0);
+    const Material& rest = scene.materials[0];
+    EXPECT_EQ(moved.alpha_cutoff, 0.5f);
+    EXPECT_EQ(moved.base_color, rest.base_color);
+    EXPECT_EQ(moved.emissive, rest.emissive);
+    EXPECT_EQ(moved.normal_texture.u, rest.normal_texture.u);
+    EXPECT_EQ(rest.alpha_cutoff, 0.5f) << "the default";
+    PointerFile still;
+    still.channel("/nodes/0/translation", {0, 0, 0, 1, 1, 1});
+    EXPECT_TRUE(poseAt(still.load(), 0.5).materials.empty()) << "nothing of a material moves";
+}
+
+TEST(GltfAnimationPointer, RotationsTakeTheShortArc) {
+    PointerFile f;
+    const float s = static_cast<float>(std::sin(std::numbers::pi / 4));
+    f.channel("/nodes/0/rotation", {0, 0, 0, 1, 0, 0, -s, -s});  // 90 degrees, the other sign
+    const glm::dmat4 w = poseAt(f.load(), 0.5).instances.at(0).world_from_object;
+    EXPECT_NEAR(w[0].x, std::sqrt(0.5), 1e-7);
+    EXPECT_NEAR(w[0].y, std::sqrt(0.5), 1e-7) << "45 degrees, not -135";
+}
+
+// A factor and its strength may move each by itself; the file's own is used for the one that does not.
+TEST(GltfAnimationPointer, EmissionIsFactorTimesStrength) {
+    const auto at = [](const std::function<void(PointerFile&)>& change) {
+        PointerFile f;
+        f.json["materials"][0]["emissiveFactor"] = {1, 0.5, 0};
+        f.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 8;
+        change(f);
+        const Scene scene = f.load();
+        return poseAt(scene, 1).materials.at(0).emissive;
+    };
+    const std::string strength = "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength";
+    const auto factor = [](PointerFile& f) {
+        f.channel("/materials/0/emissiveFactor", {0, 0, 0, 0.5f, 1, 0.25f});
+    };
+    EXPECT_EQ(at(factor), glm::vec3(4, 8, 2));
+    EXPECT_EQ(at([&](PointerFile& f) { f.channel(strength, {0, 2}); }), glm::vec3(2, 1, 0));
+    EXPECT_EQ(at([&](PointerFile& f) {
+                  f.channel(strength, {0, 2});
+                  factor(f);
+              }),
+              glm::vec3(1, 2, 0.5f));
+}
+
+// Offset, rotation and scale combine as KHR_texture_transform says, whichever of them move.
+TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
+    const std::pair<const char*, TextureSlot Material::*> slots[] = {
+        {"pbrMetallicRoughness/baseColorTexture", &Material::base_color_texture},
+        {"pbrMetallicRoughness/metallicRoughnessTexture", &Material::metallic_roughness_texture},
+        {"normalTexture", &Material::normal_texture},
+        {"occlusionTexture", &Material::occlusion_texture},
+        {"emissiveTexture", &Material::emissive_texture},
+        {"extensions/KHR_materials_specular/specularTexture", &Material::specular_texture},
+        {"extensions/KHR_materials_specular/specularColorTexture", &Material::specular_color_texture}};
+    for (const auto& [slot, member] : slots) {
+        const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
+        PointerFile f;
+        Json& info = f.json.at(Json::json_pointer(fmt::format("/materials/0/{}", slot)));
+        info["extensions"]["KHR_texture_transform"] = {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}};
+        f.channel(at + "rotation", {0, static_cast<float>(std::numbers::pi)});
+        const Scene scene = f.load();
+        const TextureSlot turned = poseAt(scene, 0.5).materials.at(0).*member;
+        // A quarter of a turn: u' = sin * scale.y * v + offset.x, v' = -sin * scale.x * u + offset.y.
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(turned.u[c], glm::dvec3(0, 3, 0.5)[c], 1e-6) << slot;
+            EXPECT_NEAR(turned.v[c], glm::dvec3(-2, 0, 0.25)[c], 1e-6) << slot;
+        }
+        f.channel(at + "offset", {0, 0, 1, 2}).channel(at + "scale", {1, 1, 5, 7});
+        const Scene all = f.load();
+        const TextureSlot moved = poseAt(all, 0.5).materials.at(0).*member;
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(moved.u[c], glm::dvec3(0, 4, 0.5)[c], 1e-6) << slot;
+            EXPECT_NEAR(moved.v[c], glm::dvec3(-3, 0, 1)[c], 1e-6) << slot;
+        }
+    }
+}
+
+TEST(GltfAnimationPointer, OneWeightLeavesTheOthers) {
+    PointerFile f;
+    f.channel("/nodes/0/weights/1", {0, 4});
+    EXPECT_EQ(poseAt(f.load(), 0.5).weights.at(0), (std::vector<double>{0.5, 2})) << "the mesh's at rest";
+    f.json["nodes"][0]["weights"] = {7, 8};
+    EXPECT_EQ(poseAt(f.load(), 0.5).weights.at(0), (std::vector<double>{7, 2})) << "the node's own at rest";
+    PointerFile mesh;
+    mesh.channel("/meshes/0/weights/0", {0, 4});
+    EXPECT_EQ(poseAt(mesh.load(), 0.5).weights.at(0), (std::vector<double>{2, 0.25}));
+    mesh.json["nodes"][0]["weights"] = {7, 8};
+    EXPECT_EQ(poseAt(mesh.load(), 0.5).weights.at(0), (std::vector<double>{7, 8}))
+        << "the node's own replace it";
+}
+
+// One light of the file is two lights of the scene.
+TEST(GltfAnimationPointer, EveryNodeOfALightShowsItsMotion) {
+    PointerFile f;
+    f.channel("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 8});
+    const Pose pose = poseAt(f.load(), 0.5);
+    ASSERT_EQ(pose.lights.size(), 3u);
+    EXPECT_EQ(pose.lights[0].kind, LightKind::directional);
+    EXPECT_EQ(pose.lights[0].intensity, 1);
+    EXPECT_EQ(pose.lights[1].intensity, 4);
+    EXPECT_EQ(pose.lights[2].intensity, 4);
+}
+
+TEST(GltfAnimationPointer, LaterAnimationsWin) {
+    PointerFile f;
+    f.channel("/materials/0/alphaCutoff", {0, 1})
+        .channel("/materials/0/pbrMetallicRoughness/metallicFactor", {1, 0});
+    const Json first = f.json["animations"][0];
+    f.json["animations"].erase(0);
+    f.channel("/materials/0/alphaCutoff", {3, 3});
+    f.json["animations"].insert(f.json["animations"].begin(), first);
+    const Scene scene = f.load();
+    EXPECT_EQ(poseAt(scene, 0.5).materials.at(0).alpha_cutoff, 3);
+    EXPECT_EQ(poseAt(scene, 0.5).materials[0].metallic, 0.5f);
+    EXPECT_EQ(poseAt(scene, 0.5, "0").materials.at(0).alpha_cutoff, 0.5f);
+    EXPECT_EQ(poseAt(scene, 0.5, "1").materials.at(0).metallic, 1);
+}
+
+// Integers stand for themselves, normalized ones for parts of their largest.
+TEST(GltfAnimationPointer, ValuesMayBeIntegers) {
+    PointerFile f;
+    const std::string intensity = "/extensions/KHR_lights_punctual/lights/0/intensity";
+    f.channelTo(intensity, f.accessor<std::uint16_t>({0, 200}, USHORT, "SCALAR", 1));
+    f.channelTo("/materials/0/alphaCutoff", f.accessor<std::uint16_t>({0, 65535}, USHORT, "SCALAR", 1, true));
+    const Scene scene = f.load();
+    EXPECT_EQ(poseAt(scene, 1).lights.at(1).intensity, 200);
+    EXPECT_EQ(poseAt(scene, 0.5).materials.at(0).alpha_cutoff, 0.5f);
+}
+
+// ---- what is out of range ----------------------------------------------------------------------------
+
+// A spline from 0 to 1 with steep tangents passes both ends; values are held there.
+TEST(GltfAnimationPointer, SplinesAreHeldWithinTheRange) {
+    PointerFile f;
+    const std::vector<float> steep{0, 0, -20, -20, 1, 0};  // below 0 first, then above 1
+    f.channel("/materials/0/pbrMetallicRoughness/metallicFactor", steep, "CUBICSPLINE");
+    f.channel("/extensions/KHR_lights_punctual/lights/0/intensity", steep, "CUBICSPLINE");
+    f.channel("/extensions/KHR_lights_punctual/lights/0/range", {0, 0.5f, -20, -20, 1, 0}, "CUBICSPLINE");
+    const Scene scene = f.load();
+    const Pose low = poseAt(scene, 0.25), high = poseAt(scene, 0.75);
+    EXPECT_EQ(low.materials.at(0).metallic, 0);
+    EXPECT_EQ(high.materials.at(0).metallic, 1);
+    EXPECT_EQ(low.lights.at(1).intensity, 0);
+    EXPECT_GT(high.lights.at(1).intensity, 1);
+    EXPECT_FLOAT_EQ(low.lights.at(1).range, 1e-6f);
+    EXPECT_FALSE(mentions(scene.notes, "outside")) << "its keys are valid";
+}
+
+TEST(GltfAnimationPointer, KeysBeyondTheRangeAreNoted) {
+    PointerFile f;
+    f.channel("/materials/0/pbrMetallicRoughness/roughnessFactor", {0.5f, 3});
+    f.channel("/materials/0/extensions/KHR_materials_ior/ior", {0.5f, 2});
+    const Scene scene = f.load();
+    EXPECT_TRUE(mentions(scene.notes, "animation 0: channel 0: 3 is outside 0 to 1: taken as the nearest"));
+    EXPECT_TRUE(mentions(scene.notes, "animation 0: channel 1: ior 0.5 is neither 0 nor at least 1"));
+    EXPECT_EQ(poseAt(scene, 1).materials.at(0).roughness, 1);
+    EXPECT_EQ(poseAt(scene, 0).materials.at(0).ior, 1);
+    EXPECT_EQ(poseAt(scene, 1).materials.at(0).ior, 2);
+}
+
+TEST(GltfAnimationPointer, ConesAndPlanesStayInOrder) {
+    PointerFile f;
+    f.channel("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", {0.5f, 0.0625f});
+    f.channel("/cameras/0/perspective/znear", {0.5f, 20}).channel("/cameras/1/orthographic/znear", {0, 20});
+    const Scene scene = f.load();
+    const Pose pose = poseAt(scene, 1);
+    EXPECT_EQ(pose.lights.at(1).outer_cone, 0.0625f);
+    EXPECT_EQ(pose.lights[1].inner_cone, 0.0625f) << "at most the outer one";
+    EXPECT_EQ(pose.cameras.at(0).near, 20);
+    EXPECT_TRUE(std::isinf(pose.cameras[0].far));
+    EXPECT_GT(pose.cameras.at(1).far, 20);
+    EXPECT_LT(pose.cameras[1].far, 20.001);
+    EXPECT_EQ(poseAt(scene, 0).cameras.at(1).near, 0);
+}
+
+// ---- what a factor switches on -----------------------------------------------------------------------
+
+TEST(GltfAnimationPointer, WhatAFactorSwitchesOnIsNeeded) {
+    PointerFile f;
+    f.json["materials"][0].erase("emissiveTexture");
+    f.channel("/materials/0/emissiveFactor", {0, 0, 0, 0.5f, 0.25f, 0});
+    f.channel("/materials/0/extensions/KHR_materials_transmission/transmissionFactor", {0, 1});
+    f.channel("/materials/0/normalTexture/scale", {0, 1});
+    f.channel("/materials/0/normalTexture/extensions/KHR_texture_transform/offset", {0, 0, 1, 0});
+    const Scene scene = f.load();
+    const Requirements start = requirements(scene, poseAt(scene, 0)),
+                       end = requirements(scene, poseAt(scene, 1));
+    EXPECT_FALSE(start.emission || start.alpha_blend || start.normal_maps || start.texture_transform);
+    EXPECT_TRUE(end.emission && end.alpha_blend && end.normal_maps && end.texture_transform);
+    EXPECT_EQ(end.max_emission, 0.5f);
+    EXPECT_EQ(materialsThatBlend(scene), (std::vector<bool>{true}));
+    EXPECT_TRUE(mentions(scene.notes, "1 material (0) with KHR_materials_transmission: blended"));
+}
+
+// ---- faults ------------------------------------------------------------------------------------------
+
+TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
+    const std::string nothing = "names nothing that is moved here";
+    const std::pair<std::string, std::string> cases[] = {
+        {"", nothing},
+        {"/", nothing},
+        {"nodes/0/scale", nothing},
+        {"/nodes/0", nothing},
+        {"/nodes/0/scale/", nothing},
+        {"/nodes/0/scale/0", nothing},
+        {"/nodes/-1/scale", nothing},
+        {"/nodes/00/scale", nothing},
+        {"/nodes/+0/scale", nothing},
+        {"/nodes//scale", nothing},
+        {"/nodes/99999999999999999999/scale", nothing},
+        {"/nodes/0/matrix", nothing},
+        {"/cameras/0/perspective/aspectRatio", nothing},
+        {"/cameras/1/orthographic/xmag", nothing},
+        {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", nothing},
+        {"/materials/0/doubleSided", nothing},
+        {"/materials/0/extras/a", nothing},
+        {"/nodes/3/scale", "the file has 3 of them"},
+        {"/materials/1/alphaCutoff", "the file has 1 of them"},
+        {"/meshes/0/weights/2", "there are 2 morph targets"},
+        {"/cameras/0/orthographic/znear", "the camera is perspective"},
+        {"/cameras/1/perspective/yfov", "the camera is orthographic"},
+    };
+    for (const auto& [pointer, fault] : cases) {
+        PointerFile f;
+        f.channel(pointer, {0, 1});
+        const Scene scene = f.load();
+        EXPECT_TRUE(scene.animations.empty()) << pointer;
+        EXPECT_TRUE(mentions(scene.notes, fault)) << pointer;
+        EXPECT_TRUE(mentions(scene.notes, "animation 0: 1 of 1 channels left out: channel 0: pointer"))
+            << pointer;
+    }
+    const std::tuple<const char*, const char*, std::function<void(PointerFile&)>> changed[] = {
+        {"/cameras/0/perspective/zfar", "the camera has no zfar",
+         [](PointerFile& f) { f.json["cameras"][0]["perspective"].erase("zfar"); }},
+        {"/extensions/KHR_lights_punctual/lights/0/range", "the light has no range",
+         [](PointerFile& f) { f.json["extensions"]["KHR_lights_punctual"]["lights"][0].erase("range"); }},
+        {"/materials/0/normalTexture/scale", "the material has no such texture",
+         [](PointerFile& f) { f.json["materials"][0].erase("normalTexture"); }}};
+    for (const auto& [pointer, fault, change] : changed) {
+        PointerFile f;
+        change(f);
+        f.channel(pointer, {1, 2});
+        EXPECT_TRUE(mentions(f.load().notes, fault)) << pointer;
+    }
+}
+
+TEST(GltfAnimationPointer, OutputsFitWhatTheyMove) {
+    PointerFile f;
+    f.channelTo("/materials/0/alphaCutoff", f.accessor<float>({0, 0, 0, 1, 1, 1}, FLOAT, "VEC3", 3));
+    EXPECT_TRUE(mentions(f.load().notes, "is not SCALAR"));
+    PointerFile g;
+    g.channelTo("/materials/0/alphaCutoff", g.accessor<float>({0, 0, 0, 1}, FLOAT, "SCALAR", 1));
+    EXPECT_TRUE(mentions(g.load().notes, "4 elements for 2 keys"));
+    PointerFile h;
+    h.channel("/nodes/0/weights", {0, 0, 0, 1, 1, 1});
+    EXPECT_TRUE(mentions(h.load().notes, "3 weights a key, but node 0 has 2 morph targets"));
+}
+
+// Neither by two pointers, nor by a pointer and a plain target, nor as an array and as its element.
+TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
+    const std::pair<const char*, const char*> cases[] = {{"/nodes/0/weights", "/nodes/0/weights"},
+                                                         {"/nodes/0/weights", "/nodes/0/weights/1"},
+                                                         {"/nodes/0/weights/1", "/nodes/0/weights"},
+                                                         {"/meshes/0/weights/1", "/meshes/0/weights/1"},
+                                                         {"/meshes/0/weights/0", "/meshes/0/weights"}};
+    for (const auto& [first, second] : cases) {
+        PointerFile f;
+        for (const std::string pointer : {first, second})
+            f.channel(pointer, pointer.ends_with("weights") ? std::vector<float>{0, 0, 1, 1}
+                                                            : std::vector<float>{0, 1});
+        const Scene scene = f.load();
+        EXPECT_EQ(scene.animations.at(0).channels.size(), 1u) << first << " " << second;
+        EXPECT_TRUE(mentions(scene.notes, "is moved by an earlier channel already")) << first << second;
+    }
+    PointerFile elements;
+    elements.channel("/nodes/0/weights/0", {0, 1}).channel("/nodes/0/weights/1", {0, 1});
+    EXPECT_EQ(elements.load().animations.at(0).channels.size(), 2u);
+    PointerFile plain;
+    plain.channel("/nodes/0/translation", {0, 0, 0, 1, 1, 1});
+    Json second = plain.json["animations"][0]["channels"][0];
+    second["target"] = {{"node", 0}, {"path", "translation"}};
+    plain.json["animations"][0]["channels"].push_back(second);
+    EXPECT_TRUE(mentions(plain.load().notes, "node 0 is moved by an earlier channel already"));
+}
+
+// An unlit material shows its base colour alone, a sun has no cone: such channels move nothing.
+TEST(GltfAnimationPointer, WhatCannotBeSeenIsIgnored) {
+    PointerFile f;
+    f.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+    f.channel("/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
+    f.channel("/extensions/KHR_lights_punctual/lights/1/spot/innerConeAngle", {0, 1});
+    Scene scene = f.load();
+    EXPECT_TRUE(scene.animations.empty());
+    EXPECT_FALSE(mentions(scene.notes, "left out: channel"));
+    f.channel("/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 0, 1, 1, 1, 1});
+    scene = f.load();
+    EXPECT_EQ(poseAt(scene, 0.5).materials.at(0).base_color, glm::vec4(0.5f));
+    EXPECT_TRUE(poseAt(scene, 0.5).materials[0].unlit);
+    f.json["extensionsRequired"] = {"KHR_animation_pointer"};
+    EXPECT_NO_THROW(f.load());
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/gltf_maker.h"
+
+#include <functional>
+
+using namespace diptych;
+using Json = nlohmann::json;
+
+TEST(GltfLoading, BinaryHoldsTheSame) {
+    GltfFile f = GltfFile::triangle();
+    std::ofstream(testFolder() / "scene.GLB", std::ios::binary) << f.binary();
+    const Scene scene = loadScene((testFolder() / "scene.GLB").string());
+    EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
+// Each change makes one number of a valid file wrong; the error names file, object and fault on one line.
+TEST(GltfLoading, WrongNumbersAreRefusedByName) {
+    struct Case {
+        const char* expected;
+        std::function<void(GltfFile&)> change;
+    };
+    const Case cases[] = {
+        {"accessor 0: 4 vertices of 12 bytes end at 48, past bufferView 0 (36 bytes)",
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 4; }},
+        {"accessor 0: count is 9223372036854775807, not at most 9007199254740992",
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 9223372036854775807; }},
+        {"accessor 0: count is 6148914691236517206, not at most",
+         // Times 12 overflows 64 bits.
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 6148914691236517206; }},
+        {"accessor 0: 3 vertices", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }},
+        {"accessor 0: byteOffset is 18446744073709551600, not at most",
+         [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 18446744073709551600u; }},
+        {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 37; }},
+        {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
+        {"bufferView 0: buffer 1", [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }},
+        {"stride of 8", [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }},
+        {"mesh 0, primitive 0: attributes: POSITION names accessor 7, but the file has 1",
+         [](GltfFile& f) { f.primitive()["attributes"]["POSITION"] = 7; }},
+        {"POSITION: accessor 0 is not VEC3", [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; }},
+        {"node 0: mesh 3, but the file has 1", [](GltfFile& f) { f.json["nodes"][0]["mesh"] = 3; }},
+        {"material 2", [](GltfFile& f) { f.primitive()["material"] = 2; }},
+        {"NORMAL: 2 elements for 3 positions",
+         [](GltfFile& f) {
+             f.primitive()["attributes"]["NORMAL"] = f.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
+         }},
+        {"index 1 of its indices is 3, past its 3 vertices",
+         [](GltfFile& f) {
+             f.primitive()["indices"] = f.accessor<std::uint8_t>({0, 3, 2}, UBYTE, "SCALAR", 1);
+         }},
+        {"is not SCALAR",
+         [](GltfFile& f) {
+             f.primitive()["indices"] = f.accessor<float>({0, 1, 2}, FLOAT, "SCALAR", 1);
+         }},
+        {"mesh 0, primitive 0: mode is 9, not from 0 to 6", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
+        {"at most",
+         [](GltfFile& f) {
+             f.json["accessors"][0].erase("bufferView");
+             f.json["accessors"][0]["count"] = 4000000000u;
+         }},
+        {"node 0: is its own ancestor",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {1}}}, {{"children", {0}}}};
+         }},
+        {"node 0: is its own ancestor",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {0}}}};
+         }},
+        {"node 2: is a child of node 0 and of node 1",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}};
+         }},
+        {"node 0: children names node 5, but the file has 1",
+         [](GltfFile& f) { f.json["nodes"][0]["children"] = {5}; }},
+        {"scene 0: nodes names node 4, but the file has 1",
+         [](GltfFile& f) { f.json["scenes"][0]["nodes"] = {4}; }},
+        {"scene 3, but the file has 1", [](GltfFile& f) { f.json["scene"] = 3; }},
+        {"node 0: matrix has 15 numbers",
+         [](GltfFile& f) { f.json["nodes"][0]["matrix"] = std::vector<double>(15, 0.0); }},
+        {"node 0: camera 0", [](GltfFile& f) { f.json["nodes"][0]["camera"] = 0; }},
+        {"extensionsRequired: KHR_texture_basisu, EXT_odd is not read",
+         [](GltfFile& f) {
+             f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform", "EXT_odd"};
+         }},
+        {"asset: version 1.0", [](GltfFile& f) { f.json["asset"]["version"] = "1.0"; }},
+        {"nests deeper",
+         [](GltfFile& f) {
+             Json deep;
+             for (int i = 0; i < 200; ++i) deep = Json::array({deep});
+             f.json["extras"] = deep;
+         }},
+    };
+    for (const Case& c : cases) {
+        GltfFile f = GltfFile::triangle();
+        ASSERT_EQ(f.error(), "");
+        c.change(f);
+        const std::string error = f.error();
+        EXPECT_TRUE(error.starts_with((testFolder() / "scene.gltf").string() + ": "))
+            << c.expected << " -> " << error;
+        EXPECT_NE(error.find(c.expected), error.npos) << c.expected << " -> " << error;
+        EXPECT_EQ(error.find('\n'), error.npos);
+    }
+}
+
+TEST(GltfLoading, UrisStayInTheFolder) {
+    std::ofstream(testFolder().parent_path() / "outside.bin", std::ios::binary) << std::string(36, '\0');
+    for (const char* uri :
+         {"../outside.bin", "%2e%2e/outside.bin", "a/../../outside.bin", "/etc/passwd", "file:///etc/passwd",
+          "http://example.org/x.bin", "..\\outside.bin", "C:/x.bin", "a%00b"}) {
+        GltfFile f = GltfFile::triangle();
+        f.written();
+        f.json["buffers"][0]["uri"] = uri;
+        std::ofstream(testFolder() / "uri.gltf") << f.json.dump();
+        try {
+            loadScene((testFolder() / "uri.gltf").string());
+            FAIL() << uri;
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("buffer 0"), std::string::npos) << uri << ": " << e.what();
+        }
+    }
+}
+
+// Every prefix of a binary file, and every file with one wrong byte in its lengths, results in a scene or an
+// error.
+TEST(GltfLoading, TruncatedBinariesAreRefused) {
+    const std::string whole = GltfFile::triangle().binary();
+    EXPECT_EQ(loadBytes(whole), "");
+    for (std::size_t size = 0; size < whole.size(); size += size < 40 ? 1 : 37)
+        EXPECT_NE(loadBytes(whole.substr(0, size)), "") << size;
+    for (std::size_t at = 4; at < 20; ++at)
+        for (const char value : {'\x00', '\x01', '\x7f', '\xff'}) {
+            std::string changed = whole;
+            if (changed[at] == value) continue;
+            changed[at] = value;
+            EXPECT_NE(loadBytes(changed), "") << at;
+        }
+}
+
+TEST(GltfLoading, MissingBuffersAreNamed) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    f.json["buffers"][0]["uri"] = "gone.bin";
+    std::ofstream(testFolder() / "gone.gltf") << f.json.dump();
+    try {
+        loadScene((testFolder() / "gone.gltf").string());
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("buffer 0: gone.bin: no such file"), std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(GltfLoading, DataUrisAreRead) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    f.data.clear();
+    // (0 0 0) (1 0 0) (0 1 0) as floats; 0x3f80 is "gD8" after two zero bytes
+    const std::string positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    std::string percent;
+    for (int i = 0; i < 36; ++i) percent += i == 14 || i == 30 ? "%80" : i == 15 || i == 31 ? "%3f" : "%00";
+    for (const std::string& uri : {"data:application/octet-stream;base64," + positions,
+                                   "data:application/gltf-buffer;base64," + positions,
+                                   "data:;base64," + positions, "data:," + percent}) {
+        f.json["buffers"][0]["uri"] = uri;
+        const Scene scene = f.load();
+        EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << uri;
+    }
+}
+
+// In JSON Schema, 3.0 is an integer.
+TEST(GltfLoading, WholeNumbersMayBeWrittenWithAPoint) {
+    GltfFile f = GltfFile::triangle();
+    f.json["accessors"][0]["count"] = 3.0;
+    f.json["nodes"][0]["mesh"] = 0.0;
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).positions.size(), 3u);
+}
+
+TEST(GltfLoading, NamesHoldNoControlCharacters) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"][0]["name"] = "a\nb\x1b[2J\u00e4";
+    f.json["meshes"][0]["name"] = std::string(1000, 'x');
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.nodes[0].name, "a?b?[2J\u00e4");
+    EXPECT_EQ(scene.meshes[0].name, std::string(200, 'x') + "...");
+}
+
+TEST(GltfLoading, UnknownOptionalExtensionsAreNoted) {
+    GltfFile f = GltfFile::triangle();
+    f.json["extensionsUsed"] = {"EXT_one", "KHR_texture_transform"};
+    f.json["nodes"][0]["extensions"]["EXT_two"] = {{"deep", {1, 2, 3}}};
+    f.primitive()["extensions"]["EXT_one"] = 5;
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.notes, (std::vector<std::string>{"EXT_one: left out, it is not read",
+                                                     "EXT_two: left out, it is not read"}));
+}
+
+// The default scene, or the one chosen by index or name.
+TEST(GltfLoading, OneOfSeveralScenes) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"] = {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}, {{"name", "c"}}};
+    f.json["scenes"] = {
+        {{"nodes", {0}}}, {{"nodes", {1}}, {"name", "second"}}, {{"nodes", {2}}, {"name", "0"}}};
+    f.json["scene"] = 1;
+    const std::string file = f.written();
+    const auto node = [](const std::string& where) { return loadScene(where).nodes.at(0).name; };
+    EXPECT_EQ(node(file), "b");
+    EXPECT_EQ(node(file + "?scene=0"), "a");
+    EXPECT_EQ(node(file + "?scene=second"), "b");
+    EXPECT_EQ(node(file + "?scene=2"), "c");
+    EXPECT_TRUE(mentions(loadScene(file).notes, "3 scenes: scene 1 \"second\" is drawn"));
+    try {
+        node(file + "?scene=third");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(std::string(e.what()), file + ": scene=third: names none of the file's 3 scenes");
+    }
+    f.json.erase("scene");
+    EXPECT_EQ(f.load().nodes.at(0).name, "a") << "the first where none is the default";
+    f.json.erase("scenes");
+    EXPECT_EQ(f.load().nodes.size(), 3u) << "all where there is no scene";
+}
+
+TEST(GltfLoading, OtherFilesAreRefusedInOneLine) {
+    EXPECT_THROW(loadScene("scene.obj"), std::runtime_error);
+    EXPECT_THROW(loadScene("no/such/scene.gltf"), std::runtime_error);
+    for (const char* text :
+         {"", "{", "[]", "{}", "null", "{\"asset\": {}}", "{\"asset\": {\"version\": 2}}"}) {
+        const std::string error = loadBytes(text, "scene.gltf");
+        EXPECT_NE(error, "") << text;
+        EXPECT_EQ(error.find('\n'), error.npos);
+    }
+}
+
+// Only byteLength bytes of a buffer's file are read, however large the file is.
+TEST(GltfLoading, OnlyWhatABufferNamesIsRead) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    // A sparse file with 3 GiB behind the data: sixteen of them read whole would not fit in memory.
+    std::filesystem::resize_file(testFolder() / "a buffer.bin", std::uint64_t(3) << 30);
+    const Json buffer = f.json["buffers"][0];
+    for (int i = 1; i < 16; ++i) f.json["buffers"].push_back(buffer);
+    f.data.clear();
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).positions.size(), 3u);
+    std::filesystem::remove(testFolder() / "a buffer.bin");
+}
+
+// Two image files that together are slightly larger than the limit; the large one is a sparse file.
+TEST(GltfLoading, ImageFilesHaveALimitTogether) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    for (const auto& [name, bytes] : {std::pair{"hole.png", std::uint64_t(2) << 30}, {"byte.png", 1}}) {
+        std::ofstream(testFolder() / name).close();
+        std::filesystem::resize_file(testFolder() / name, bytes);
+        f.json["images"].push_back({{"uri", name}});
+        f.json["textures"].push_back({{"source", f.json["textures"].size()}});
+    }
+    f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}, {"normalTexture", {{"index", 1}}}}};
+    f.primitive()["material"] = 0;
+    const std::string error = f.error();
+    EXPECT_NE(error.find("the image files are more than 2147483648 bytes together: not read"),
+              std::string::npos)
+        << error;
+    std::filesystem::remove(testFolder() / "hole.png");
+}
+
+TEST(GltfLoading, ObjectsAndValuesHaveALimit) {
+    const auto times = [](std::size_t n, const std::string& item) {
+        std::string text = item;
+        text.reserve(n * (item.size() + 1));
+        for (std::size_t i = 1; i < n; ++i) text += "," + item;
+        return text;
+    };
+    const std::string head = R"({"asset":{"version":"2.0"},)";
+    EXPECT_NE(loadBytes(head + "\"nodes\":[" + times(2097151, "{}") + "]}", "objects.gltf")
+                  .find("has 2097153 objects: at most 2097152 are read"),
+              std::string::npos);
+    EXPECT_NE(loadBytes(head + "\"extras\":[" + times(33554432, "0") + "]}", "values.gltf")
+                  .find("has 33554436 values: at most 33554432 are read"),
+              std::string::npos);
+    for (const char* name : {"objects.gltf", "values.gltf"}) std::filesystem::remove(testFolder() / name);
+}
+
+// Repeated messages and notes are limited in length and number.
+TEST(GltfLoading, LinesAndNotesHaveAnEnd) {
+    GltfFile f = GltfFile::triangle();
+    for (int i = 0; i < 1000; ++i) f.json["extensionsUsed"].push_back("EXT_" + std::to_string(i));
+    const std::vector<std::string> notes = f.load().notes;
+    EXPECT_EQ(notes.size(), 21u);
+    EXPECT_EQ(notes.back(), "980 more notes on extensions like these");
+    f.json["extensionsRequired"] = f.json["extensionsUsed"];
+    EXPECT_LT(f.error().size(), 500u);
+    f.json["extensionsRequired"] = Json::array();
+    f.json["images"] = {{{"bufferView", 0}, {"uri", "data:image/png;base64," + std::string(100000, 'A')}}};
+    f.json["textures"] = {{{"source", 0}}};
+    f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    f.primitive()["material"] = 0;
+    const std::string error = f.error();
+    EXPECT_NE(error.find("image 0"), error.npos) << error;
+    EXPECT_LT(error.size(), 500u) << "a data URI is no name";
+}

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+// Deviations from the specification that are common in real files: the scene is drawn, with a note.
+#include "tests/support/gltf_maker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+using namespace diptych;
+using Json = nlohmann::json;
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+// Loads the file with its buffers' uris unchanged.
+Scene loadAsIs(const GltfFile& f) {
+    std::ofstream(testFolder() / "as_is.gltf") << f.json.dump();
+    return loadScene((testFolder() / "as_is.gltf").string());
+}
+
+std::string errorAsIs(const GltfFile& f) {
+    try {
+        loadAsIs(f);
+    } catch (const std::runtime_error& e) {
+        return std::string(e.what()).substr((testFolder() / "as_is.gltf: ").string().size());
+    }
+    return "";
+}
+
+void write(const std::string& name, const std::string& bytes) {
+    std::filesystem::create_directories((testFolder() / name).parent_path());
+    std::ofstream(testFolder() / name, std::ios::binary) << bytes;
+}
+
+}  // namespace
+
+// ---- what nothing draws ------------------------------------------------------------------------------
+
+TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
+    struct Case {
+        const char* note;
+        std::function<void(GltfFile&)> change;
+    };
+    const Json bad = {{"index", 9}};
+    const Case cases[] = {
+        {"buffer 1: gone.bin: no such file: nothing that is drawn reads it",
+         [](GltfFile& f) {
+             f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "gone.bin"}});
+         }},
+        {"buffer 1: has no uri, and the file no binary chunk for it: nothing that is drawn reads it",
+         [](GltfFile& f) {
+             f.json["buffers"].push_back({{"byteLength", 4}});
+         }},
+        {"buffer 1: has no byteLength: left out",
+         [](GltfFile& f) {
+             f.json["buffers"].push_back({{"uri", "gone.bin"}});
+         }},
+        {"bufferView 1: buffer 5, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["bufferViews"].push_back({{"buffer", 5}, {"byteLength", 4}});
+         }},
+        {"accessor 1: componentType 7 is none of glTF's: left out",
+         [](GltfFile& f) {
+             f.json["accessors"].push_back({{"componentType", 7}, {"count", 1}, {"type", "SCALAR"}});
+         }},
+        {"sampler 0: wrapS is \"x\", not a whole number: left out",
+         [](GltfFile& f) {
+             f.json["samplers"] = {{{"wrapS", "x"}}};
+         }},
+        {"image 0: bufferView 7, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["images"] = {{{"bufferView", 7}}};
+         }},
+        {"material 0: normalTexture: index names texture 9, but the file has 0: left out",
+         [bad](GltfFile& f) {
+             f.json["materials"] = {{{"normalTexture", bad}}};
+         }},
+        {"mesh 1, primitive 0: attributes: POSITION names accessor 9, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 9}}}}}}});
+         }},
+        {"node 1: mesh 9, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["nodes"].push_back({{"mesh", 9}});
+         }},
+        {"camera 0: is perspective, but has no perspective: left out",
+         [](GltfFile& f) {
+             f.json["cameras"] = {{{"type", "perspective"}}};
+             f.json["nodes"][0]["camera"] = 0;
+         }},
+        {"light 0: is spot, but has no spot: left out",
+         [](GltfFile& f) {
+             f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+         }},
+        {"animation 0, sampler 0: input names accessor 9, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["animations"] = {
+                 {{"samplers", {{{"input", 9}, {"output", 0}}}},
+                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
+         }},
+        {"animation 0, channel 0: target: has no path: left out",
+         [](GltfFile& f) {
+             f.json["animations"] = {
+                 {{"samplers", Json::array()}, {"channels", {{{"sampler", 0}, {"target", Json::object()}}}}}};
+         }},
+        {"skin 0: inverseBindMatrices names accessor 9, but the file has 1: left out",
+         [](GltfFile& f) {
+             f.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", 9}}};
+             f.json["nodes"][0]["skin"] = 0;
+         }},
+    };
+    for (const Case& c : cases) {
+        GltfFile f = GltfFile::triangle();
+        f.written();
+        c.change(f);
+        const Scene scene = loadAsIs(f);
+        EXPECT_EQ(scene.notes, Lines{c.note});
+        EXPECT_EQ(f.only(scene).positions, corners) << c.note;
+        EXPECT_TRUE(scene.cameras.empty() && scene.animations.empty() && scene.skins.empty()) << c.note;
+    }
+}
+
+// The same faults in parts that the scene needs.
+TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
+    struct Case {
+        const char* line;
+        std::function<void(GltfFile&)> change;
+    };
+    const Case cases[] = {
+        {"buffer 0: gone.bin: no such file", [](GltfFile& f) { f.json["buffers"][0]["uri"] = "gone.bin"; }},
+        {"buffer 0: has no byteLength", [](GltfFile& f) { f.json["buffers"][0].erase("byteLength"); }},
+        {"bufferView 0: buffer 5, but the file has 1",
+         [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 5; }},
+        {"sampler 0: wrapS is \"x\", not a whole number",
+         [](GltfFile& f) {
+             f.json["samplers"] = {{{"wrapS", "x"}}};
+             f.json["images"] = {{{"uri", twoPixels}}};
+             f.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+             f.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+             f.primitive()["material"] = 0;
+         }},
+        {"light 0: is spot, but has no spot",
+         [](GltfFile& f) {
+             f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+             f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+         }},
+        // In a file without scenes all nodes are drawn.
+        {"node 1: mesh 9, but the file has 1",
+         [](GltfFile& f) {
+             f.json["nodes"].push_back({{"mesh", 9}});
+             f.json.erase("scenes");
+             f.json.erase("scene");
+         }},
+    };
+    for (const Case& c : cases) {
+        GltfFile f = GltfFile::triangle();
+        f.written();
+        c.change(f);
+        EXPECT_EQ(errorAsIs(f), c.line);
+    }
+}
+
+// What depends on a broken part is broken as well: an animation over a broken accessor over a broken view.
+TEST(GltfRepair, WhatNeedsABrokenThingIsLeftOutWithIt) {
+    GltfFile f = GltfFile::triangle();
+    const int times = f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
+    f.json["bufferViews"][1]["byteLength"] = -8;
+    f.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", times}}}}, {"channels", Json::array()}}};
+    const Scene scene = f.load();
+    EXPECT_TRUE(scene.animations.empty());
+    EXPECT_EQ(scene.notes,
+              (Lines{"bufferView 1: byteLength is -8, not at least 0: left out",
+                     "accessor 1: left out, it needs bufferView 1: byteLength is -8, not at least 0",
+                     "animation 0: left out, it needs bufferView 1: byteLength is -8, not at least 0"}));
+}
+
+TEST(GltfRepair, NotesOfAMillionBrokenThingsAreFew) {
+    GltfFile f = GltfFile::triangle();
+    for (int i = 0; i < 1000; ++i) f.json["materials"].push_back({{"doubleSided", i}});
+    const Lines notes = f.load().notes;
+    ASSERT_EQ(notes.size(), 21u);
+    EXPECT_EQ(notes[0], "material 0: doubleSided is 0, not true or false: left out");
+    EXPECT_EQ(notes[20], "980 more notes on objects like these");
+}
+
+TEST(GltfRepair, MaterialsThatNothingIsDrawnWithOpenNoImage) {
+    GltfFile f = GltfFile::triangle();
+    f.json["images"] = {{{"uri", "missing.png"}}};
+    f.json["samplers"] = {{{"wrapS", 1}}};
+    f.json["textures"] = {{{"source", 0}}, {{"source", 0}, {"sampler", 0}}};
+    f.json["materials"] = {{{"name", "spare"}, {"normalTexture", {{"index", 0}}}},
+                           {{"name", "broken"}, {"normalTexture", {{"index", 1}}}}};
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.notes, Lines{"sampler 0: 1 is no wrap mode: left out, nothing is drawn with it"});
+    EXPECT_TRUE(scene.images.empty());
+    EXPECT_EQ(scene.materials.at(0).normal_texture.texture, -1);
+    EXPECT_EQ(scene.materials.at(1).name, "broken");
+    f.primitive()["material"] = 0;
+    EXPECT_TRUE(f.error().ends_with(": image 0: missing.png: no such file"));
+    f.json["images"][0].erase("uri");
+    EXPECT_TRUE(f.error().ends_with(": image 0: has neither a uri nor a bufferView")) << f.error();
+}
+
+// ---- odd JSON ----------------------------------------------------------------------------------------
+
+TEST(GltfRepair, NullIsAbsent) {
+    GltfFile f = GltfFile::triangle();
+    f.json["animations"] = nullptr;
+    f.json["extensionsRequired"] = nullptr;
+    f.json["nodes"][0]["children"] = nullptr;
+    f.primitive()["indices"] = nullptr;
+    f.primitive()["attributes"]["NORMAL"] = nullptr;
+    f.primitive()["extensions"]["KHR_draco_mesh_compression"] = nullptr;
+    f.json["extras"] = nullptr;  // has no content
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).positions, corners);
+    EXPECT_EQ(scene.notes,
+              (Lines{"animations is null: taken as absent", "extensionsRequired is null: taken as absent",
+                     "mesh 0, primitive 0: attributes: NORMAL is null: taken as absent",
+                     "mesh 0, primitive 0: KHR_draco_mesh_compression is null: taken as absent",
+                     "mesh 0, primitive 0: indices is null: taken as absent",
+                     "node 0: children is null: taken as absent"}));
+    f.primitive()["attributes"] = nullptr;
+    EXPECT_TRUE(f.error().ends_with(": mesh 0, primitive 0: has no attributes")) << f.error();
+}
+
+TEST(GltfRepair, NamesThatAreNoTextAreLeftOut) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"][0]["name"] = 7;
+    f.json["meshes"][0]["name"] = {"a"};
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.nodes[0].name, "");
+    EXPECT_EQ(scene.notes, (Lines{"mesh 0: name is an array, not text: left out",
+                                  "node 0: name is 7, not text: left out"}));
+}
+
+TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
+    GltfFile f = GltfFile::triangle();
+    const auto with = [](const char* name) { return Json{{name, Json::object()}}; };
+    f.json["samplers"] = {{{"extensions", with("EXT_a")}}};
+    f.json["textures"] = {{{"extensions", with("EXT_b")}}};
+    f.json["meshes"][0]["extensions"] = with("EXT_c");
+    f.json["scenes"][0]["extensions"] = with("EXT_d");
+    f.json["materials"] = {{{"pbrMetallicRoughness", {{"extensions", with("EXT_e")}}}},
+                           {{"extensions", with("EXT_a")}}};
+    f.json["animations"] = {
+        {{"samplers", Json::array()},
+         {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", with("EXT_f")}}}}}}}};
+    f.json["asset"]["extensions"] = with("EXT_g");
+    // An extension that is read, but not in a node.
+    f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");
+    Lines expected;
+    for (const char letter : std::string("abcdefg"))
+        expected.push_back(fmt::format("EXT_{}: left out, it is not read", letter));
+    expected.push_back("node 0: KHR_texture_transform is not read there: left out");
+    EXPECT_EQ(f.load().notes, expected);
+}
+
+TEST(GltfRepair, NewerVersionsAreRefusedByName) {
+    GltfFile f = GltfFile::triangle();
+    f.json["asset"]["version"] = "2.7";
+    f.json["asset"]["minVersion"] = "2.0";
+    EXPECT_EQ(f.error(), "");
+    for (const char* version : {"2.1", "3.0", "10.0", "two"}) {
+        f.json["asset"]["minVersion"] = version;
+        EXPECT_TRUE(f.error().ends_with(std::string(": asset: minVersion ") + version + ": 2.0 is read"))
+            << f.error();
+    }
+}
+
+// ---- where bytes lie ---------------------------------------------------------------------------------
+
+TEST(GltfRepair, Strides) {
+    GltfFile f = GltfFile::triangle();
+    f.json["bufferViews"][0]["byteStride"] = 0;
+    const int indices = f.accessor<std::uint16_t>({2, 1, 0}, USHORT, "SCALAR", 1);
+    f.primitive()["indices"] = indices;
+    f.json["bufferViews"][1]["byteStride"] = 2;
+    Scene scene = f.load();
+    EXPECT_EQ(scene.notes, (Lines{"bufferView 0: byteStride 0: taken as packed",
+                                  "bufferView 1: byteStride 2 of packed indices: ignored"}));
+    EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}));
+    f.json["bufferViews"][1]["byteStride"] = 4;
+    EXPECT_TRUE(f.error().ends_with(": bufferView 1: byteStride 4, but indices are packed: 2 bytes each"))
+        << f.error();
+    f.primitive().erase("indices");
+    EXPECT_EQ(f.error(), "") << "nothing that is drawn reads it";
+}
+
+TEST(GltfRepair, BytesBesideTheChunks) {
+    GltfFile f = GltfFile::triangle();
+    std::string bytes = f.binary();
+    const std::string chunk = std::string("\x04\0\0\0BIN\0", 8) + "more";
+    std::string two = bytes + chunk;
+    const std::uint32_t length = static_cast<std::uint32_t>(two.size());
+    for (int i = 0; i < 4; ++i) two[8 + static_cast<std::size_t>(i)] = static_cast<char>(length >> 8 * i);
+    write("two.glb", two);
+    write("after.glb", bytes + "garbage");
+    Scene scene = loadScene((testFolder() / "two.glb").string());
+    EXPECT_EQ(scene.notes, Lines{"2 binary chunks: the first is read"});
+    EXPECT_EQ(f.only(scene).positions, corners);
+    scene = loadScene((testFolder() / "after.glb").string());
+    EXPECT_EQ(scene.notes, Lines{"7 bytes after the " + std::to_string(bytes.size()) +
+                                 " that its header names: not read"});
+    EXPECT_EQ(f.only(scene).positions, corners);
+}
+
+// gltfpack -cf: the fallback buffer's file is only for other readers, and often missing.
+TEST(GltfRepair, FallbackBuffersMayBeMissing) {
+    for (const bool uri : {true, false}) {
+        GltfFile f = GltfFile::triangle();
+        f.written();
+        Json fallback = {{"byteLength", 36},
+                         {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}};
+        if (uri) fallback["uri"] = "scene.fallback.bin";
+        f.json["buffers"].push_back(fallback);
+        const Scene scene = loadAsIs(f);
+        EXPECT_EQ(f.only(scene).positions, corners);
+        EXPECT_EQ(scene.notes,
+                  uri ? Lines{"buffer 1: scene.fallback.bin: no such file: nothing that is drawn reads it"}
+                      : Lines{});
+    }
+}
+
+// An empty view of an empty buffer is valid and empty.
+TEST(GltfRepair, EmptyBuffersAreNobodysFault) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    f.json["buffers"].push_back({{"byteLength", 0}, {"uri", "data:,"}});
+    f.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 0}});
+    EXPECT_EQ(loadAsIs(f).notes, Lines{});
+    f.json["accessors"][0]["bufferView"] = 1;
+    EXPECT_EQ(errorAsIs(f), "accessor 0: 3 vertices of 12 bytes end at 36, past bufferView 1 (0 bytes)");
+}
+
+// ---- URIs --------------------------------------------------------------------------------------------
+
+TEST(GltfRepair, UrisOfEveryKindOfWriter) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    write("a%20b.bin", f.data);
+    write("sub/x.bin", f.data);
+    write("sub/y z.bin", f.data);
+    write("both one.bin", f.data);
+    write("both%20one.bin", std::string(36, 'x'));  // the decoded name is tried first
+    const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // see DataUrisAreRead
+    std::string percent = base64;
+    for (std::size_t at; (at = percent.find("g")) != percent.npos;) percent.replace(at, 1, "%67");
+    const std::pair<std::string, std::string> cases[] = {
+        {"both%20one.bin", ""},
+        {"a%20b.bin", "buffer 0: a%20b.bin: its uri is taken as it stands, not as percent-encoded"},
+        {"sub\\x.bin", "buffer 0: sub/x.bin: a backslash in its uri is taken as /"},
+        {"sub%5Cx.bin", "buffer 0: sub/x.bin: a backslash in its uri is taken as /"},
+        {"sub\\y%20z.bin", "buffer 0: sub/y z.bin: a backslash in its uri is taken as /"},
+        {"DATA:;base64," + base64, ""},
+        {"Data:application/octet-stream;BASE64," + base64, ""},
+        {"data:;base64," + percent, ""},
+        {"data:;base64," + base64 + "==", ""},
+        {"data:;base64," + base64 + "=\n", ""},
+        {"data:;base64," + base64 + "==AAAA",
+         "buffer 0: its base64 goes on after its end at character 50: not read"},
+    };
+    for (const auto& [uri, note] : cases) {
+        f.json["buffers"][0]["uri"] = uri;
+        const Scene scene = loadAsIs(f);
+        EXPECT_EQ(f.only(scene).positions, corners) << uri;
+        EXPECT_EQ(scene.notes, note.empty() ? Lines{} : Lines{note}) << uri;
+    }
+    // +, / and = percent-encoded: the three bytes 0xfb 0xef 0xff are "++//", the byte 0xfb alone is "+w==".
+    f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "data:;base64,%2B%2b%2F%2f%2Bw%3D%3D"}});
+    EXPECT_EQ(loadAsIs(f).notes.size(), 1u) << "only that of buffer 0";
+    f.json["buffers"][1]["byteLength"] = 5;
+    EXPECT_TRUE(mentions(loadAsIs(f).notes, "buffer 1: holds 4 bytes of the 5 that its byteLength names"));
+}
+
+// No way of writing a path leads out of the folder.
+TEST(GltfRepair, OddUrisStayInTheFolder) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    write("../outside.bin", f.data);
+    for (const char* uri : {"..\\outside.bin", "sub\\..\\..\\outside.bin", "%2e%2e%5Coutside.bin",
+                            "sub/..\\../outside.bin", "\\outside.bin", "%5Coutside.bin"}) {
+        f.json["buffers"][0]["uri"] = uri;
+        EXPECT_TRUE(errorAsIs(f).ends_with("leaves the scene's folder")) << uri << ": " << errorAsIs(f);
+    }
+}

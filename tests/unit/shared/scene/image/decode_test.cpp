@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: MIT
+// Images of every kind that glTF may use, written by libpng and libjpeg, are decoded to the stored numbers.
+#include "shared/scene/image/decode.h"
+#include "shared/image/picture_file.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstdio>  // jpeglib.h needs it
+
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace diptych;
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// A PNG of 2 x 2 pixels: `rows` as the file stores them, 16 bits big-endian.
+struct PngMaker {
+    int depth = 8, color = PNG_COLOR_TYPE_RGBA;
+    std::vector<Bytes> rows;
+    int width = 2, height = 2;
+    bool interlaced = false;
+    std::function<void(png_structp, png_infop)> extra{};  // other chunks
+
+    Bytes made() const {
+        Bytes file;
+        png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+        png_infop info = png_create_info_struct(png);
+        png_set_write_fn(
+            png, &file,
+            [](png_structp p, png_bytep data, std::size_t size) {
+                auto& out = *static_cast<Bytes*>(png_get_io_ptr(p));
+                out.insert(out.end(), data, data + size);
+            },
+            nullptr);
+        png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth,
+                     color, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        if (extra) extra(png, info);
+        std::vector<png_bytep> pointers;
+        for (const Bytes& row : rows) pointers.push_back(const_cast<png_bytep>(row.data()));
+        png_set_rows(png, info, pointers.data());
+        png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+        png_destroy_write_struct(&png, &info);
+        return file;
+    }
+};
+
+// A JPEG of 16 x 16 pixels of one colour, of which `components` are stored in `space`.
+Bytes jpeg(J_COLOR_SPACE in, J_COLOR_SPACE space, std::vector<unsigned char> color, bool progressive = false,
+           bool adobe = true, std::span<const jpeg_scan_info> scans = {}) {
+    jpeg_compress_struct c{};
+    jpeg_error_mgr errors{};
+    c.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&c);
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&c, &data, &size);
+    c.image_width = c.image_height = 16;
+    c.input_components = static_cast<int>(color.size());
+    c.in_color_space = in;
+    jpeg_set_defaults(&c);
+    jpeg_set_colorspace(&c, space);
+    jpeg_set_quality(&c, 100, TRUE);
+    if (progressive) jpeg_simple_progression(&c);
+    if (!scans.empty()) {
+        c.scan_info = scans.data();
+        c.num_scans = static_cast<int>(scans.size());
+    }
+    c.write_Adobe_marker = adobe && (space == JCS_CMYK || space == JCS_YCCK || space == JCS_RGB);
+    jpeg_start_compress(&c, TRUE);
+    std::vector<unsigned char> row;
+    for (int x = 0; x < 16; ++x) row.insert(row.end(), color.begin(), color.end());
+    unsigned char* line = row.data();
+    while (c.next_scanline < c.image_height) jpeg_write_scanlines(&c, &line, 1);
+    jpeg_finish_compress(&c);
+    jpeg_destroy_compress(&c);
+    Bytes file(data, data + size);
+    std::free(data);
+    return file;
+}
+
+std::string failure(const Bytes& file) {
+    try {
+        decodeImage(file);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+void expectRgba(const Bytes& file, const Bytes& rgba) {
+    const TextureImage image = decodeImage(file);
+    EXPECT_EQ(image.rgba, rgba);
+    EXPECT_TRUE(image.rgba16.empty());
+}
+
+void expectColor(const Bytes& file, int r, int g, int b, int tolerance = 1) {
+    const TextureImage image = decodeImage(file);
+    ASSERT_EQ(image.width, 16);
+    ASSERT_EQ(image.height, 16);
+    ASSERT_EQ(image.rgba.size(), 4u * 256);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        EXPECT_NEAR(image.rgba[i], r, tolerance);
+        EXPECT_NEAR(image.rgba[i + 1], g, tolerance);
+        EXPECT_NEAR(image.rgba[i + 2], b, tolerance);
+        EXPECT_EQ(image.rgba[i + 3], 255);
+    }
+}
+
+const png_color palette[] = {{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
+void withPalette(png_structp png, png_infop info) {
+    png_set_PLTE(png, info, palette, png_get_bit_depth(png, info) == 1 ? 2 : 3);
+}
+
+}  // namespace
+
+// ---- PNG ---------------------------------------------------------------------------------------------
+
+TEST(ImageDecode, EightBitsOfEveryColourType) {
+    expectRgba(
+        PngMaker{8, PNG_COLOR_TYPE_RGBA, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}.made(),
+        {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}.made(),
+               {1, 2, 3, 255, 5, 6, 7, 255, 9, 10, 11, 255, 13, 14, 15, 255});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 255}}}.made(),
+               {1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 255, 255, 255, 255});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY_ALPHA, {{1, 20, 2, 30}, {3, 40, 4, 0}}}.made(),
+               {1, 1, 1, 20, 2, 2, 2, 30, 3, 3, 3, 40, 4, 4, 4, 0});
+}
+
+// Grey of few bits is expanded to 0 to 255: steps of 255 for 1 bit, 85 for 2 bits, 17 for 4 bits.
+TEST(ImageDecode, FewBits) {
+    const auto grey = [](int a, int b) {
+        Bytes out;
+        for (const int v : {a, b, b, a})
+            for (const int c : {v, v, v, 255}) out.push_back(static_cast<unsigned char>(c));
+        return out;
+    };
+    expectRgba(PngMaker{1, PNG_COLOR_TYPE_GRAY, {{0x40}, {0x80}}}.made(), grey(0, 255));
+    expectRgba(PngMaker{2, PNG_COLOR_TYPE_GRAY, {{0x60}, {0x90}}}.made(), grey(85, 170));
+    expectRgba(PngMaker{4, PNG_COLOR_TYPE_GRAY, {{0x3f}, {0xf3}}}.made(), grey(51, 255));
+}
+
+TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
+    const auto build = [](int depth, std::vector<Bytes> rows, bool alpha) {
+        PngMaker maker{depth, PNG_COLOR_TYPE_PALETTE, std::move(rows)};
+        maker.extra = [alpha](png_structp png, png_infop info) {
+            withPalette(png, info);
+            png_byte values[] = {7, 8};
+            if (alpha) png_set_tRNS(png, info, values, 2, nullptr);
+        };
+        return maker.made();
+    };
+    const auto expected = [](bool alpha) {
+        const auto a = [&](int v) { return static_cast<unsigned char>(alpha ? v : 255); };
+        return Bytes{1, 2, 3, a(7), 40, 50, 60, a(8), 255, 0, 128, 255, 1, 2, 3, a(7)};
+    };
+    for (const bool alpha : {false, true}) {
+        expectRgba(build(8, {{0, 1}, {2, 0}}, alpha), expected(alpha));
+        expectRgba(build(4, {{0x01}, {0x20}}, alpha), expected(alpha));
+        expectRgba(build(2, {{0x10}, {0x80}}, alpha), expected(alpha));
+    }
+    expectRgba(build(1, {{0x40}, {0x80}}, true), {1, 2, 3, 7, 40, 50, 60, 8, 40, 50, 60, 8, 1, 2, 3, 7});
+}
+
+// tRNS of grey and colour images makes one value transparent; 16 bit values must match in all bits.
+TEST(ImageDecode, OneTransparentColour) {
+    const auto transparent = [](int grey, int red, int green, int blue) {
+        return [=](png_structp png, png_infop info) {
+            png_color_16 key{};
+            key.gray = static_cast<png_uint_16>(grey);
+            key.red = static_cast<png_uint_16>(red);
+            key.green = static_cast<png_uint_16>(green);
+            key.blue = static_cast<png_uint_16>(blue);
+            png_set_tRNS(png, info, nullptr, 0, &key);
+        };
+    };
+    PngMaker grey{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 2}}};
+    grey.extra = transparent(2, 0, 0, 0);
+    expectRgba(grey.made(), {1, 1, 1, 255, 2, 2, 2, 0, 3, 3, 3, 255, 2, 2, 2, 0});
+    PngMaker color{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
+    color.extra = transparent(0, 1, 2, 3);
+    expectRgba(color.made(), {1, 2, 3, 0, 1, 2, 4, 255, 5, 2, 3, 255, 1, 2, 3, 0});
+    PngMaker deep{16, PNG_COLOR_TYPE_GRAY, {{0, 1, 0, 2}}, 2, 1};
+    deep.extra = transparent(2, 0, 0, 0);
+    EXPECT_EQ(decodeImage(deep.made()).rgba16, (std::vector<std::uint16_t>{1, 1, 1, 65535, 2, 2, 2, 0}));
+}
+
+TEST(ImageDecode, SixteenBitsStaySixteen) {
+    const TextureImage color = decodeImage(
+        PngMaker{16, PNG_COLOR_TYPE_RGBA, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}, 1, 1}.made());
+    EXPECT_EQ(color.rgba16, (std::vector<std::uint16_t>{0x1234, 1, 0xfffe, 0x8000}));
+    EXPECT_TRUE(color.rgba.empty());
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_RGB, {{0, 1, 0, 2, 0, 3}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{1, 2, 3, 65535}));
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY, {{0xab, 0xcd}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 65535}));
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY_ALPHA, {{0xab, 0xcd, 0, 9}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
+}
+
+TEST(ImageDecode, InterlacedImagesAreWhole) {
+    PngMaker maker{8, PNG_COLOR_TYPE_RGBA, {}, 13, 11};
+    for (int y = 0; y < 11; ++y) {
+        Bytes row;
+        for (int x = 0; x < 13; ++x)
+            for (const int c : {x, y, x * y, 255 - x}) row.push_back(static_cast<unsigned char>(c));
+        maker.rows.push_back(row);
+    }
+    const TextureImage straight = decodeImage(maker.made());
+    maker.interlaced = true;
+    EXPECT_EQ(decodeImage(maker.made()).rgba, straight.rgba);
+    EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12)], 12);
+    EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12) + 1], 10);
+}
+
+// glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are skipped.
+TEST(ImageDecode, AncillaryChunksChangeNothing) {
+    PngMaker plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
+    const Bytes expected = decodeImage(plain.made()).rgba;
+    plain.extra = [](png_structp png, png_infop info) {
+        png_set_gAMA(png, info, 1.0);
+        png_color_8 bits{4, 4, 4, 0, 0};
+        png_set_sBIT(png, info, &bits);
+        std::string long_text(1 << 20, 'x');
+        char key[] = "Comment";
+        png_text text{};
+        text.compression = PNG_TEXT_COMPRESSION_zTXt;
+        text.key = key;
+        text.text = long_text.data();
+        text.text_length = long_text.size();
+        png_set_text(png, info, &text, 1);
+    };
+    EXPECT_EQ(decodeImage(plain.made()).rgba, expected);
+}
+
+// ---- JPEG --------------------------------------------------------------------------------------------
+
+// Images of a single colour, so that only the rounding of the colour transform is lost.
+TEST(ImageDecode, JpegsOfEveryColourSpace) {
+    for (const bool progressive : {false, true}) {
+        expectColor(jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, progressive), 77, 77, 77);
+        expectColor(jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, progressive), 200, 100, 50, 2);
+        expectColor(jpeg(JCS_RGB, JCS_RGB, {200, 100, 50}, progressive), 200, 100, 50);
+        // Adobe's files store inverted inks: cyan leaves 200 of 255, black leaves 128: 200 x 128 / 255.
+        expectColor(jpeg(JCS_CMYK, JCS_CMYK, {200, 255, 0, 128}, progressive), 100, 128, 0);
+        expectColor(jpeg(JCS_CMYK, JCS_YCCK, {200, 255, 0, 128}, progressive), 100, 128, 0, 2);
+        // Without Adobe's marker the numbers are the inks themselves.
+        expectColor(jpeg(JCS_CMYK, JCS_CMYK, {55, 0, 255, 127}, progressive, false), 100, 128, 0);
+    }
+}
+
+// ---- what is refused ---------------------------------------------------------------------------------
+
+TEST(ImageDecode, OtherFilesAreNeither) {
+    EXPECT_EQ(failure({}), "is neither PNG nor JPEG");
+    EXPECT_EQ(failure({'B', 'M', 'X', ' ', 'i', 's', ' ', 't', 'e', 'x', 't', '.', '.', '.'}),
+              "is neither PNG nor JPEG");
+    const auto named = [](std::string_view begin) {
+        Bytes bytes(begin.begin(), begin.end());
+        bytes.resize(64);
+        return failure(bytes);
+    };
+    using namespace std::string_view_literals;
+    EXPECT_EQ(named("GIF87a"), "is GIF; PNG and JPEG are read");
+    EXPECT_EQ(named("GIF89a"), "is GIF; PNG and JPEG are read");
+    EXPECT_EQ(named("RIFF\x40\0\0\0WEBPVP8 "sv), "is WebP; PNG and JPEG are read");
+    EXPECT_EQ(named("\xabKTX 11\xbb\r\n\x1a\n"), "is KTX; PNG and JPEG are read");
+    EXPECT_EQ(named("\xabKTX 20\xbb\r\n\x1a\n"), "is KTX2; PNG and JPEG are read");
+    EXPECT_EQ(named("BM\x40"), "is BMP; PNG and JPEG are read");
+    EXPECT_EQ(named("II*\0"sv), "is TIFF; PNG and JPEG are read");
+    EXPECT_EQ(named("MM\0*"sv), "is TIFF; PNG and JPEG are read");
+    EXPECT_EQ(named("\0\0\0\x20"
+                    "ftypavif"sv),
+              "is AVIF; PNG and JPEG are read");
+    EXPECT_EQ(named("DDS "), "is DDS; PNG and JPEG are read");
+    for (std::size_t size = 0; size < 12;
+         ++size) {  // truncated signatures are unknown formats, longer ones are still named
+        const std::string_view webp = "RIFF\x40\0\0\0WEBP"sv;
+        EXPECT_EQ(failure(Bytes(webp.begin(), webp.begin() + static_cast<std::ptrdiff_t>(size))),
+                  "is neither PNG nor JPEG");
+    }
+}
+
+// A file truncated anywhere results in a one-line error, and nothing is printed.
+TEST(ImageDecode, EveryTruncationIsRefused) {
+    const Bytes files[] = {PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
+                           PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
+                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}),
+                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, true)};
+    testing::internal::CaptureStderr();
+    for (const Bytes& file : files) {
+        const bool png = file[0] == 0x89;
+        const std::size_t tail = png ? 12 + 4 : 0;  // IEND, and the checksum before it, are not needed
+        for (std::size_t size = 0; size + tail < file.size(); ++size) {
+            const std::string why = failure(Bytes(file.begin(), file.begin() + static_cast<long>(size)));
+            EXPECT_NE(why, "") << size << " of " << file.size();
+            EXPECT_EQ(why.find('\n'), why.npos) << why;
+        }
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(failure(Bytes(files[0].begin(), files[0].begin() + 40)), "does not decode: it ends early");
+    EXPECT_EQ(failure(Bytes(files[2].begin(), files[2].end() - 2)),
+              "does not decode: Premature end of JPEG file");
+}
+
+// A file with any byte changed results in a picture of the size in its header, or in a one-line error.
+TEST(ImageDecode, AnyByteMayBeWrong) {
+    const Bytes files[] = {
+        PngMaker{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
+        PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}}.made(),
+        jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_CMYK, JCS_YCCK, {200, 100, 50, 9}, true)};
+    testing::internal::CaptureStderr();
+    for (const Bytes& file : files)
+        for (std::size_t at = 0; at < file.size(); ++at)
+            for (const int flip : {0x01, 0x80, 0xff}) {
+                Bytes changed = file;
+                changed[at] = static_cast<unsigned char>(changed[at] ^ flip);
+                try {
+                    const TextureImage image = decodeImage(changed);
+                    EXPECT_EQ(
+                        image.rgba.size() + image.rgba16.size(),
+                        4u * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+                } catch (const std::runtime_error& e) {
+                    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+                }
+            }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// Sizes are checked before anything is allocated.
+TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
+    const auto sized = [](Bytes file, std::size_t at, std::vector<unsigned char> size) {
+        std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
+        return file;
+    };
+    const Bytes png = PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made();
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})),
+              "claims 16384 x 16384 pixels, which its " + std::to_string(png.size()) + " bytes cannot hold");
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 1, 0, 0, 0, 1})),
+              "is 16385 x 1 pixels: from 1 to 16384 a side are read");
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0, 0, 0, 0, 0, 1})),
+              "is 0 x 1 pixels: from 1 to 16384 a side are read");
+    EXPECT_EQ(failure(sized(png, 16, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff})),
+              "is 4294967295 x 4294967295 pixels: from 1 to 16384 a side are read");
+    Bytes huge = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+    for (std::size_t i = 0; i + 9 < huge.size(); ++i)
+        if (huge[i] == 0xff && huge[i + 1] == 0xc0) huge = sized(huge, i + 5, {0x40, 0, 0x40, 0});
+    EXPECT_EQ(failure(huge),
+              "claims 16384 x 16384 pixels, which its " + std::to_string(huge.size()) + " bytes cannot hold");
+}
+
+// A few bytes make a scan that visits all pixels. These scans change nothing and break no rule; in an image
+// of up to a megapixel 4096 of them are accepted.
+TEST(ImageDecode, EndlessScansAreRefused) {
+    static const jpeg_scan_info scans[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
+    const Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, false, true, scans);
+    std::size_t second = 0;
+    for (std::size_t i = 0; i + 1 < file.size(); ++i)
+        if (file[i] == 0xff && file[i + 1] == 0xda) second = i;
+    const auto withScans = [&](int more) {
+        Bytes many(file.begin(), file.end() - 2);
+        for (int i = 0; i < more; ++i)
+            many.insert(many.end(), file.begin() + static_cast<long>(second), file.end() - 2);
+        many.insert(many.end(), {0xff, 0xd9});
+        return many;
+    };
+    expectColor(withScans(100), 77, 77, 77);
+    EXPECT_EQ(failure(withScans(5000)), "does not decode: it has 4097 scans or more");
+}
+
+TEST(ImageDecode, ArithmeticCodingIsNamed) {
+    Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+    for (std::size_t i = 0; i + 1 < file.size(); ++i)
+        if (file[i] == 0xff && file[i + 1] == 0xc0) file[i + 1] = 0xc9;
+    EXPECT_EQ(failure(file), "is a JPEG with arithmetic coding: not read");
+}
+
+// ---- as a picture ------------------------------------------------------------------------------------
+
+// One reader: diff compares the bytes that a texture has.
+TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
+    for (const bool grey : {false, true}) {
+        const Bytes file =
+            grey ? jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}) : jpeg(JCS_RGB, JCS_YCbCr, {200, 30, 90});
+        const TextureImage texture = decodeImage(file);
+        const PictureFile picture = readPicture(std::as_bytes(std::span(file)), "a.png");
+        EXPECT_EQ(picture.format, "JPEG");
+        EXPECT_TRUE(picture.display_referred);
+        ASSERT_EQ(picture.layers.size(), 1u);
+        const Image& image = picture.layers[0].image;
+        ASSERT_EQ(image.components, grey ? 1 : 3);
+        ASSERT_EQ(image.pixels(), 256u);
+        for (std::size_t i = 0; i < image.pixels(); ++i)
+            for (int c = 0; c < image.components; ++c)
+                EXPECT_EQ(image.pixel(i)[c],
+                          static_cast<float>(texture.rgba[4 * i + static_cast<std::size_t>(c)]) / 255);
+    }
+    const Bytes file = jpeg(JCS_RGB, JCS_YCbCr, {1, 2, 3});
+    const auto faultOf = [](std::span<const unsigned char> bytes, std::uint64_t most) -> std::string {
+        try {
+            readPicture(std::as_bytes(bytes), "a.jpg", {}, most);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "reads";
+    };
+    EXPECT_TRUE(faultOf(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
+    EXPECT_TRUE(faultOf(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
+}

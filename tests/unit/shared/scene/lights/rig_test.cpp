@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/lights/rig.h"
+#include "shared/scene/load.h"
+#include "shared/scene/motion/bounds.h"
+#include "shared/scene/scene_view.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace diptych {
+namespace {
+
+const Bounds ROOM{{-5, 0, -8}, {5, 4, 8}};
+
+std::string rigFault(const std::string& lights, const Bounds& bounds = ROOM) {
+    try {
+        makeLights(lights, 0, bounds);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Rig, HashHasThePublishedValues) {
+    EXPECT_EQ(pcg(0), 129708002u);
+    EXPECT_EQ(pcg(1), 2831084092u);
+    EXPECT_EQ(pcg(2), 2055130248u);
+    EXPECT_EQ(pcg(65536), 688544357u);
+    EXPECT_EQ(u01(0), 129708002.0 / 4294967296.0);
+}
+
+TEST(Rig, SameSeedSameLightsOtherSeedOthers) {
+    const auto a = makeLights("point:20,spot:5", 7, ROOM), b = makeLights("point:20,spot:5", 7, ROOM),
+               c = makeLights("point:20,spot:5", 8, ROOM);
+    ASSERT_EQ(a.size(), 25u);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].position, b[i].position);
+        EXPECT_EQ(a[i].color, b[i].color);
+        EXPECT_EQ(a[i].intensity, b[i].intensity);
+        EXPECT_NE(a[i].position, c[i].position);
+        EXPECT_EQ(a[i].kind, i < 20 ? LightKind::point : LightKind::spot);
+    }
+}
+
+TEST(Rig, ALightDoesNotDependOnHowManyThereAre) {
+    const auto few = makeLights("point:8,spot:3", 1, ROOM), many = makeLights("point:500,spot:100", 1, ROOM);
+    for (std::size_t i = 0; i < few.size(); ++i) {
+        const Light &a = few[i], &b = many[i < 8 ? i : 500 + i - 8];
+        EXPECT_EQ(a.position, b.position);
+        EXPECT_EQ(a.color, b.color);
+        EXPECT_EQ(a.direction, b.direction);
+        EXPECT_EQ(a.outer_cone, b.outer_cone);
+        EXPECT_GT(a.range, b.range);
+    }
+    const auto split = makeLights("point:4,point:4", 1, ROOM);  // a kind named twice goes on counting
+    for (std::size_t i = 0; i < split.size(); ++i) EXPECT_EQ(split[i].position, few[i].position);
+}
+
+TEST(Rig, LightsLieInTheBoundsEquallyBright) {
+    for (const Light& light : makeLights("point:300,spot:300", 3, ROOM)) {
+        for (int axis : {0, 1, 2}) {
+            EXPECT_GE(light.position[axis], ROOM.min[axis]);
+            EXPECT_LE(light.position[axis], ROOM.max[axis]);
+        }
+        const glm::vec3 c = light.color;
+        EXPECT_FLOAT_EQ(std::max({c.r, c.g, c.b}), 1.0f);
+        const float range = light.kind == LightKind::spot ? light.range / 2 : light.range;
+        // Six roundings to float32 (colour, weights, intensity, range squared) of 6e-8 each.
+        EXPECT_NEAR(
+            (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity / (0.4f * range * range), 1.0f,
+            1e-6f);
+        if (light.kind != LightKind::spot) continue;
+        EXPECT_GE(light.position.y, 2.0);
+        EXPECT_LT(light.inner_cone, light.outer_cone);
+        EXPECT_LE(light.direction.y, -std::cos(glm::radians(35.0)) + 1e-12);
+        EXPECT_NEAR(glm::length(light.direction), 1.0, 1e-12);
+    }
+}
+
+TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
+    const auto lights = makeLights("area:300", 3, ROOM), again = makeLights("area:300", 3, ROOM);
+    const float candela = 0.4f * lights[0].range * lights[0].range;  // of white
+    std::array<int, 3> kinds{};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        EXPECT_EQ(light.width, again[i].width);
+        EXPECT_EQ(light.kind, again[i].kind);
+        for (int axis : {0, 1, 2}) {
+            EXPECT_GE(light.position[axis], ROOM.min[axis]);
+            EXPECT_LE(light.position[axis], ROOM.max[axis]);
+        }
+        EXPECT_GE(light.position.y, 2.0);
+        EXPECT_LE(light.direction.y, -std::cos(glm::radians(35.0)) + 1e-12);
+        EXPECT_NEAR(glm::length(light.axis), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(light.axis, light.direction), 0.0, 1e-12);
+        float area = light.width * light.height;
+        if (light.kind == LightKind::disc) area = glm::pi<float>() * light.radius * light.radius;
+        if (light.kind == LightKind::tube) area = 2 * light.radius * light.length;
+        const glm::vec3 c = light.color;
+        // Eight roundings to float32 of 6e-8 each.
+        EXPECT_NEAR((0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity * area / candela, 1.0f,
+                    1e-6f);
+        ASSERT_TRUE(isArea(light.kind));
+        ++kinds[static_cast<std::size_t>(light.kind) - static_cast<std::size_t>(LightKind::rect)];
+    }
+    for (const int count : kinds) EXPECT_GT(count, 60);  // of 100 expected; five standard deviations are 41
+    const auto mixed = makeLights("point:4,area:2", 3, ROOM);
+    EXPECT_EQ(mixed[4].position, lights[0].position) << "whatever else there is";
+}
+
+TEST(Rig, SixPointLightsReachTheMiddle) {
+    // The mean count over points half the box wide around the middle. Ranges there stay inside this cube, so
+    // that the expectation is exactly 6; a low-discrepancy sequence of 512 deviates by a few per cent at
+    // most.
+    const Bounds cube{{0, 0, 0}, {10, 10, 10}};
+    const auto lights = makeLights("point:512", 5, cube);
+    ASSERT_LT(lights[0].range, 2.5f);
+    int reached = 0, points = 0;
+    for (double x = 2.5; x <= 7.5; x += 0.5)
+        for (double y = 2.5; y <= 7.5; y += 0.5)
+            for (double z = 2.5; z <= 7.5; z += 0.5, ++points)
+                for (const Light& light : lights)
+                    reached += glm::distance(light.position, glm::dvec3(x, y, z)) < light.range;
+    EXPECT_NEAR(static_cast<double>(reached) / points, 6.0, 0.3);
+}
+
+TEST(Rig, FlatPointlikeEmptyAndDistantBoundsStayFinite) {
+    const Bounds plane{{-20, 0, -20}, {20, 0, 20}}, line{{0, 0, 0}, {0, 0, 1e-3}},
+        point{{3, 4, 5}, {3, 4, 5}}, none, distant{{1e6, 1e6, 1e6}, {1e6 + 1, 1e6 + 1, 1e6 + 1}};
+    for (const Bounds& bounds : {plane, line, point, none, distant}) {
+        const auto lights = makeLights("point:10,spot:10", 2, bounds);
+        for (const Light& light : lights) {
+            for (int axis : {0, 1, 2}) EXPECT_TRUE(std::isfinite(light.position[axis]));
+            EXPECT_TRUE(std::isfinite(light.range) && light.range > 0) << light.range;
+            EXPECT_TRUE(std::isfinite(light.intensity) && light.intensity > 0) << light.intensity;
+        }
+        EXPECT_NE(lights[0].position, lights[1].position);
+    }
+    for (const Light& light : makeLights("point:50", 2, plane)) {
+        EXPECT_GE(light.position.y, 0);  // never below the ground
+        EXPECT_LE(light.position.y, 5);  // an eighth of 40 m
+    }
+}
+
+TEST(Rig, WrongOrdersNameTheOptionAndTheFault) {
+    for (const char* wrong :
+         {"areas:4", "point", "point:", "point:-1", "point:1x", "disco:3", "point:1,", ",", "point:1.5", " ",
+          "point:2147483649", "point:2147483648,spot:1", "point:99999999999999999999999"}) {
+        const std::string error = rigFault(wrong);
+        EXPECT_EQ(error.find("--lights"), 0u) << wrong << ": " << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+    }
+    EXPECT_NE(rigFault("areas:4").find("area"), std::string::npos);
+    EXPECT_NE(rigFault("point:2147483649").find("2^31"), std::string::npos);
+    EXPECT_NE(rigFault("point:1", {{0, 0, 0}, {INFINITY, 1, 1}}).find("not finite"), std::string::npos);
+    EXPECT_TRUE(makeLights("", 0, ROOM).empty());
+    EXPECT_TRUE(makeLights("point:0", 0, ROOM).empty());
+}
+
+TEST(Rig, FilesAreRead) {
+    const auto file = std::filesystem::temp_directory_path() / "diptych_rig_test.json";
+    std::ofstream(file)
+        << R"({ "lights": [ { "type": "point", "position": [1, 2, 3], "intensity": 5, "range": 4 } ] })";
+    const auto lights = makeLights(file.string(), 0, ROOM);
+    std::filesystem::remove(file);
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_NE(rigFault("/nonexistent/lights.json").find("/nonexistent/lights.json"), std::string::npos);
+}
+
+// Of --scene-lights off: neither its own lights nor the sun that a scene without any gets; those of --lights
+// shine.
+TEST(Rig, TheScenesOwnLightsCanBeSwitchedOff) {
+    for (const char* name : {"builtin:points", "builtin:normals"}) {
+        const Scene scene = loadScene(name);
+        ViewRequest request;
+        request.width = request.height = 8;
+        EXPECT_FALSE(makeSceneView(scene, request).lights.empty());
+        request.scene_lights = false;
+        EXPECT_TRUE(makeSceneView(scene, request).lights.empty());
+        EXPECT_FALSE(makeSceneView(scene, request).default_sun);
+        request.lights = "point:3";
+        EXPECT_EQ(makeSceneView(scene, request).lights.size(), 3u);
+    }
+}
+
+TEST(Rig, TheDefaultSunLightsWhatTheDefaultViewSees) {
+    for (const glm::dvec3 eye : {glm::dvec3(1, 0.6, 1), glm::dvec3(-1, -0.6, -1), glm::dvec3(0, 1, 0)}) {
+        const Light sun = defaultSun(eye);
+        EXPECT_EQ(sun.kind, LightKind::directional);
+        EXPECT_EQ(sun.intensity, 3.0f);
+        EXPECT_NEAR(glm::length(sun.direction), 1.0, 1e-12);
+        EXPECT_LT(glm::dot(sun.direction, glm::normalize(eye)), -0.4);  // from behind the viewer
+    }
+    EXPECT_LT(defaultSun().direction.y, -0.5);  // and from above
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Opening files that are none, and names that lead elsewhere.
+#include "shared/text/input_file.h"
+#include "tests/support/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Read>
+std::string fault(const Read& read) {
+    try {
+        read();
+        return "";
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+}
+
+TEST(InputFile, ReadsARegularFileAndALinkToOne) {
+    const fs::path root = folder();
+    std::ofstream(root / "a.txt") << "four";
+    fs::create_symlink("a.txt", root / "b.txt");
+    EXPECT_EQ(textIn(root / "a.txt", 4), "four");
+    EXPECT_EQ(textIn(root / "b.txt", 4), "four") << "users may name a file by a link";
+    EXPECT_EQ(fault([&] { textIn(root / "a.txt", 3); }), "is 4 bytes: at most 3 are read");
+    EXPECT_EQ(fault([&] { textIn(root / "none.txt", 3); }), "no such file");
+}
+
+// None of them waits: the test would hang.
+TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
+    const fs::path root = folder();
+    ASSERT_EQ(::mkfifo((root / "fifo").c_str(), 0600), 0);
+    const int listening = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string name = (root / "s").string();
+    ASSERT_LT(name.size(), sizeof address.sun_path);
+    std::strcpy(address.sun_path, name.c_str());
+    ASSERT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    for (const fs::path& path : {root / "fifo", root / "s", fs::path("/dev/zero"), fs::path("/dev/null")})
+        EXPECT_EQ(fault([&] { textIn(path, 100); }), "is not a regular file") << path;
+    EXPECT_EQ(fault([&] { textIn(root, 100); }), "is a folder");
+    EXPECT_EQ(fault([&] { textBelow(root, "fifo", 100); }), "is not a regular file");
+    ::close(listening);
+    // A file of 2^40 bytes that takes no room on disk.
+    { std::ofstream(root / "sparse"); }
+    fs::resize_file(root / "sparse", std::uintmax_t(1) << 40);
+    EXPECT_EQ(fault([&] { textIn(root / "sparse", 1000); }), "is 1099511627776 bytes: at most 1000 are read");
+}
+
+TEST(InputFile, BelowAFolderNoLinkIsFollowed) {
+    const fs::path root = folder();
+    fs::create_directories(root / "shard/in");
+    fs::create_directories(root / "private");
+    std::ofstream(root / "private/key.png") << "secret";
+    std::ofstream(root / "shard/in/a.png") << "fine";
+    fs::create_symlink("../private", root / "shard/out");
+    fs::create_symlink("../../private/key.png", root / "shard/in/b.png");
+    fs::create_symlink("a.png", root / "shard/in/c.png");
+    const fs::path shard = root / "shard";
+    EXPECT_EQ(textBelow(shard, "in/a.png", 100), "fine");
+    EXPECT_NE(fault([&] { textBelow(shard, "out/key.png", 100); }).find("\"out\" is a link"),
+              std::string::npos);
+    for (const char* name : {"in/b.png", "in/c.png"})
+        EXPECT_NE(fault([&] { textBelow(shard, name, 100); }).find(".png\" is a link"), std::string::npos)
+            << name;
+    for (const char* name :
+         {"../private/key.png", "in/../../private/key.png", "/etc/passwd", "", "in//a.png", "in/"})
+        EXPECT_NE(fault([&] { textBelow(shard, name, 1 << 20); }), "") << name;
+    fs::create_directory_symlink("shard", root / "named");
+    EXPECT_EQ(textBelow(root / "named", "in/a.png", 100), "fine") << "the folder itself is the user's choice";
+}
+
+TEST(InputFile, ReadsAsManyBytesAsWereAskedFor) {
+    const fs::path root = folder();
+    std::ofstream(root / "a") << "abcdef";
+    InputFile file(root / "a");
+    EXPECT_EQ(file.size(), 6u);
+    std::string piece(4, ' ');
+    file.read(std::as_writable_bytes(std::span(piece)));
+    EXPECT_EQ(piece, "abcd");
+    EXPECT_EQ(fault([&] { file.read(std::as_writable_bytes(std::span(piece))); }),
+              "cannot be read to its end");
+}
+
+}  // namespace
+}  // namespace diptych
