@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What mutate.py promises, on a product of one file whose build and tests are made up here."""
-import contextlib
-import fnmatch
-import io
+"""What mutate.py promises, on sources that are made up here and on the product's; nothing is built."""
+import argparse
+import collections
+import json
 import pathlib
+import random
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -13,177 +15,129 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutate  # noqa: E402
 
-SOURCE = "int twice(int x) {\n    return 2 * x;\n}\n// 2 is two\n"
-TESTS = "TEST(Twice, OfThreeIsSix) {}\nTEST(Twice, OfNoneIsNone) {}\n"
-EDIT = """# a comment
-file: shared/twice.cpp
-old: |return 2 * x;
-new: |return 3 * x;
-means: three times
-run: unit Twice.*
-"""
-# Which no test can notice.
-COMMENT = EDIT.replace("|return 2 * x;", "|2 is two").replace("|return 3 * x;", "|two")
+FUNCTION = "int f(int a, int b, Kind kind) {{\n    {}\n}}\n"
+ENUMS = {"Kind": ["first", "second", "third"]}
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.root = pathlib.Path(self.folder.name) / "root"
-        self.work = pathlib.Path(self.folder.name) / "work"
-        self.put("shared/twice.cpp", SOURCE)
-        self.put("tests/unit/twice_test.cpp", TESTS)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def put(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-    def edits(self, text):
-        self.put("tests/mutation/edits/shared.txt", text)
-
-    def run_with(self, *arguments, make=None):
-        out = io.StringIO()
-        with contextlib.redirect_stdout(out):
-            code = mutate.main(list(map(str, arguments)), self.root, make)
-        return code, out.getvalue()
-
-    def check(self):
-        return self.run_with("--check")
+def made(statement, path="shared/x.cpp", rounds=20, around=FUNCTION):
+    """operator -> what a statement may become"""
+    text, found = around.format(statement), collections.defaultdict(set)
+    for seed in range(rounds):
+        source, rng = mutate.Source(path, text, ENUMS), random.Random(seed)
+        for i in range(len(source.tokens)):
+            for what in mutate.edits_of(source, i, rng) if i not in source.dead else ():
+                edit = mutate.Edit(None, source, i, what)
+                found[edit.operator].add(edit.applied(text).replace(around.format("\0").split("\0")[0], "").strip("}\n "))
+    return found
 
 
-class Lists(Folder):
-    def test_an_edit_that_applies_once_is_right(self):
-        self.edits(EDIT)
-        self.assertEqual(self.check(), (0, "1 edits apply\n"))
+class Operators(unittest.TestCase):
+    def expect(self, operator, statement, *becomes, **options):
+        self.assertEqual(made(statement, **options)[operator], set(becomes), statement)
 
-    def test_a_stale_edit_is_named_with_its_line(self):
-        self.edits(EDIT.replace("2 * x", "4 * x"))
-        code, said = self.check()
-        self.assertEqual(code, 2)
-        self.assertIn("shared.txt:2: what stands in `old` occurs 0 times in shared/twice.cpp", said)
+    def test_operators_are_turned(self):
+        self.expect("operator", "return a < b;", "return a > b;", "return a <= b;")
+        self.expect("operator", "return a + b * a;", "return a - b * a;", "return a + b / a;")
+        self.expect("operator", "return a && b;", "return a || b;")
+        self.expect("operator", "a += b;", "a -= b;")
+        self.expect("operator", 'text = "a" + name;')  # texts have no difference
 
-    def test_what_occurs_twice_is_refused(self):
-        self.edits(EDIT.replace("|return 2 * x;", "|2"))
-        code, said = self.check()
-        self.assertEqual(code, 2)
-        self.assertIn("occurs 2 times", said)
+    def test_constants_are_off_by_one_or_one_percent(self):
+        self.expect("constant", "return 2u;", "return 1u;", "return 3u;")
+        self.expect("constant", "return 0;", "return 1;")
+        self.expect("constant", "return 0.5f;", "return 0.505f;", "return 0.495f;")
+        self.expect("constant", "return true;", "return false;")
 
-    def test_a_file_that_is_gone_is_named(self):
-        self.edits(EDIT.replace("twice.cpp", "thrice.cpp"))
-        self.assertIn("there is no shared/thrice.cpp", self.check()[1])
+    def test_names_components_and_enumerators_have_neighbours(self):
+        self.expect("function", "return std::min(a, b);", "return std::max(a, b);")
+        self.expect("swizzle", "return v.xyz;", "return v.yxz;", path="shaders/lib/x.glsl")
+        self.expect("swizzle", "v.x = a;", path="shaders/lib/x.glsl")  # GLSL assigns to no choice
+        self.expect("enumerator", "return kind == Kind::second;", "return kind == Kind::first;", "return kind == Kind::third;")
 
-    def test_a_test_that_is_gone_is_named(self):
-        self.edits(EDIT.replace("Twice.*", "Twice.OfFourIsEight"))
-        self.assertIn("unit has no test Twice.OfFourIsEight", self.check()[1])
+    def test_statements_are_dropped_and_left_early(self):
+        self.expect("dropped", "++a; go(b); return a;", "; go(b); return a;", "++a; ; return a;")
+        self.expect("dropped", "int c = a; std::vector<int> d(a); auto e = go(b); return c;")
+        self.expect("early return", "go(b);", "return {}; go(b);")
+        self.expect("early return", "go(b);", "return vec3(0); go(b);", path="shaders/lib/x.glsl", around="vec3 f(float x) {{ {} }}")
+        self.expect("early return", "go(b);", "return; go(b);", around="void X::f(int x) const {{ {} }}")
 
-    def test_one_edit_twice_is_refused(self):
-        self.edits(EDIT + "\n" + EDIT)
-        self.assertIn("shared.txt:9: the edit of shared.txt:2 once more", self.check()[1])
+    def test_conditions_are_negated_and_arguments_change_places(self):
+        self.expect("condition", "if (go(a)) return b;", "if (!(go(a))) return b;")
+        self.expect("condition", "if (const auto c = go(a)) return c;")
+        self.expect("argument", "go(a, b);", "go(b, a);", "go(a);", rounds=60)
 
-    def test_what_is_missing_or_unknown_is_said(self):
-        for line, wanted in (("means: three times\n", "no means:"), ("run: unit Twice.*\n", "either run: or"),
-                             ("new: |return 3 * x;\n", "no new:")):
-            self.edits(EDIT.replace(line, ""))
-            self.assertIn(wanted, self.check()[1])
-        self.edits(EDIT + "why: not\n")
-        self.assertIn("shared.txt:7: not one of", self.check()[1])
-        self.edits(EDIT.replace("3 * x", "2 * x"))
-        self.assertIn("changes nothing", self.check()[1])
-        self.edits(EDIT.replace("|return 3", "return 3"))
-        self.assertIn("begins with |", self.check()[1])
-
-    def test_text_of_several_lines_is_one(self):
-        self.edits(EDIT.replace("|return 2 * x;", "|    return 2 * x;\n     |}"))
-        self.assertEqual(self.check()[0], 0)
+    def test_what_no_test_can_notice_is_left_alone(self):
+        for text in ("// a < b + 1", "/* a < b */", "#define X (a < 1)", '"a < 1";', 'R"(a < b)";', "static_assert(a < 1);", "assert(a < 1);",
+                     'throw Error(fmt::format("{}", a + 1));', "fail(a + 1, b);", "std::array<int, 3> c;", "enum class K { a = 1, b };"):
+            self.assertEqual({k: v for k, v in made(text).items() if k != "early return"}, {}, text)
+        self.assertEqual(made("1 + 2", path="shared/x.h", around="#include <a{}>\n"), {})
 
 
-class FakeProduct:
-    """Builds whatever has a brace at its end; its test calls twice(3) by reading the number."""
+class Drawn(unittest.TestCase):
+    FILES = {"shared/a/a.cpp": FUNCTION.format("if (a < b && a > 1) go(a, b);\n    go(a + 1, b);\n    return a;"),
+             "shared/a/a.h": "constexpr double most = 0.5;\ninline int g(int x) {\n    return x + 1;\n}\n",
+             "shaders/lib/a.glsl": "#ifndef A_GLSL\n#define A_GLSL\n#extension X : require\n\nfloat f(float x) { return 2.0 * x; }\n#endif\n"}
 
-    broken = ()
+    def test_a_seed_always_draws_the_same_and_none_overlaps(self):
+        edits, again = (mutate.draw(self.FILES, 6, 3) for _ in range(2))
+        self.assertEqual([e.__dict__ for e in edits], [e.__dict__ for e in again])
+        self.assertEqual({e.file.rpartition("/")[0] for e in edits}, {"shared/a", "shaders/lib"})
+        ranges = sorted((e.file, e.start, e.end) for e in edits)
+        self.assertTrue(all(a[0] != b[0] or a[2] < b[1] for a, b in zip(ranges, ranges[1:])))
 
-    def __init__(self, root, work, jobs, commit):
-        self.copy, self.commit = root, "0000000"
-        self.work = work
+    def test_only_changed_lines(self):
+        edits = mutate.draw(self.FILES, 9, 1, {"shared/a/a.h": {3}})
+        self.assertEqual({(e.file, *e.lines) for e in edits}, {("shared/a/a.h", 3, 3)})
 
-    def path(self, edit):
-        return self.copy / edit.file
+    def test_the_switch_compiles(self):
+        edits = mutate.draw(self.FILES, 8, 1)
+        text = "".join(mutate.switched(n, self.FILES[n], [e for e in edits if e.file == n]) for n in ("shared/a/a.h", "shared/a/a.cpp"))
+        text = "bool DIPTYCH_MUTANT(unsigned);\nstruct Kind {};\nint go(int, int = 0);\n" + text.replace("#include", "//")
+        done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", "-"], input=text, text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, text + done.stderr)
 
-    def text(self):
-        return (self.copy / "shared/twice.cpp").read_text(encoding="utf-8")
+    def test_in_shaders_the_switch_stands_below_the_extensions(self):
+        edits = [e for e in mutate.draw(self.FILES, 8, 2) if e.file.endswith(".glsl")]
+        lines = mutate.switched("shaders/lib/a.glsl", self.FILES["shaders/lib/a.glsl"], edits).split("\n")
+        self.assertEqual(lines[3], '#include "tests/mutation/mutant.h"')
+        self.assertIn("DIPTYCH_MUTANT(", lines[5])
 
-    def build(self, targets):
-        return None if self.text().count("{") == self.text().count("}") else "error: a brace"
+    def test_errors_name_the_edits_that_are_left_out(self):
+        edits = mutate.draw(self.FILES, 6, 3)
+        edit = next(e for e in edits if e.file == "shared/a/a.h")
+        place = f"/t/shared/a/a.h:{edit.lines[0] + 1}:7: "
+        for said in (place + "error: no", "/t/b.cpp:1:1: error: no\n" + place + "note: here", f"ERROR: {place[:-3]} 'x' :  no"):
+            self.assertIn(edit.number, mutate.blamed(said, edits, pathlib.Path("/t")), said)
+        self.assertEqual(mutate.blamed(place + "warning: no", edits, pathlib.Path("/t")), set())
 
-    def run(self, kind, tests, first=True):
-        wrong = [] if "return 2 * x;" in self.text() else ["Twice.OfThreeIsSix"]
-        chosen, _, left_out = tests.partition("-")
-        return [name for name in [*self.broken, *wrong] if name not in left_out.split(":") and
-                any(fnmatch.fnmatchcase(name, pattern) for pattern in chosen.split(":"))]
+    def test_where_modules_become_known_there_is_what_sets_the_switch(self):
+        for old, _ in mutate.SETTERS:
+            self.assertTrue(any(old in p.read_text(encoding="utf-8") for p in mutate.ROOT.glob("shared/vulkan/*.cpp")), old)
 
 
-class Trying(Folder):
-    def try_all(self, text, product=FakeProduct):
-        self.edits(text)
-        code, said = self.run_with(self.work, make=product)
-        self.assertEqual((self.root / "shared/twice.cpp").read_text(encoding="utf-8"), SOURCE)
-        return code, said
+class Runs(unittest.TestCase):
+    """Of two suites: the first comes by edits 1 and 2 and notices 1, the second by all and is late for 3."""
+    SCRIPT = 'echo "$DIPTYCH_MUTANT" >> tried; test "$DIPTYCH_MUTANT" != {} || {}'
 
-    def test_what_a_test_notices_is_caught_by_it(self):
-        code, said = self.try_all(EDIT)
-        self.assertEqual(code, 0)
-        self.assertIn("three times: caught by unit Twice.OfThreeIsSix", said)
-
-    def test_what_no_test_notices_survived(self):
-        code, said = self.try_all(COMMENT)
-        self.assertEqual(code, 1)
-        self.assertIn("three times: survived", said)
-
-    def test_what_does_not_compile_is_flagged(self):
-        code, said = self.try_all(EDIT.replace("|return 3 * x;", "|{ return 2 * x;"))
-        self.assertIn("caught by the compiler: replace it", said)
-
-    def test_a_test_that_fails_without_an_edit_catches_nothing(self):
-        class Broken(FakeProduct):
-            broken = ("Twice.OfNoneIsNone",)
-
-        for named in ("Twice.*", "Twice.OfThreeIsSix"):  # by the edit, and by those that are run at last
-            code, said = self.try_all(COMMENT.replace("Twice.*", named), Broken)
-            self.assertEqual(code, 1)
-            self.assertIn("left out: unit Twice.OfNoneIsNone", said)
-            self.assertIn("three times: survived", said)
-            (self.work / "results.jsonl").unlink()
-            (self.work / "unedited-0000000.json").unlink()
-
-    def test_results_add_up_and_are_tabled(self):
-        self.try_all(EDIT)
-        equivalent = COMMENT.replace("run: unit Twice.*", "equivalent: a comment")
-        equivalent = equivalent.replace("three times", "another comment")
-        code, said = self.try_all(EDIT + "\n" + equivalent)
-        self.assertNotIn("caught by unit", said)  # not tried again
-        table = pathlib.Path(self.folder.name) / "table.md"
-        self.assertEqual(self.run_with(self.work, "--table", table)[0], 0)
-        text = table.read_text(encoding="utf-8")
-        self.assertIn("| shared | 2 | 1 |", text)
-        self.assertIn("| twice.cpp | three times | caught by unit Twice.OfThreeIsSix | 0000000 |", text)
-        self.assertIn("| twice.cpp | another comment | equivalent: a comment |", text)
-
-    def test_what_other_kinds_may_catch_is_left_for_them(self):
-        self.edits(COMMENT)
-        code, said = self.run_with(self.work, "--kinds", "unit,probe", make=FakeProduct)
-        self.assertIn("three times: not caught by unit, probe", said)
-        self.assertFalse((self.work / "results.jsonl").exists())
-
-    def test_a_shard_is_every_nth(self):
-        other = EDIT.replace("3 * x", "4 * x").replace("three", "four")
-        self.edits(EDIT + "\n" + other)
-        self.assertIn("four times", self.run_with("--list", "--shard", "2/2")[1])
-        self.assertNotIn("three times", self.run_with("--list", "--shard", "2/2")[1])
-        self.assertNotIn("four times", self.run_with("--list", "--only", "three")[1])
+    def test_each_edit_is_tried_by_what_comes_by_and_results_stay(self):
+        with tempfile.TemporaryDirectory() as name:
+            work, options = pathlib.Path(name), argparse.Namespace(copy=None, jobs=1)
+            run = mutate.Run(work, options)
+            run.plan, run.edits = {"number": 4}, mutate.draw(Drawn.FILES, 4, 3)
+            for at, (kind, reached, script) in enumerate((("unit", [1, 2], (1, "false")), ("probe", [1, 2, 3], (3, "sleep 60")))):
+                run.suites[kind] = {"name": kind, "kind": kind, "command": ["sh", "-c", self.SCRIPT.format(*script)], "folder": name,
+                                    "environment": {}, "seconds": -2.9, "reached": reached}
+            run.say = lambda words: None
+            for edit in run.edits:
+                run.attempt(edit, run.suites.values())
+            again = mutate.Run(work, options)
+            again.say = run.say
+            self.assertEqual([e.by for e in again.wanted()], ["unit", "survived", "probe", "survived"])
+            self.assertEqual((work / "tried").read_text().split(), ["1", "2", "2", "3"])
+            self.assertEqual(again.edits[2].test, "probe (late)")
+            self.assertEqual(json.loads((work / "results.json").read_text())["edits"][1]["tried"], ["unit", "probe"])
+            again.attempt(again.edits[1], again.suites.values())  # goes on with other suites alone
+            self.assertEqual(len((work / "tried").read_text().split()), 4)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The switch of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is whether the environment variable
+// DIPTYCH_MUTANT is 7. In shaders a specialization constant says so, which whoever makes a module of Vulkan
+// sets.
+#ifndef DIPTYCH_TESTS_MUTANT_H
+#define DIPTYCH_TESTS_MUTANT_H
+#ifndef __cplusplus
+layout(constant_id = 2000) const uint diptych_mutant = 0u;
+#define DIPTYCH_MUTANT(n) (diptych_mutant == n)
+#else
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <span>
+#include <vector>
+
+inline std::uint32_t diptychChosen() {
+    static const char* const number = std::getenv("DIPTYCH_MUTANT");
+    static const auto chosen = static_cast<std::uint32_t>(number ? std::atoi(number) : 0);
+    return chosen;
+}
+// Sets an edit's byte in the file DIPTYCH_REACHED, which has it also where the process is killed.
+inline void diptychReach(std::uint32_t n) {
+    static auto* const bytes = [] {
+        const char* const file = std::getenv("DIPTYCH_REACHED");
+        const int opened = file ? ::open(file, O_RDWR | O_CLOEXEC) : -1;
+        void* const there = ::mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE, MAP_SHARED, opened, 0);
+        if (opened >= 0) ::close(opened);
+        return there == MAP_FAILED ? nullptr : static_cast<unsigned char*>(there);
+    }();
+    if (bytes) bytes[n & 0xffff] = 1;
+}
+inline bool diptychMutant(std::uint32_t n) {
+    diptychReach(n);
+    return n == diptychChosen();
+}
+#define DIPTYCH_MUTANT(n) ::diptychMutant(n)
+
+// The module with the switch as an ordinary constant. All edits that it has are within reach.
+inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {
+    std::vector<std::uint32_t> words;
+    std::map<std::uint32_t, std::uint32_t> constants;
+    std::uint32_t id = 0;
+    for (std::size_t at = 0, size = 5; at < module.size();
+         at += size, size = at < module.size() ? module[at] >> 16 : 0) {
+        const auto in = module.subspan(at, size);
+        const std::uint32_t op = at == 0 ? 0 : in[0] & 0xffff;
+        if (op == 71 && in[2] == 1 && in[3] == 2000)
+            id = in[1];  // OpDecorate SpecId
+        else
+            words.insert(words.end(), in.begin(), in.end());
+        if (op == 43) constants[in[2]] = in[3];  // OpConstant
+        if (op == 50 && in[2] == id)
+            words.end()[-4] = 4u << 16 | 43, words.back() = diptychChosen();          // OpSpecConstant
+        if (op == 52 && in[3] == 170 && in[4] == id) diptychReach(constants[in[5]]);  // OpIEqual
+    }
+    return words;
+}
+template <class Info>
+auto diptychCreateShaderModule(auto device, const Info* info, auto allocator, auto* module) {
+    const auto words = diptychModule({info->pCode, info->codeSize / 4});
+    Info set = *info;
+    set.codeSize = 4 * words.size();
+    set.pCode = words.data();
+    return vkCreateShaderModule(device, &set, allocator, module);
+}
+#endif
+#endif
