@@ -5,7 +5,12 @@
 #include "shared/frame/debug_modes.h"
 #include "tests/support/sources.h"
 
+#include <fnmatch.h>
 #include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
 
 namespace diptych {
 namespace {
@@ -275,6 +280,40 @@ TEST(Conventions, EveryChannelHasALineInTheShader) {
     EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
     EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
               Faults{"roughness"});
+}
+
+// Lines of tests/longer.txt, FOLDER.SUITE.TEST with * and ?, that no TEST of the folder matches.
+Faults linesWithoutTest(const std::string& list, const Files& files) {
+    static const std::regex test("TEST(?:_F|_P)?\\(\\s*(\\w+),\\s*(\\w+)\\)");
+    std::set<std::string> names;
+    for (const auto& [path, text] : files)
+        if (path.starts_with("tests/") && path.ends_with(".cpp"))
+            for (std::sregex_iterator at(text.begin(), text.end(), test), end; at != end; ++at)
+                names.insert(path.substr(6, path.find('/', 6) - 6) + "." + (*at)[1].str() + "." +
+                             (*at)[2].str());
+    Faults faults;
+    std::istringstream lines(list);
+    for (std::string line; std::getline(lines, line);) {
+        std::string pattern = line.substr(0, line.find(' '));
+        if (pattern.empty() || pattern == "#") continue;
+        // An instance's prefix and its row stand before and behind the names in the source.
+        pattern = std::regex_replace(pattern, std::regex("Asset/\\*$"), "Asset*.*");
+        if (const std::size_t row = pattern.find('/'); row != pattern.npos) pattern.resize(row);
+        if (std::ranges::none_of(names, [&](const std::string& name) {
+                return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+            }))
+            faults.push_back(line);
+    }
+    return faults;
+}
+
+TEST(Conventions, TestsThatWaitAreThere) {
+    EXPECT_EQ(joined(linesWithoutTest(sources().at("tests/longer.txt"), sources())), "");
+    const Files files{{"tests/image/a_test.cpp", "TEST_P(Way, Is) {}\nTEST(Other, Is) {}"}};
+    EXPECT_TRUE(
+        linesWithoutTest("# a line\n\nimage.*Way.*  7  why\nimage.Other.Is/row*  1\n", files).empty());
+    EXPECT_EQ(linesWithoutTest("unit.Way.*  7\nimage.Oter.*  1\n", files),
+              (Faults{"unit.Way.*  7", "image.Oter.*  1"}));
 }
 
 }  // namespace
