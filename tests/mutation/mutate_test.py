@@ -15,6 +15,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutate  # noqa: E402
 
+mutate.say = lambda words: None
+
 FUNCTION = "int f(int a, int b, Kind kind) {{\n    {}\n}}\n"
 ENUMS = {"Kind": ["first", "second", "third"]}
 
@@ -24,10 +26,10 @@ def made(statement, path="shared/x.cpp", rounds=20, around=FUNCTION):
     text, found = around.format(statement), collections.defaultdict(set)
     for seed in range(rounds):
         source, rng = mutate.Source(path, text, ENUMS), random.Random(seed)
-        for i in range(len(source.tokens)):
+        for i in range(source.count):
             for what in mutate.edits_of(source, i, rng) if i not in source.dead else ():
-                edit = mutate.Edit(None, source, i, what)
-                found[edit.operator].add(edit.applied(text).replace(around.format("\0").split("\0")[0], "").strip("}\n "))
+                edit = mutate.edit_of(source, i, *what)
+                found[edit.operator].add(mutate.applied(edit, text).replace(around.format("\0").split("\0")[0], "").strip("}\n "))
     return found
 
 
@@ -50,7 +52,7 @@ class Operators(unittest.TestCase):
 
     def test_names_components_and_enumerators_have_neighbours(self):
         self.expect("function", "return std::min(a, b);", "return std::max(a, b);")
-        self.expect("swizzle", "return v.xyz;", "return v.yxz;", path="shaders/lib/x.glsl")
+        self.expect("swizzle", "return v.xyz;", "return v.yxy;", path="shaders/lib/x.glsl")
         self.expect("swizzle", "v.x = a;", path="shaders/lib/x.glsl")  # GLSL assigns to no choice
         self.expect("enumerator", "return kind == Kind::second;", "return kind == Kind::first;", "return kind == Kind::third;")
 
@@ -99,7 +101,7 @@ class Drawn(unittest.TestCase):
     def test_in_shaders_the_switch_stands_below_the_extensions(self):
         edits = [e for e in mutate.draw(self.FILES, 8, 2) if e.file.endswith(".glsl")]
         lines = mutate.switched("shaders/lib/a.glsl", self.FILES["shaders/lib/a.glsl"], edits).split("\n")
-        self.assertEqual(lines[3], '#include "tests/mutation/mutant.h"')
+        self.assertEqual(lines[4], '#include "tests/mutation/mutant.h"')
         self.assertIn("DIPTYCH_MUTANT(", lines[5])
 
     def test_errors_name_the_edits_that_are_left_out(self):
@@ -127,11 +129,9 @@ class Runs(unittest.TestCase):
             for at, (kind, reached, script) in enumerate((("unit", [1, 2], (1, "false")), ("probe", [1, 2, 3], (3, "sleep 60")))):
                 run.suites[kind] = {"name": kind, "kind": kind, "command": ["sh", "-c", self.SCRIPT.format(*script)], "folder": name,
                                     "environment": {}, "seconds": -2.9, "reached": reached}
-            run.say = lambda words: None
             for edit in run.edits:
                 run.attempt(edit, run.suites.values())
             again = mutate.Run(work, options)
-            again.say = run.say
             self.assertEqual([e.by for e in again.wanted()], ["unit", "survived", "probe", "survived"])
             self.assertEqual((work / "tried").read_text().split(), ["1", "2", "2", "3"])
             self.assertEqual(again.edits[2].test, "probe (late)")
