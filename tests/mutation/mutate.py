@@ -10,7 +10,8 @@ each as `DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). What the compiler re
 constant, is left out; another takes its place. Then each suite of ctest is run without an edit: how long it takes, and
 which edits' places it comes by. Those suites alone try an edit: of unit tests first, then of probes, then the others, the
 quickest first, until one fails or is late. What survives is compiled once more, alone: where object files or modules are
-the original's, it is equivalent. WORK/results.json has all that is known, and the next run goes on from there.
+the original's, it is equivalent. WORK/results.json has all that is known, and the next run goes on from there. An edit
+may remove or overwrite files that it should not: whoever runs this should be able to write little else.
 """
 import argparse
 import bisect
@@ -24,6 +25,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -439,10 +441,11 @@ class Run:
     def start(self, suite, limit, **environment):
         """The tests that failed, and seconds."""
         folder, begun, code = self.work / "tmp" / str(threading.get_ident()), time.monotonic(), "late"
-        folder.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
         with self.locks[suite["name"]], open(folder / "said", "w+", encoding="utf-8", errors="replace") as said:
-            # An edit may well ask for all the memory that there is.
-            process = subprocess.Popen(["sh", "-c", 'ulimit -d 8000000; exec "$@"', "sh", *suite["command"]], stdout=said, stderr=said,
+            # An edit may well ask for all the memory or disk that there is.
+            process = subprocess.Popen(["sh", "-c", 'ulimit -d 8000000; ulimit -f 8000000; exec "$@"', "sh", *suite["command"]], stdout=said, stderr=said,
                                        cwd=suite["folder"], start_new_session=True,
                                        env={**os.environ, "TMPDIR": str(folder), **suite["environment"], **environment})
             with contextlib.suppress(subprocess.TimeoutExpired):
@@ -473,13 +476,14 @@ class Run:
     def known(self):
         """The suites of ctest that this run may use, in the order in which they are tried."""
         new = []
-        tier = {} if self.options.all else {"DIPTYCH_TIER": "default"}
+        every, kinds = self.options.all, self.options.kinds.split(",")
+        tier = {} if every else {"DIPTYCH_TIER": "default"}
         for test in json.loads(call("ctest", "--test-dir", self.tree / "build", "--show-only=json-v1",
                                     env={**os.environ, "DIPTYCH_TESTS": ".", **tier}))["tests"]:  # a suite each
             has = {p["name"]: p["value"] for p in test["properties"]}
             kind = next((k for k in KINDS if k in has.get("LABELS", ())), None)
-            if kind in self.options.kinds.split(",") and "FIXTURES_REQUIRED" not in has and (self.options.all or "all" not in has["LABELS"]):
-                new.append({"name": test["name"], "kind": kind, "command": test["command"], "folder": has["WORKING_DIRECTORY"],
+            if kind in kinds and "FIXTURES_REQUIRED" not in has and (every or "longer" not in has["LABELS"]):
+                new.append({"name": test["name"] + "+" * every, "kind": kind, "command": test["command"], "folder": has["WORKING_DIRECTORY"],
                             "environment": dict(v.split("=", 1) for v in has.get("ENVIRONMENT", ())), "limit": has.get("TIMEOUT", 1800)})
         (self.work / "tmp").mkdir(exist_ok=True)
         self.each(self.record, [s for s in new if s["name"] not in self.suites])
