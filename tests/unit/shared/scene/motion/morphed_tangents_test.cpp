@@ -21,13 +21,13 @@ namespace {
 
 const TextureSlot plain{.texture = 0};
 
-Scene morphScene(Primitive primitive, const TextureSlot& map, std::vector<float> weights) {
+Scene morphScene(Primitive primitive, const TextureSlot& map, std::vector<float> amounts) {
     Scene scene;
     scene.materials.resize(1);
     scene.materials[0].normal_texture = map;
     scene.meshes.resize(1);
     scene.meshes[0].primitives = {std::move(primitive)};
-    scene.meshes[0].weights = std::move(weights);
+    scene.meshes[0].weights = std::move(amounts);
     scene.nodes.resize(1);
     scene.nodes[0].mesh = 0;
     return scene;
@@ -101,13 +101,13 @@ void addTarget(Primitive& p, unsigned moves, int seed) {
 }
 
 // The primitive at rest in that pose, in float32.
-Primitive morphedCopy(Primitive p, const std::vector<float>& weights) {
+Primitive morphedCopy(Primitive p, const std::vector<float>& amounts) {
     for (std::size_t t = 0; t < p.targets.size(); ++t)
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
             const MorphTarget& target = p.targets[t];
-            if (!target.positions.empty()) p.positions[v] += weights[t] * target.positions[v];
-            if (!target.normals.empty()) p.normals[v] += weights[t] * target.normals[v];
-            if (!target.texcoords[0].empty()) p.texcoords[0][v] += weights[t] * target.texcoords[0][v];
+            if (!target.positions.empty()) p.positions[v] += amounts[t] * target.positions[v];
+            if (!target.normals.empty()) p.normals[v] += amounts[t] * target.normals[v];
+            if (!target.texcoords[0].empty()) p.texcoords[0][v] += amounts[t] * target.texcoords[0][v];
         }
     for (glm::vec3& n : p.normals) n = glm::normalize(n);
     p.targets.clear();
@@ -116,13 +116,13 @@ Primitive morphedCopy(Primitive p, const std::vector<float>& weights) {
 
 // Of every corner of every triangle that has an area.
 void expectAsMadeAfresh(const Primitive& primitive, const TextureSlot& map,
-                        const std::vector<float>& weights) {
-    Primitive morphable = primitive, afresh = morphedCopy(primitive, weights);
+                        const std::vector<float>& amounts) {
+    Primitive morphable = primitive, afresh = morphedCopy(primitive, amounts);
     makeTangents(morphable, map);
     makeTangents(afresh, map);
     ASSERT_FALSE(morphable.tangent_groups.empty());
     ASSERT_EQ(morphable.indices.size(), afresh.indices.size());
-    const PosedVertices v = posedOf(morphScene(morphable, map, weights));
+    const PosedVertices v = posedOf(morphScene(morphable, map, amounts));
     std::size_t compared = 0;
     for (std::size_t i = 0; i < afresh.indices.size(); ++i) {
         const std::uint32_t* t = &afresh.indices[i / 3 * 3];
@@ -147,13 +147,13 @@ TEST(MorphedTangents, AreThoseMadeAfreshOfAMorphedCopy) {
     mirrored.u = {-1, 0, 1};
     for (const TextureSlot& map : {plain, turned, mirrored})
         for (const unsigned moves : {+positions, +normals, +texcoords, positions | normals | texcoords})
-            for (const std::vector<float>& weights : {std::vector<float>{1, 0}, {-0.5f, 0.75f}, {1.5f, 1}}) {
+            for (const std::vector<float>& amounts : {std::vector<float>{1, 0}, {-0.5f, 0.75f}, {1.5f, 1}}) {
                 Primitive p = globe();
                 addTarget(p, moves, 0);
                 addTarget(p, moves, 1);
                 SCOPED_TRACE(testing::Message()
-                             << "u " << map.u.x << " moves " << moves << " " << weights[0]);
-                expectAsMadeAfresh(p, map, weights);
+                             << "u " << map.u.x << " moves " << moves << " " << amounts[0]);
+                expectAsMadeAfresh(p, map, amounts);
             }
 }
 
