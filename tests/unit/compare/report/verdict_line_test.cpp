@@ -151,13 +151,13 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
     CompareOptions options;
     std::vector<Frame> empty = bothFrames();
     for (Frame& frame : empty) std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, -1.0f);
-    std::vector<Frame> black = bothFrames();
-    for (Frame& frame : black) std::ranges::fill(frame.channels.at(litMode).data, 0.0f);
-    black[1].through_gbuffer.at(litMode) = black[0].channels.at(litMode);
+    std::vector<Frame> dark = bothFrames();
+    for (Frame& frame : dark) std::ranges::fill(frame.channels.at(litMode).data, 0.0f);
+    dark[1].through_gbuffer.at(litMode) = dark[0].channels.at(litMode);
     const std::pair<std::vector<Frame>, std::string> cases[] = {
         {bothFrames(), ""},
         {empty, ", but both pictures are empty: no surface is in view"},
-        {black, ", but both pictures are black: no light reaches what is in view"}};
+        {dark, ", but both pictures are black: no light reaches what is in view"}};
     const auto shared = std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
         return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
     });

@@ -52,22 +52,22 @@ void expectMade(const PictureLayer& layer, int part, const std::vector<int>& mad
             }
 }
 
-const MadePart color{"beauty",
-                     {{"A", Imf::HALF},
-                      {"B", Imf::HALF},
-                      {"G", Imf::HALF},
-                      {"R", Imf::HALF},
-                      {"albedo.blue", Imf::FLOAT},
-                      {"albedo.green", Imf::FLOAT},
-                      {"albedo.red", Imf::FLOAT}}};
-const MadePart normals{"normals",
-                       {{"normals.X", Imf::FLOAT}, {"normals.Y", Imf::HALF}, {"normals.Z", Imf::FLOAT}}};
+const MadePart colorPart{"beauty",
+                         {{"A", Imf::HALF},
+                          {"B", Imf::HALF},
+                          {"G", Imf::HALF},
+                          {"R", Imf::HALF},
+                          {"albedo.blue", Imf::FLOAT},
+                          {"albedo.green", Imf::FLOAT},
+                          {"albedo.red", Imf::FLOAT}}};
+const MadePart normalsPart{"normals",
+                           {{"normals.X", Imf::FLOAT}, {"normals.Y", Imf::HALF}, {"normals.Z", Imf::FLOAT}}};
 const MadePart idsPart{"ids", {{"material", Imf::UINT}, {"object", Imf::UINT}}};
 
 TEST(ExrParts, EveryPartIsReadAndItsLayersAreNamedByBoth) {
-    MadePart tiled = normals;
+    MadePart tiled = normalsPart;
     tiled.tile = 4;
-    const PictureFile file = partsOf(exrOf({color, tiled, idsPart}));
+    const PictureFile file = partsOf(exrOf({colorPart, tiled, idsPart}));
     EXPECT_EQ(file.format, "OpenEXR");
     EXPECT_EQ(file.width, 9);
     EXPECT_EQ(file.height, 6);
@@ -97,7 +97,7 @@ TEST(ExrParts, EveryCompressionInLinesAndTilesOfSeveralParts) {
           Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION})
         for (const int tile : {0, 4}) {
             SCOPED_TRACE(testing::Message() << "compression " << compression << ", tiles of " << tile);
-            MadePart first = color, second = idsPart;
+            MadePart first = colorPart, second = idsPart;
             first.compression = second.compression = compression;
             first.tile = tile;
             first.data = second.data = first.display = second.display = box(0, 0, 20, 40);
@@ -110,10 +110,10 @@ TEST(ExrParts, EveryCompressionInLinesAndTilesOfSeveralParts) {
 
 TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
     for (const Imf::LevelMode levels : {Imf::MIPMAP_LEVELS, Imf::RIPMAP_LEVELS}) {
-        MadePart tiled = normals;
+        MadePart tiled = normalsPart;
         tiled.tile = 4;
         tiled.levels = levels;
-        const PictureFile file = partsOf(exrOf({color, tiled}));
+        const PictureFile file = partsOf(exrOf({colorPart, tiled}));
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
         EXPECT_EQ(file.notes, Names{levels == Imf::MIPMAP_LEVELS
                                         ? "part \"normals\" is mip-mapped: its largest level is read"
@@ -129,7 +129,7 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
     const Imath::Box2i display = box(-3, -2, 6, 5);
     for (const Imath::Box2i& data :
          {box(-1, 0, 2, 3), box(-7, -9, -2, 1), box(-5, -4, 9, 8), box(40, 40, 44, 44), display}) {
-        MadePart first = color, second = idsPart;
+        MadePart first = colorPart, second = idsPart;
         first.display = second.display = display;
         first.data = data;
         second.data = box(0, 0, 1, 1);
@@ -144,7 +144,7 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     MadePart deep = idsPart;
     deep.deep = true;
     deep.compression = Imf::ZIPS_COMPRESSION;
-    const std::string file = exrOf({color, normals, deep});
+    const std::string file = exrOf({colorPart, normalsPart, deep});
     EXPECT_EQ(partFault(file), "a.exr: part \"ids\": holds deep samples, which are not read");
     const PictureFile asked = partsOf(file, "beauty");
     EXPECT_EQ(layerNames(asked), (Names{"", "albedo"}));
@@ -163,7 +163,7 @@ std::string withLastDisplay(std::string file, std::int32_t right) {
 }
 
 TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
-    const std::string file = withLastDisplay(exrOf({color, normals}), 11);
+    const std::string file = withLastDisplay(exrOf({colorPart, normalsPart}), 11);
     EXPECT_EQ(
         partFault(file),
         "a.exr: part \"normals\": its display window is 12 x 6 at 0, 0, that of the parts before it 9 x 6 "
@@ -175,7 +175,7 @@ TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
 }
 
 TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
-    const PictureFile file = partsOf(exrOf({color, normals}, [](std::vector<Imf::Header>& heads) {
+    const PictureFile file = partsOf(exrOf({colorPart, normalsPart}, [](std::vector<Imf::Header>& heads) {
         heads[0].insert("software", Imf::StringAttribute("one"));
         heads[1].insert("software", Imf::StringAttribute("two"));
         heads[1].insert("view", Imf::StringAttribute("left\neye"));
@@ -190,7 +190,7 @@ TEST(ExrParts, TwoSpellingsOfOneChannelAreRefused) {
 }
 
 TEST(ExrParts, ClaimsCountTogether) {
-    std::vector<MadePart> parts{color, normals, idsPart};
+    std::vector<MadePart> parts{colorPart, normalsPart, idsPart};
     for (MadePart& part : parts) part.compression = Imf::NO_COMPRESSION;  // else 16 lines are decoded at once
     const std::string file = exrOf(parts);
     // 54 pixels of 7 floats, of 3, and of 2 with their 2 uint32: 1512, 648 and 864 bytes.
@@ -222,7 +222,7 @@ std::string with(std::string file, int part, const std::string& attribute, std::
 }
 
 TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
-    const std::string file = exrOf({color, normals}), size = std::to_string(file.size());
+    const std::string file = exrOf({colorPart, normalsPart}), size = std::to_string(file.size());
     EXPECT_EQ(partFault(with(file, 1, "dataWindow", 2, 65535)),
               "a.exr: part \"normals\": claims 65536 x 6 pixels; its " + size + " bytes cannot hold them");
     EXPECT_EQ(partFault(with(file, 1, "dataWindow", 3, 1 << 20)),
@@ -244,7 +244,7 @@ TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
 TEST(ExrParts, SubsampledPartsAreRefusedByName) {
     const auto sampled = [](const std::string& name) {
         return exrOf(
-            {color, {"fog", {{"Y", Imf::HALF}, {name, Imf::HALF}}, box(0, 0, 7, 5), box(0, 0, 8, 5)}});
+            {colorPart, {"fog", {{"Y", Imf::HALF}, {name, Imf::HALF}}, box(0, 0, 7, 5), box(0, 0, 8, 5)}});
     };
     // The library also checks the sampling when it writes pixels, so the written file is changed afterwards.
     const auto halved = [&](const std::string& name) {

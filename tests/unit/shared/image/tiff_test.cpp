@@ -75,24 +75,23 @@ std::string tiffFault(const std::string& bytes, std::uint64_t most = 1 << 20) {
 }
 
 TEST(Tiff, EverySampleIsReadAsItIs) {
-    using Values = PixelData;
     const TiffPicture octets = read(made(2, 2, 1, 8, 1, stored<std::uint8_t>({0, 51, 102, 255})));
-    EXPECT_EQ(octets.image.data, (Values{0, 51 / 255.0f, 102 / 255.0f, 1}));
+    EXPECT_EQ(octets.image.data, (PixelData{0, 51 / 255.0f, 102 / 255.0f, 1}));
     EXPECT_EQ(octets.sample, "8 bit");
     EXPECT_FALSE(octets.linear);
     const TiffPicture words = read(made(2, 1, 1, 16, 1, stored<std::uint16_t>({1, 65535})));
-    EXPECT_EQ(words.image.data, (Values{1 / 65535.0f, 1}));
+    EXPECT_EQ(words.image.data, (PixelData{1 / 65535.0f, 1}));
     EXPECT_EQ(words.sample, "16 bit");
     const TiffPicture longs = read(made(2, 1, 1, 32, 1, stored<std::uint32_t>({0x80000000u, 0xffffffffu})));
     EXPECT_FLOAT_EQ(longs.image.data[0], 0.5f);
     EXPECT_EQ(longs.image.data[1], 1);
     const TiffPicture reals = read(made(1, 2, 3, 32, 3, stored<float>({0.1f, -2, 1e30f, 4, 5, 6})));
     EXPECT_EQ(reals.image.components, 3);
-    EXPECT_EQ(reals.image.data, (Values{0.1f, -2, 1e30f, 4, 5, 6}));
+    EXPECT_EQ(reals.image.data, (PixelData{0.1f, -2, 1e30f, 4, 5, 6}));
     EXPECT_EQ(reals.sample, "float");
     EXPECT_TRUE(reals.linear);
     const TiffPicture halves = read(made(2, 1, 1, 16, 3, stored<std::uint16_t>({0x3c00, 0xc000})));
-    EXPECT_EQ(halves.image.data, (Values{1, -2}));
+    EXPECT_EQ(halves.image.data, (PixelData{1, -2}));
     EXPECT_EQ(halves.sample, "half");
 }
 
