@@ -17,6 +17,7 @@
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
+#include "shared/text/json_text.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -47,7 +48,7 @@ constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json"
 constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 std::string partText(const Json& json) {
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 1) + "\n";
 }
 
 // Names of features are the program's own and live as long as it does; those of a file must, too.
