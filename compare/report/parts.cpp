@@ -464,7 +464,8 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         for (const std::vector<std::string>& names :
              {placed.part.files, placed.part.sections, placed.part.texts()})
             for (const std::string& name : names)
-                if (listed.contains(name)) linkOrCopy(placed.root, name, folder / name);
+                if (listed.contains(name))
+                    (placed.kept ? linkOrCopy : copyBelow)(placed.root, name, folder / name);
     const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
         AtomicFile file(folder / name);
         make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });
