@@ -4,6 +4,7 @@
 #include "compare/files/gltf_file.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/scene/motion/pose.h"
+#include "shared/text/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -124,7 +125,7 @@ std::string glbOf(const Case& flat) {
 std::string lightsFileOf(const Case& flat) {
     Json lights = Json::array();
     for (const Light& light : flat.scene.lights) lights.push_back(jsonOf(light));
-    return Json{{"lights", lights}}.dump(1) + "\n";
+    return jsonText(Json{{"lights", lights}}, 1) + "\n";
 }
 
 }  // namespace diptych::audit

@@ -5,6 +5,7 @@
 #include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
 #include "compare/files/our_files.h"
+#include "shared/text/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -117,7 +118,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"skipped", skips},
         {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
         {"files", files}};
-    return json.dump(2) + "\n";
+    return jsonText(json) + "\n";
 }
 
 }  // namespace diptych::bench

@@ -3,6 +3,7 @@
 
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 #include "shared/vulkan/user_cache.h"
 
 #include <nlohmann/json.hpp>
@@ -96,7 +97,7 @@ bool writeCalibration(const std::filesystem::path& file, const Calibration& cali
                     {"effects", std::move(effects)}};
     try {
         makeCacheFolder(file.parent_path());
-        const std::string text = json.dump(1) + "\n";
+        const std::string text = jsonText(json, 1) + "\n";
         AtomicFile out(file);
         keepForUser(out.stream());
         std::fwrite(text.data(), 1, text.size(), out.stream());

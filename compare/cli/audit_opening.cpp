@@ -2,8 +2,11 @@
 #include "compare/cli/audit_opening.h"
 
 #include "compare/cli/commands.h"
+#include "compare/render/host_memory.h"
+#include "shared/contract/debug_mode.h"
 
 #include <cstdio>
+#include <vector>
 
 namespace diptych::cli {
 
@@ -19,6 +22,12 @@ AuditOpening::AuditOpening(const Options& options, const Settings& settings, con
       audited_{options.scenes.front(), settings.camera.empty() ? subject_.view_name : settings.camera,
                settings, reportDevice(device_), scene_.notes} {
     say(options, "on " + device_.info().name);
+    // The usual scene's reference and the pushed one's, each with its rays, beside those that are compared.
+    const std::vector<Settings> references(6, referenceSettings(settings));
+    RenderOptions drawing;
+    drawing.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};
+    SceneViews views(scene_);
+    checkHostMemory(views, references, drawing, device_.profile().software);
 }
 
 void AuditOpening::print(const std::string& words) {

@@ -9,6 +9,7 @@
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
+#include "shared/text/json_text.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -121,7 +122,7 @@ int runAccept(const Options& options) {
                                        ? fmt::format("accepted as {} was in {}", how.pair, report.string())
                                        : options.accept.because}});
     }
-    writeFile(linkedFile(out), rules.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeFile(linkedFile(out), jsonText(rules) + "\n");
     if (!options.quiet)
         printOut("{}: {} rule{} written; compare --tolerances {} holds to {}\n", out.string(), failing.size(),
                  failing.size() == 1 ? "" : "s", out.string(), failing.size() == 1 ? "it" : "them");

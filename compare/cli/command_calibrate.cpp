@@ -5,6 +5,7 @@
 #include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -70,7 +71,7 @@ int runCalibrate(const Options& options) {
                   {"granted", grants}};
         for (const external::Deviation& one : deviations)
             json["deviations"].push_back({{"name", one.name}, {"words", one.words}, {"grant", one.grant}});
-        printOut("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        printOut("{}\n", jsonText(json));
     } else if (!options.quiet) {
         std::string out;
         for (const std::string& line : granted) out += fmt::format("granted {}\n", line);

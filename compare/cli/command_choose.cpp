@@ -9,6 +9,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -77,8 +78,7 @@ int runChoose(const Options& options) {
         writeChoice(choices, options.out, options.force);
         tell((options.out / "index.html").string() + "\n");
     }
-    if (options.json)
-        printOut("{}\n", toJson(choices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    if (options.json) printOut("{}\n", jsonText(toJson(choices)));
     return settings ? 0 : 1;
 }
 

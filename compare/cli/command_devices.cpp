@@ -5,6 +5,7 @@
 #include "compare/probe/run.h"
 #include "compare/run/print.h"
 #include "shared/material/texture_probe.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -73,9 +74,7 @@ int runDevices(const Options& options) {
     }
     progress.wipe();
     if (options.json)
-        printOut(
-            "{}\n",
-            jsonOf(devices, probes).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        printOut("{}\n", jsonText(jsonOf(devices, probes)));
     else if (!options.quiet)
         for (const DeviceInfo& device : devices) {
             print(device);

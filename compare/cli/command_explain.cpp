@@ -11,6 +11,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -67,7 +68,7 @@ void leave(const Options& options, const PictureChoice& picture, const Device& d
                                 options.force);
     wipeProgress();
     if (options.json) {
-        printOut("{}", json.empty() ? toJson(explanation, of).dump(2) + "\n" : json);
+        printOut("{}", json.empty() ? jsonText(toJson(explanation, of)) + "\n" : json);
     } else if (!options.quiet) {
         printColored(options, inWords(explanation, of));
         if (!options.out.empty()) printOut("page: {}\n", (options.out / "index.html").string());

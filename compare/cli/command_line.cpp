@@ -419,4 +419,43 @@ Options parseCommandLine(const std::vector<std::string>& given) {
     return options;
 }
 
+Options parseReported(const std::vector<std::string>& words) {
+    constexpr std::array taken{"--baseline", "--tolerances", "--against-device", "--device",
+                               "--mask",     "--ids",        "--ignore-edges",   "--crop"};
+    constexpr std::array flags{"--allow-noise", "--strict", "--allow-empty"};
+    constexpr std::array left_out{"-o", "--renderer"};
+    const auto isOneOf = [](const auto& options, const std::string& name) {
+        return std::ranges::find(options, name) != options.end();
+    };
+    const auto isSetting = [](const std::string& name) {
+        return std::ranges::any_of(
+            settingFields(), [&](const Field& field) { return name == "--" + std::string(field.option); });
+    };
+    std::vector<std::string> read{"view"};
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (word == "--") {  // scenes follow
+            read.insert(read.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+            break;
+        }
+        if (!word.starts_with('-') || isOneOf(flags, word)) {
+            read.push_back(word);
+            continue;
+        }
+        const bool unread = isOneOf(left_out, name);
+        if (!unread && !isOneOf(taken, name) && !isSetting(name))
+            throw std::runtime_error(fmt::format(
+                "the command of the comparison has {}: view takes scene, Settings and what counts "
+                "from a report",
+                oneLine(name)));
+        if (name == word && i + 1 == words.size())
+            throw std::runtime_error(fmt::format("the command of the comparison ends at {}", name));
+        // Joined, so that a value is never taken for an option.
+        const std::string value = name == word ? name + "=" + words[++i] : word;
+        if (!unread) read.push_back(value);
+    }
+    return parseCommandLine(read);
+}
+
 }  // namespace diptych::cli

@@ -13,4 +13,9 @@ namespace diptych::cli {
 // throws std::runtime_error, one line, for a usage error and for what is not built yet.
 Options parseCommandLine(const std::vector<std::string>& words);
 
+// The words that a report has of a comparison ("compare ..."), as those of `view`. Anyone may have written
+// them: only scene, Settings and what influences a verdict are taken. Where the report went and other
+// renderers are left out; any other option throws std::runtime_error naming it.
+Options parseReported(const std::vector<std::string>& words);
+
 }  // namespace diptych::cli

@@ -3,6 +3,7 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/explain/pixel_words.h"
 #include "compare/run/print.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ int runPixel(const Options& options) {
     checkValidation(device);
     wipeProgress();
     if (options.json)
-        printOut("{}\n", toJson(story).dump(2));
+        printOut("{}\n", jsonText(toJson(story)));
     else if (!options.quiet)
         printColored(options, inWords(story));
     return 0;

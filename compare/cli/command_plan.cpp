@@ -5,6 +5,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/path_plan.h"
 #include "compare/run/print.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -193,9 +194,7 @@ int runPlan(const Options& options) {
             print(result);
     }
     checkValidation(device);
-    if (options.json)
-        printOut("{}\n",
-                 Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (options.json) printOut("{}\n", jsonText(Json{{"schema", 1}, {"scenes", scenes}}));
     return compiles ? 0 : 1;
 }
 

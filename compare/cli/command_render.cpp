@@ -8,6 +8,7 @@
 #include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,7 @@ int listScenes(const Options& options) {
         names.push_back({{"name", name}, {"shows", scene.shows}, {"for_tests", scene.for_tests}});
         if (!options.json && !options.quiet) printOut("{:<30} {}\n", name, scene.shows);
     }
-    if (options.json) printOut("{}\n", Json{{"schema", 1}, {"scenes", names}}.dump(2));
+    if (options.json) printOut("{}\n", jsonText(Json{{"schema", 1}, {"scenes", names}}));
     return 0;
 }
 

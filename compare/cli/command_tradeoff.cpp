@@ -167,19 +167,20 @@ private:
     void measure(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                  const Stage& stage) {
         const TradeoffTable table(tradeoff_, sweep_.rows, terminalColumns(stdout), options_.verbose);
+        const std::vector<int> visits = visitsOf(options_.runs);
         double all = 0, done = 0;
         for (const Settings& row : sweep_.rows) all += weightOf(row);
         if (prints()) print(table.head());
         for (const Settings& settings : sweep_.rows) {
             const double from = done / all;
             done += weightOf(settings);
-            std::optional<TradeoffRow> kept = state.find(settings);
+            std::optional<TradeoffRow> kept = state.find(settings, references.frames.size(), visits.size());
             if (kept) {
                 ++tradeoff_.kept;
                 tradeoff_.rows.push_back(std::move(*kept));
             } else {
                 RenderOptions render = renderOptions(options_);
-                render.runs = visitsOf(options_.runs).front();
+                render.runs = visits.front();
                 render.progress = stage.part(from, done / all);
                 MeasuredRow measured = measureRow(renderer, settings, references, render);
                 tradeoff_.cost.drawing += measured.row.drawing_ms;

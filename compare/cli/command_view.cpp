@@ -106,9 +106,9 @@ ReportedView readReport(const Options& options) {
 
 // The options that the report's comparison was made with, and what of this command line goes beyond them.
 Options reported(const Options& given) {
-    ReportedView of = readReport(given);
-    of.command.front() = "view";
-    Options options = parseCommandLine(of.command);
+    const ReportedView of = readReport(given);
+    Options options =
+        named("--report " + given.view.report.string(), [&] { return parseReported(of.command); });
     options.shown = findDebugMode(of.channel)->number;
     options.pixel = given.pixel ? given.pixel : of.pixel;
     options.size_given = true;

@@ -5,6 +5,7 @@
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
 #include "compare/run/print.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ int listChannels(const Options& options) {
                             {"name", mode.name},
                             {"metric", nameOf(mode.metric)},
                             {"shows", mode.shows}});
-        printOut("{}\n", list.dump(2));
+        printOut("{}\n", jsonText(list));
         return 0;
     }
     for (const DebugMode& mode : debugModes())

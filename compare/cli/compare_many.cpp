@@ -198,7 +198,7 @@ private:
             const auto [first, last] = errors_.equal_range(item);
             for (auto error = first; error != last; ++error) whole.errors.push_back(error->second);
             if (const auto part = parts_.find(item); part != parts_.end())
-                whole.parts.push_back({std::move(part->second), kept_.path()});
+                whole.parts.push_back({std::move(part->second), kept_.path(), true});
         }
         if (whole.parts.empty() && options_.shard.empty())
             throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",

@@ -3,6 +3,7 @@
 #include "compare/cli/commands.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
+#include "shared/text/json_text.h"
 #include "shared/text/one_line.h"
 
 #include <fcntl.h>
@@ -28,7 +29,7 @@ int fail(const std::string& what, bool json) {
     diptych::printMessage(what);
     if (json) {
         const nlohmann::ordered_json object{{"schema", 1}, {"error", diptych::messageLine(what)}};
-        diptych::printOut("{}\n", object.dump(2));
+        diptych::printOut("{}\n", diptych::jsonText(object));
         std::fflush(stdout);
     }
     return 2;

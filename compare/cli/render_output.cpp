@@ -4,6 +4,7 @@
 #include "compare/files/our_files.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/made_channels.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -78,7 +79,7 @@ void noteIgnored(const Options& options) {
 }
 
 std::string jsonText(const nlohmann::ordered_json& json) {
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return jsonText(json) + "\n";
 }
 
 nlohmann::ordered_json resultOf(const ReportDevice& made) {

@@ -19,6 +19,7 @@
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
 #include "shared/text/named.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -229,10 +230,10 @@ int mergeTradeoffs(const Options& options) {
         }
         ListedFolder out(folder / item.folder, tradeoff::tradeoffManifest, options.force);
         for (const std::string& name : names) {
-            linkOrCopy(from, item.folder + name, out / name);
+            copyBelow(from, item.folder + name, out / name);
             out.list(name);
         }
-        out.finish(textBelow(from, manifest, json_bytes));
+        out.finish(shownText(textBelow(from, manifest, json_bytes)));
         done.push_back(&item);
     }
     const shards::Manifest manifest = chosen.manifest;

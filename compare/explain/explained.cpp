@@ -4,6 +4,7 @@
 #include "compare/explain/html.h"
 #include "compare/explain/pictures.h"
 #include "compare/page/text.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace diptych {
 Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown) {
     Explained explained;
     explained.words = inShort(explanation);
-    explained.json = toJson(explanation, of).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    explained.json = jsonText(toJson(explanation, of), -1);
     if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
     // Without the maps of the single causes, which the report does not show.
     const auto kept = std::make_shared<Explanation>(explanation);
@@ -29,8 +30,7 @@ Explained explainedOf(const Explanation& explanation, const ExplainedPictures& o
 
 Explained notExplained(const std::string& because) {
     return {"why lit differs is not known: " + because,
-            nlohmann::json{{"not_explained", because}}.dump(-1, ' ', false,
-                                                            nlohmann::json::error_handler_t::replace),
+            jsonText(nlohmann::json{{"not_explained", because}}, -1),
             {},
             [because](const std::string&) {
                 return fmt::format("<p class=\"soft\">Why lit differs is not known: {}</p>\n",

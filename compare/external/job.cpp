@@ -11,6 +11,7 @@
 #include "shared/image/exr.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
@@ -161,8 +162,8 @@ public:
                           {"primaries", "rec709"},
                           {"transfer", "linear"}}},
                         {"settings", parseOrderedJson(toJson(settings_))}};
-        job.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-        writeFile(job.file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        job.text = jsonText(json, -1);
+        writeFile(job.file, jsonText(json) + "\n");
         return job;
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/gltf_file.h"
+#include "shared/text/json_text.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -78,14 +79,14 @@ std::string GltfFile::text() const {
         document["buffers"] =
             Json::array({{{"byteLength", bytes_.size()},
                           {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
-    return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(document, 1) + "\n";
 }
 
 std::string GltfFile::binary() const {
     Json document = json;
     if (!bytes_.empty()) document["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
     std::string chunks;
-    addChunk(chunks, "JSON", document.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');
+    addChunk(chunks, "JSON", jsonText(document, -1), ' ');
     if (!bytes_.empty())
         addChunk(chunks, "BIN\0", {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}, '\0');
     std::string file = "glTF";

@@ -5,6 +5,7 @@
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -22,7 +23,7 @@ namespace {
 constexpr const char* keyFile = "key.json";
 
 std::string pageOfJson(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json) + "\n";
 }
 
 Json readJson(const fs::path& file) {

@@ -4,6 +4,7 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json_text.h"
 
 #include <algorithm>
 #include <utility>
@@ -53,7 +54,7 @@ std::vector<std::string> ListedFolder::files() const {
 std::string ListedFolder::finish(nlohmann::ordered_json manifest) {
     manifest["software"] = softwareName;
     manifest["files"] = files();
-    std::string text = manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    std::string text = jsonText(manifest) + "\n";
     finish(text);
     return text;
 }

@@ -46,6 +46,9 @@ private:
 // hard links, else copies it. No link below `root` is followed. Throws std::runtime_error naming the file.
 void linkOrCopy(const std::filesystem::path& root, const std::string& name, const std::filesystem::path& to);
 
+// The same with bytes of its own: of a file that is somebody else's, who may write to it later.
+void copyBelow(const std::filesystem::path& root, const std::string& name, const std::filesystem::path& to);
+
 // Finishes the moves of a program that was killed in put(), if there are any.
 void finishOutput(const std::filesystem::path& folder);
 

@@ -21,8 +21,9 @@ std::string textOf(double value) {
 
 LogAxis::LogAxis(const std::vector<double>& values) {
     double least = 0, most = 0;
-    for (const double v : values) {
-        if (!(v > 0) || !std::isfinite(v)) continue;
+    for (const double value : values) {
+        if (!(value > 0) || !std::isfinite(value)) continue;
+        const double v = std::clamp(value, 1e-100, 1e100);  // ends and their ratio stay finite
         least = least == 0 ? v : std::min(least, v);
         most = std::max(most, v);
     }

@@ -5,6 +5,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/frame_facts.h"
+#include "compare/render/host_memory.h"
 #include "compare/render/left_out.h"
 #include "compare/run/interruption.h"
 #include "compare/run/progress.h"
@@ -194,6 +195,7 @@ bool needsDevice(const Settings& settings) {
 
 std::vector<Frame> drawWithoutDevice(SceneViews& views, const std::vector<Settings>& settings,
                                      const RenderOptions& options) {
+    checkHostMemory(views, settings, options, false);
     std::vector<Frame> frames;
     const auto count = static_cast<double>(settings.size());
     for (const Settings& each : settings) {

@@ -5,6 +5,7 @@
 #include "compare/reference/reference.h"
 #include "compare/render/encoding_bound.h"
 #include "compare/render/frame_facts.h"
+#include "compare/render/host_memory.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/render_many.h"
@@ -238,6 +239,7 @@ struct Renderer::State {
     std::unique_ptr<SceneViews> own_views;  // where none were given
     SceneViews& views;
     SharedResources shared;
+    std::uint64_t granted = 0;  // bytes of host memory
 };
 
 std::shared_ptr<PipelineSet> makePipelineSet(Device& device) {
@@ -255,8 +257,15 @@ Renderer::Renderer(Device& device, const Scene& scene, std::shared_ptr<PipelineS
 }
 Renderer::~Renderer() = default;
 
+void Renderer::checkMemory(std::span<const Settings> settings, const RenderOptions& options) {
+    const std::uint64_t needed =
+        checkHostMemory(state_->views, settings, options, state_->device.profile().software, state_->granted);
+    state_->granted = std::max(state_->granted, needed);
+}
+
 Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     checkSize(state_->device, settings.size);
+    checkMemory(std::span(&settings, 1), options);
     if (settings.path == Path::reference) return drawReference(settings, options);
     RenderOptions drawing = options;
     drawing.runs = 0;
@@ -315,6 +324,7 @@ std::size_t Renderer::pipelines() const {
 }
 
 PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
+    checkMemory(settings, {});
     return PreparedFrames(state_->device, state_->shared, state_->views, settings);
 }
 
@@ -373,6 +383,7 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
     for (const Settings& s : settings) checkSize(device, s.size);
     options.progress.at(0, "upload");
     Renderer renderer(device, views, pipelines);
+    renderer.checkMemory(settings, options);
     RenderOptions each = options, timed = options;
     each.runs = 0;
     const double timing = 1 - framesIn(each) / framesIn(options);

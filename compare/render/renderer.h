@@ -52,6 +52,9 @@ public:
     // Destroys the pipelines of one path, of all Renderers that share them. Frames of it that are prepared
     // must be gone.
     void clearPipelines(Path path);
+    // checkHostMemory() of Frames that will be drawn. What was granted once is not asked for again: it is
+    // used by one Frame after the other.
+    void checkMemory(std::span<const Settings> settings, const RenderOptions& options);
     // How many pipelines there are by now, of all Renderers that share them.
     std::size_t pipelines() const;
 

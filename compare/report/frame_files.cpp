@@ -7,6 +7,7 @@
 #include "compare/picture/heat.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,8 +70,7 @@ std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice
         {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
         {"frame", jsonOf(frame)},
         {"files", files}};
-    writeFile(folder / files[1],
-              json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    writeFile(folder / files[1], jsonText(json) + "\n");
     return files;
 }
 

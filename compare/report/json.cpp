@@ -5,6 +5,7 @@
 #include "compare/files/our_files.h"
 #include "compare/report/trends.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 
 namespace diptych {
 namespace {
@@ -163,7 +164,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
 }
 
 std::string textOf(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+    return jsonText(json);
 }
 
 }  // namespace
@@ -208,7 +209,9 @@ Json truthJson(const Report& report) {
 }
 
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink) {
+                     const Trends* since, const JsonArrays& arrays, const JsonSink& out) {
+    // Arrays may be another machine's texts.
+    const JsonSink sink = [&](std::string_view text) { out(shownText(text)); };
     Json times = Json::array();
     for (const DrawnOn& one : devices) {
         times.push_back(jsonOf(one.device));

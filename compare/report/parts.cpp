@@ -17,6 +17,7 @@
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
+#include "shared/text/json_text.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -47,7 +48,7 @@ constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json"
 constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 std::string partText(const Json& json) {
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 1) + "\n";
 }
 
 // Names of features are the program's own and live as long as it does; those of a file must, too.
@@ -463,7 +464,8 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         for (const std::vector<std::string>& names :
              {placed.part.files, placed.part.sections, placed.part.texts()})
             for (const std::string& name : names)
-                if (listed.contains(name)) linkOrCopy(placed.root, name, folder / name);
+                if (listed.contains(name))
+                    (placed.kept ? linkOrCopy : copyBelow)(placed.root, name, folder / name);
     const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
         AtomicFile file(folder / name);
         make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });

@@ -49,6 +49,7 @@ bool isPartThere(const std::filesystem::path& root, const std::string& scene_fol
 struct PlacedPart {
     ReportPart part;
     std::filesystem::path root;
+    bool kept = false;  // by this command, in a folder of its own: not by a shard, whose owner may change it
 };
 
 struct WholeReport {
@@ -66,8 +67,8 @@ std::vector<IndexRow> rowsOf(const WholeReport& whole);
 // Put together, without pixels: for titles, lists and the verdict.
 Report summaryOf(const WholeReport& whole);
 
-// Writes the report into `folder` as writeReport() does. Files of the parts are linked, or copied where that
-// is impossible. Throws std::runtime_error naming the file.
+// Writes the report into `folder` as writeReport() does. Files of parts that are `kept` are linked, or copied
+// where that is impossible; those of others are copied. Throws std::runtime_error naming the file.
 void writeWhole(const WholeReport& whole, const Report& summary, const std::filesystem::path& folder,
                 const ReportOptions& options);
 

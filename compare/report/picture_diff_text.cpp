@@ -4,6 +4,7 @@
 
 #include "compare/files/our_files.h"
 #include "compare/report/titles.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -183,7 +184,7 @@ Json jsonOf(const PictureDiff& diff) {
 }
 
 std::string textOf(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json) + "\n";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
+#include "shared/text/json_text.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -61,7 +62,7 @@ std::string hashOf(const std::string& text) {
 }
 
 std::string planHash(const Json& plan) {
-    return hashOf(plan.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return hashOf(jsonText(plan, -1));
 }
 
 std::string buildName() {
@@ -94,7 +95,7 @@ std::string textOf(const Manifest& manifest) {
                     {"items", items},
                     {"errors", errors},
                     {"plan", manifest.plan}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 1) + "\n";
 }
 
 Manifest readManifest(const fs::path& folder, const char* file) {

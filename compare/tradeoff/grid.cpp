@@ -3,6 +3,7 @@
 
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string quotedLine(const Json& json) {
-    return oneLine(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return oneLine(jsonText(json, -1));
 }
 
 // The option of a Setting that may be swept.

@@ -3,6 +3,7 @@
 #include "compare/files/our_files.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "shared/text/json_text.h"
 
 namespace diptych::tradeoff {
 namespace {
@@ -95,7 +96,7 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
           {"drawing", cost.drawing},
           {"beyond", cost.beyond()}}},
         {"files", files}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json) + "\n";
 }
 
 }  // namespace diptych::tradeoff

@@ -2,6 +2,7 @@
 #include "compare/tradeoff/row.h"
 
 #include "shared/text/json.h"
+#include "shared/text/json_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,10 @@ namespace diptych::tradeoff {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Place = JsonAt<Json>;
+
+// Of a count, bytes or frames: sums of several stay exact.
+constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 template <class Value>
 double mean(const TradeoffRow& row, Value&& value) {
@@ -30,11 +35,11 @@ Json jsonOf(const Figures& figures, const Values& values) {
 }
 
 template <class Figures>
-std::array<double, std::tuple_size_v<Figures>> figuresFrom(const Figures& figures, const Json& json) {
+std::array<double, std::tuple_size_v<Figures>> figuresFrom(const Figures& figures, const Place& json) {
     std::array<double, std::tuple_size_v<Figures>> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const Json& value = json.at(std::string(figures[i].name));
-        values[i] = value.is_null() ? std::numeric_limits<double>::infinity() : value.template get<double>();
+        const Place value = json.at(std::string(figures[i].name).c_str());
+        values[i] = value.json().is_null() ? std::numeric_limits<double>::infinity() : value.number();
     }
     return values;
 }
@@ -46,8 +51,8 @@ Json jsonOf(const Figures& figures, const std::optional<Values>& values) {
 
 template <class Figures>
 std::optional<std::array<double, std::tuple_size_v<Figures>>> figuresIfAny(const Figures& figures,
-                                                                           const Json& json) {
-    if (json.is_null()) return {};
+                                                                           const Place& json) {
+    if (json.json().is_null()) return {};
     return figuresFrom(figures, json);
 }
 
@@ -89,18 +94,26 @@ Json jsonOf(const CameraRow& camera) {
             {"pixels", camera.pixels}};
 }
 
-CameraRow cameraFrom(const Json& json) {
+FrameTime timeFrom(const Place& json) {
+    return {json.at("median").number(), json.at("min").number(), json.at("max").number(),
+            json.at("runs").whole<int>(0, 1'000'000)};
+}
+
+CameraRow cameraFrom(const Place& json) {
     CameraRow camera;
-    camera.camera = json.at("camera");
-    const Json& bytes = json.at("bytes");
-    for (const Json& visit : json.at("visits"))
-        camera.visits.push_back({visit.at("median"), visit.at("min"), visit.at("max"), visit.at("runs")});
-    for (const Json& pass : json.at("passes")) camera.passes.push_back({pass.at("name"), pass.at("ms")});
-    camera.bytes = {bytes.at("images"), bytes.at("buffers"), bytes.at("gbuffer_per_pixel")};
+    camera.camera = json.at("camera").text();
+    for (const Place& visit : json.at("visits").each()) camera.visits.push_back(timeFrom(visit));
+    for (const Place& pass : json.at("passes").each())
+        camera.passes.push_back({pass.at("name").text(), pass.at("ms").number()});
+    const auto counted = [](const Place& of, const char* name) {
+        return of.at(name).whole<std::uint64_t>(0, most_counted);
+    };
+    const Place bytes = json.at("bytes");
+    camera.bytes = {counted(bytes, "images"), counted(bytes, "buffers"), counted(bytes, "gbuffer_per_pixel")};
     camera.errors = figuresFrom(errorFigures, json.at("errors"));
     camera.shadow = figuresIfAny(shadowFigures, json.at("shadow"));
     camera.samples = figuresIfAny(sampleFigures, json.at("samples"));
-    camera.pixels = json.at("pixels");
+    camera.pixels = counted(json, "pixels");
     return camera;
 }
 
@@ -192,15 +205,16 @@ Json jsonOf(const TradeoffRow& row) {
             {"warnings", row.warnings}};
 }
 
-TradeoffRow tradeoffRowFrom(const Json& json) {
+TradeoffRow tradeoffRowFrom(const Json& given) {
+    const Place json(given);
     TradeoffRow row;
-    row.settings = settingsFromJson(json.at("settings").dump());
-    for (const Json& camera : json.at("cameras")) row.cameras.push_back(cameraFrom(camera));
+    row.settings = settingsFromJson(json.at("settings").json().dump());
+    for (const Place& camera : json.at("cameras").each()) row.cameras.push_back(cameraFrom(camera));
     row.errors = figuresFrom(errorFigures, json.at("errors"));
-    row.drawing_ms = json.at("drawing_ms");
-    row.picture = json.at("picture");
-    row.errors_map = json.at("error_picture");
-    row.warnings = json.at("warnings").get<std::vector<std::string>>();
+    row.drawing_ms = json.at("drawing_ms").number();
+    row.picture = json.at("picture").text();
+    row.errors_map = json.at("error_picture").text();
+    row.warnings = json.at("warnings").texts();
     return row;
 }
 

@@ -73,7 +73,7 @@ std::optional<SampleShares> samplesOf(const TradeoffRow& row);
 
 // Every number with all its digits; an error that is infinite is null.
 nlohmann::ordered_json jsonOf(const TradeoffRow& row);
-// Reads what jsonOf() wrote; throws std::runtime_error or nlohmann's exception if it is anything else.
+// Reads what jsonOf() wrote; throws std::runtime_error that names the place if it is anything else.
 TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
 
 }  // namespace diptych::tradeoff

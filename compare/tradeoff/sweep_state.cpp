@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
-#include <exception>
+#include <algorithm>
 #include <span>
+#include <stdexcept>
 
 namespace diptych::tradeoff {
 namespace {
@@ -52,16 +53,22 @@ fs::path SweepState::folderOf(const fs::path& out) {
 
 SweepState::SweepState(const fs::path& out, const Json& key) : kept_(out, folderName, key) {}
 
-std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
+std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_t cameras,
+                                            std::size_t visits) const {
     const Json json = kept_.find(nameOf(settings));
     if (json.is_null()) return {};
     try {
         TradeoffRow row = tradeoffRowFrom(json);
-        const bool whole = row.settings == settings && row.picture == pictureOf(settings) &&
-                           row.errors_map == errorsOf(settings) && fs::exists(kept_ / row.picture) &&
-                           fs::exists(kept_ / row.errors_map);
+        const auto isVisited = [&](const CameraRow& camera) {
+            const std::size_t times = camera.visits.size();
+            return times > 0 && times <= visits && times == row.cameras.front().visits.size();
+        };
+        const bool whole = row.settings == settings && row.cameras.size() == cameras &&
+                           std::ranges::all_of(row.cameras, isVisited) &&
+                           row.picture == pictureOf(settings) && row.errors_map == errorsOf(settings) &&
+                           fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
-    } catch (const std::exception&) {  // not what was written: the row is measured again
+    } catch (const std::runtime_error&) {  // not what was written: the row is measured again
         return {};
     }
 }

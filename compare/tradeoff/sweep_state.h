@@ -20,7 +20,8 @@ public:
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
 
     bool isRenewed() const { return kept_.isRenewed(); }  // whether rows of another key were removed
-    std::optional<TradeoffRow> find(const Settings& settings) const;
+    // A row from so many cameras, each visited equally often, `visits` times at most.
+    std::optional<TradeoffRow> find(const Settings& settings, std::size_t cameras, std::size_t visits) const;
     void keep(MeasuredRow& measured);    // names the row's pictures
     void renew(const TradeoffRow& row);  // of one that is kept
     // The path of a file of a kept row.

@@ -3,6 +3,7 @@
 
 #include "shared/text/did_you_mean.h"
 #include "shared/text/json.h"
+#include "shared/text/json_text.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -206,7 +207,7 @@ std::string toJson(const Settings& settings, int indent) {
     Settings::fields(settings, [&](const Field& field, const auto& member) {
         object[keyOf(field.option)] = CodecOf<decltype(member)>::json(member);
     });
-    return object.dump(indent, ' ', false, Json::error_handler_t::replace);
+    return jsonText(object, indent);
 }
 
 namespace {
@@ -239,10 +240,9 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         if (unknown.erase(key) == 0) return;
         using Value = CodecOf<decltype(member)>;
         if (!readJson<Value>(member, field, object[key]))
-            throw std::runtime_error(
-                fmt::format("settings: \"{}\": {} is not {}", key,
-                            oneLine(object[key].dump(-1, ' ', false, Json::error_handler_t::replace)),
-                            inWords(Value::accepted())));
+            throw std::runtime_error(fmt::format("settings: \"{}\": {} is not {}", key,
+                                                 oneLine(jsonText(object[key], -1)),
+                                                 inWords(Value::accepted())));
     });
     if (unknown.erase(std::string(earlier_name)) != 0) {
         const Json& value = object[std::string(earlier_name)];

@@ -82,11 +82,16 @@ std::string messageLine(std::string_view text) {
 std::string shownText(std::string_view text) {
     std::string shown;
     shown.reserve(text.size());
+    const auto isPlain = [](char c) { return (c >= ' ' && c < '\x7f') || c == '\n'; };
     while (!text.empty()) {
+        const auto plain = std::ranges::find_if_not(text, isPlain) - text.begin();
+        shown += text.substr(0, static_cast<std::size_t>(plain));
+        text.remove_prefix(static_cast<std::size_t>(plain));
+        if (text.empty()) break;
         const auto [code, size] = characterAt(text);
         if (size == 0)
             shown += '?';
-        else if (isControl(code) && code != '\n')
+        else if (isControl(code))
             shown += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code));
         else
             shown += text.substr(0, size);

@@ -106,4 +106,26 @@ TEST(Memory, DiffRefusesWhatDoesNotFit) {
     EXPECT_TRUE(refused.failedOver("compare smaller pictures"));
 }
 
+// What a picture of 256 million pixels takes is known before a device is asked for the first of its images.
+TEST(Memory, DrawingRefusesWhatDoesNotFit) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer reserves terabytes, which ulimit -v forbids";
+#endif
+    const Folder scratch;
+    const auto run = [&](const std::string& words) {
+        return runShell(scratch, fmt::format("ulimit -v 4000000; '{}' {} -q -o out", DIPTYCH_PROGRAM, words),
+                        scratch.path());
+    };
+    EXPECT_EQ(run("render builtin:triangle --size 16x9 --runs 0 --channels lit").code, 0);
+    for (const char* command :
+         {"render builtin:triangle --msaa 4 --channels lit", "compare builtin:triangle",
+          "audit builtin:triangle", "render builtin:triangle --path reference --reference-mode scene"}) {
+        const Ran refused = run(std::string(command) + " --size 16000x16000 --force");
+        EXPECT_TRUE(refused.failedOver("builtin:triangle at 16000x16000: needs about ")) << refused.err;
+        EXPECT_TRUE(refused.failedOver(" GB are free here (ulimit -v); a smaller --size")) << refused.err;
+        EXPECT_EQ(refused.err.find("--msaa 1") != std::string::npos,
+                  std::string(command).find("--msaa 4") != std::string::npos);
+    }
+}
+
 }  // namespace diptych

@@ -201,6 +201,30 @@ TEST(Conventions, APlantedReaderIsFound) {
                     .empty());
 }
 
+// JSON that leaves the program has no raw controls. Pages, whose scripts hold JSON, have a filter of their
+// own.
+Faults writersOfRawJson(const Files& files) {
+    static const std::regex writes("\\.dump\\([^)]");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
+            path != "shared/text/json_text.h" && !path.starts_with("compare/report/html") &&
+            std::regex_search(text, writes))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, JsonIsWrittenInOnePlace) {
+    EXPECT_EQ(joined(writersOfRawJson(sources())), "");
+}
+
+TEST(Conventions, APlantedWriterOfJsonIsFound) {
+    EXPECT_EQ(writersOfRawJson({{"compare/cli/planted.cpp", "writeFile(out, json.dump(2));"}}).size(), 1u);
+    EXPECT_TRUE(writersOfRawJson({{"shared/text/json_text.h", "json.dump(indent)"},
+                                  {"compare/a.cpp", "if (a.dump() == b.dump()) jsonText(a);"}})
+                    .empty());
+}
+
 TEST(Conventions, LibpngIsUsedInOnePlace) {
     EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
 }

@@ -203,6 +203,70 @@ TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     EXPECT_FALSE(more.scene_given);
 }
 
+// A report may be from anywhere: nothing that it says writes, runs, or chooses more than what is shown.
+TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
+    const Options usual = parseReported({"compare",
+                                         "-o",
+                                         "x",
+                                         "--renderer",
+                                         "evil=nowhere.json",
+                                         "--renderer=evil=nowhere.json",
+                                         "--gbuffer",
+                                         "compact",
+                                         "--env",
+                                         "-o",
+                                         "--ibl-bias=-1",
+                                         "--camera",
+                                         "eye=0,0,1 target=0,0,0 fov=40",
+                                         "--baseline",
+                                         "reference",
+                                         "--crop",
+                                         "0,0,8x8",
+                                         "--ids",
+                                         "1,2",
+                                         "--allow-noise",
+                                         "--",
+                                         "-a.glb"});
+    EXPECT_EQ(usual.command, "view");
+    EXPECT_EQ(usual.out, "");
+    EXPECT_TRUE(usual.renderers.empty());
+    EXPECT_EQ(usual.settings.gbuffer, GBufferEncoding::compact);
+    EXPECT_EQ(usual.settings.env, "-o");
+    EXPECT_EQ(usual.settings.ibl_bias, -1);
+    EXPECT_EQ(usual.settings.camera, "eye=0,0,1 target=0,0,0 fov=40");
+    EXPECT_EQ(usual.baseline, Path::reference);
+    EXPECT_EQ(usual.selection.ids, (std::vector<int>{1, 2}));
+    EXPECT_TRUE(usual.allow_noise);
+    EXPECT_EQ(usual.scenes, std::vector<std::string>{"-a.glb"});
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--update-baseline"},
+                                                  {"--out", "x"},
+                                                  {"--out=x"},
+                                                  {"-ox"},
+                                                  {"--force"},
+                                                  {"--settings", "/dev/zero"},
+                                                  {"--validate"},
+                                                  {"--report", "x"},
+                                                  {"--watch"},
+                                                  {"--pixel", "1,1"},
+                                                  {"--help"},
+                                                  {"--manual"},
+                                                  {"--match-exposure", "a.exr"},
+                                                  {"--shard", "1/2"},
+                                                  {"--gbuffer"},
+                                                  {"-"}}) {
+        std::vector<std::string> command{"compare", "a.glb"};
+        command.insert(command.end(), words.begin(), words.end());
+        try {
+            parseReported(command);
+            ADD_FAILURE() << words.front() << " was taken";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(words.front().substr(0, words.front().find('='))),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+}
+
 TEST(CommandLine, WhatIsAudited) {
     const Options o =
         parseCommandLine({"audit", "a.glb", "--quantity", "near,fov", "--require", "near=1e6,fov=0.1"});

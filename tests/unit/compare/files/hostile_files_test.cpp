@@ -6,9 +6,15 @@
 #include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
+#include "compare/plot/log_axis.h"
 #include "compare/report/parts.h"
 #include "compare/report/trends.h"
 #include "compare/shards/merge.h"
+#include "compare/tradeoff/html.h"
+#include "compare/tradeoff/plot.h"
+#include "compare/tradeoff/sweep_state.h"
+#include "compare/tradeoff/tradeoff.h"
+#include "shared/text/one_line.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/support/files.h"
 #include "tests/support/report_maker.h"
@@ -25,8 +31,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // Two channels of a few pixels: what files there are matters, not how many.
-Report smallReport() {
-    std::vector<Frame> frames = bothFrames();
+Report smallReport(const std::string& scene = "builtin:one") {
+    std::vector<Frame> frames = bothFrames(scene);
     for (Frame& frame : frames) {
         frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
         std::erase_if(frame.channels, [&](const auto& channel) {
@@ -199,6 +205,58 @@ TEST(HostileParts, ABadTextIsNamedBeforeAnythingIsWritten) {
     EXPECT_NE(shards.merged().find(section + ": is a script that holds more than data"), std::string::npos);
 }
 
+TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
+    const Shards shards;
+    const fs::path root = shards.root, joined = root / "out/box-1/lit.png";
+    ASSERT_EQ(shards.merged(), "");
+    const std::string picture = contentsOf(joined);
+    ASSERT_EQ(contentsOf(shards.shard / "box-1/lit.png"), picture);
+    std::ofstream(shards.shard / "box-1/lit.png") << "in place";
+    EXPECT_EQ(contentsOf(joined), picture);
+    for (const std::string& name : filesIn(root / "out"))
+        EXPECT_EQ(fs::hard_link_count(root / "out" / name), 1u) << name;
+    // What a command keeps for itself goes with it, and takes no second place on the disk.
+    ReportOptions options;
+    options.scene_folder = "box/";
+    WholeReport own;
+    own.parts.push_back({writePart(smallReport(), root / "kept", options), root / "kept", true});
+    options.scene_folder.reset();
+    writeWhole(own, summaryOf(own), root / "own", options);
+    EXPECT_EQ(fs::hard_link_count(root / "own/box/lit.png"), 2u);
+}
+
+// `cat report.json` shows what it says, whoever wrote the parts of it.
+TEST(HostileParts, JsonHasNoRawControls) {
+    const std::string name = "a\u009b2J\u202e\x7f.gltf";
+    const Shards shards;
+    const fs::path root = shards.root;
+    ReportOptions options;
+    options.scene_folder = "box/";
+    WholeReport own;
+    own.parts.push_back({writePart(smallReport(name), root / "kept", options), root / "kept", true});
+    options.scene_folder.reset();
+    writeWhole(own, summaryOf(own), root / "own", options);
+    for (const char* text : {"part-frames.json", "part-comparisons.json"}) {
+        fs::copy_file(root / "kept/box" / text, shards.shard / "box-1" / text,
+                      fs::copy_options::overwrite_existing);
+        std::string raw = contentsOf(shards.shard / "box-1" / text);
+        for (const auto& [escaped, control] :
+             {std::pair{"\\u009b", "\u009b"}, {"\\u202e", "\u202e"}, {"\\u007f", "\x7f"}})
+            for (std::size_t at = 0; (at = raw.find(escaped)) != raw.npos;) raw.replace(at, 6, control);
+        ASSERT_NE(raw.find(name), raw.npos) << text;
+        std::ofstream(shards.shard / "box-1" / text) << raw;
+    }
+    ASSERT_EQ(shards.merged(), "");
+    for (const char* folder : {"own", "kept", "out"})
+        for (const std::string& file : filesIn(root / folder))
+            if (file.ends_with(".json")) {
+                const std::string text = contentsOf(root / folder / file);
+                EXPECT_EQ(shownText(text), text) << folder << "/" << file;
+            }
+    for (const char* folder : {"own", "out"})
+        EXPECT_EQ(Json::parse(contentsOf(root / folder / "report.json"))["frames"][0]["scene"], name);
+}
+
 TEST(HostileShards, OneBadShardIsNamedAndTheOthersAreJoined) {
     const Shards shards(2);
     std::ofstream(shards.part()) << "[1, 2";
@@ -367,6 +425,92 @@ TEST(HostileFuzz, EarlierReports) {
         expectALine([&] { cli::runAccept(accept); }, text);
         for (const std::string& name : manifestFiles(shards.shard, "report.json"))
             EXPECT_TRUE(isOurName(name)) << name;
+    }
+}
+
+// Through merge, and as a row that a sweep has kept, with all that is then made of it.
+TEST(HostileFuzz, Tradeoffs) {
+    using namespace tradeoff;
+    const fs::path root = folder(), shard = root / "shard";
+    std::ofstream(root / "secret.png") << "secret";
+    MeasuredRow measured;
+    measured.row.cameras.resize(1);
+    measured.row.cameras[0].visits = {{2, 1, 3, 5}};
+    measured.row.cameras[0].passes = {{"shade", 1}};
+    measured.row.cameras[0].errors = measured.row.errors = {0.1, 0.2, 0.3};
+    measured.row.warnings = {"a warning"};
+    measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
+    SweepState state(root / "swept", {{"schema", 1}, {"software", softwareName}});
+    state.keep(measured);
+    const fs::path row_file = state / (fs::path(measured.row.picture).stem().string() + ".json");
+    Tradeoff whole;
+    whole.scene = "a";
+    whole.cameras = {""};
+    whole.rows = {measured.row};
+    const shards::Manifest manifest{
+        "build", "tradeoff", {{"asked", Json::object()}}, {1, 1}, {{"a", "a/", 1}, {"b", "b/", 1}}, {}};
+    for (const char* scene : {"a", "b"}) {
+        fs::create_directories(shard / scene);
+        std::ofstream(shard / scene / "row-001.png") << "picture";
+    }
+    fs::create_directory_symlink(root, shard / "a/link");
+    ASSERT_EQ(::mkfifo((shard / "fifo.png").c_str(), 0600), 0);
+    const std::string scene = tradeoffJson(whole, {"row-001.png", "tradeoff.json"}), list = textOf(manifest),
+                      row = contentsOf(row_file);
+    std::ofstream(shard / "b/tradeoff.json") << scene;
+    cli::Options options;
+    options.command = "merge";
+    options.scenes = {shard.string()};
+    options.scene_given = options.quiet = true;
+    options.out = root / "out";
+    const auto outside = [&] {
+        std::vector<std::string> files = filesIn(root);
+        std::erase_if(files, [](const std::string& name) { return name.starts_with("out/"); });
+        return files;
+    };
+    std::ofstream(shard / "a/tradeoff.json") << scene;
+    std::ofstream(shard / "tradeoffs.json") << list;
+    const std::vector<std::string> before = outside();
+    int joined = 0, found = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        fuzz::JsonMutator mutator(seed);
+        const bool of_scene = seed % 3 > 0;
+        std::ofstream(shard / "a/tradeoff.json") << (of_scene ? mutator.mutated(scene) : scene);
+        std::ofstream(shard / "tradeoffs.json") << (of_scene ? list : mutator.mutated(list));
+        testing::internal::CaptureStderr();
+        expectALine([&] { joined += cli::runMerge(options) == 0; }, contentsOf(shard / "a/tradeoff.json"));
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_LE(std::ranges::count(said, '\n'), 1) << said;
+        EXPECT_EQ(said.find("json.exception"), said.npos) << said;
+
+        std::ofstream(row_file) << mutator.mutated(row);
+        whole.rows.clear();
+        if (const auto kept = state.find(measured.row.settings, 1, 2)) whole.rows = {*kept};
+        if (whole.rows.empty()) continue;
+        ++found;
+        tradeoffHtml(whole);
+        tradeoffCsv(whole);
+        tradeoffJson(whole, {});
+        tradeoffEnd(whole);
+        for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
+            tradeoffPlot(whole, figure, {}, PlotPlace::file);
+    }
+    EXPECT_GT(joined, 5);
+    EXPECT_GT(found, 5);
+    EXPECT_EQ(outside(), before);
+    EXPECT_EQ(contentsOf(root / "secret.png"), "secret");
+}
+
+// Numbers that no frame takes, from a row that another hand wrote.
+TEST(HostileFuzz, AnAxisOfAnyNumbersIsFinite) {
+    for (const std::vector<double>& values :
+         {std::vector<double>{1e300, 1e-300}, {5e-324}, {1.7e308}, {1e308, 1}, {-1e300, 0, 1e300}}) {
+        const LogAxis axis(values);
+        EXPECT_LT(axis.ticks().size(), 500u);
+        for (const double value : values) {
+            EXPECT_GE(axis.place(value), 0);
+            EXPECT_LE(axis.place(value), 1);
+        }
     }
 }
 

@@ -37,16 +37,16 @@ TEST(TradeoffState, ARowIsFoundByItsSettings) {
     {
         SweepState state(out, key);
         kept(state, settingsOf(1));
-        EXPECT_FALSE(state.find(settingsOf(2)));
+        EXPECT_FALSE(state.find(settingsOf(2), 1, 2));
     }
     SweepState state(out, key);
     EXPECT_FALSE(state.isRenewed());
-    const auto row = state.find(settingsOf(1));
+    const auto row = state.find(settingsOf(1), 1, 2);
     ASSERT_TRUE(row);
     EXPECT_EQ(row->settings, settingsOf(1));
     EXPECT_EQ(row->drawing_ms, 8);
     EXPECT_TRUE(fs::exists(state / row->picture));
-    EXPECT_FALSE(state.find(settingsOf(2)));
+    EXPECT_FALSE(state.find(settingsOf(2), 1, 2));
 }
 
 // A row counts if it is of these Settings, with its own pictures, all there.
@@ -56,7 +56,7 @@ TEST(TradeoffState, ARowThatIsNotWholeIsMeasuredAgain) {
     const Json whole = Json::parse(contentsOf(state / (name + ".json")));
     const auto isFound = [&](const std::string& text) {
         std::ofstream(state / (name + ".json")) << text;
-        return state.find(settingsOf(1)).has_value();
+        return state.find(settingsOf(1), 1, 2).has_value();
     };
     const auto with = [&](const char* member, const Json& value) {
         Json changed = whole;
@@ -70,6 +70,18 @@ TEST(TradeoffState, ARowThatIsNotWholeIsMeasuredAgain) {
     EXPECT_FALSE(isFound(with("error_picture", other + ".flip.png")));
     EXPECT_FALSE(isFound(whole.dump().substr(0, 100)));
     EXPECT_FALSE(isFound("{}"));
+    const auto visited = [&](int times) {
+        Json cameras = whole.at("cameras");
+        cameras[0]["visits"] = Json::array();
+        for (int i = 0; i < times; ++i) cameras[0]["visits"].push_back(whole.at("cameras")[0]["visits"][0]);
+        return cameras;
+    };
+    EXPECT_FALSE(isFound(with("cameras", visited(0))));
+    EXPECT_TRUE(isFound(with("cameras", visited(2))));
+    EXPECT_FALSE(isFound(with("cameras", visited(3)))) << "more often than a row is";
+    EXPECT_FALSE(isFound(with("cameras", Json::array())));
+    EXPECT_FALSE(isFound(with("cameras", {visited(1)[0], visited(1)[0]})))
+        << "from another number of cameras";
     for (const char* ending : {".png", ".flip.png"}) {
         fs::rename(state / (name + ending), state / "aside.png");
         EXPECT_FALSE(isFound(whole.dump())) << ending;
@@ -88,7 +100,7 @@ TEST(TradeoffState, RowsOfAnotherKeyAreRemoved) {
     other["scene"] = "b.glb";
     SweepState state(out, other);
     EXPECT_TRUE(state.isRenewed());
-    EXPECT_FALSE(state.find(settingsOf(1)));
+    EXPECT_FALSE(state.find(settingsOf(1), 1, 2));
     EXPECT_EQ(namesIn(SweepState::folderOf(out)), std::vector<std::string>{"key.json"});
     state.remove();
     EXPECT_FALSE(fs::exists(SweepState::folderOf(out)));

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/host_memory.h"
+
+#include "compare/render/frame_facts.h"
+#include "shared/scene/lights/casters.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// Of the images of one frame with one sample a pixel: depth, lit, and deferred's surfaces.
+double sampleBytes(const Settings& settings) {
+    const double depth = settings.depth_format == DepthFormat::d16 ? 2 : 4;
+    const double lit = settings.lit_format == LitFormat::fp32   ? 16
+                       : settings.lit_format == LitFormat::fp16 ? 8
+                                                                : 4;
+    const double surface = settings.path != Path::deferred                 ? 0
+                           : settings.gbuffer == GBufferEncoding::compact  ? 12
+                           : settings.gbuffer == GBufferEncoding::standard ? 20
+                                                                           : 48;
+    return depth + lit + surface;
+}
+
+double pixelsOf(const Settings& settings) {
+    return double(settings.size.width) * double(settings.size.height);
+}
+
+// Texels of 32 bits; what filters moments has four times that.
+double shadowBytes(const Settings& settings) {
+    constexpr double texel = 4;
+    const auto squared = [](double side) { return side * side; };
+    switch (settings.shadows) {
+        case Shadows::off:
+            return 0;
+        case Shadows::clipmap:
+            return texel * settings.clipmap_pages * squared(settings.clipmap_page_size);
+        case Shadows::pcf:
+        case Shadows::pcss:
+            return texel * settings.shadow_cascades * squared(settings.shadow_size);
+        default:
+            return 4 * texel * settings.shadow_cascades * squared(settings.shadow_size);
+    }
+}
+
+double imageBytes(const Settings& settings, bool sun) {
+    return pixelsOf(settings) * settings.msaa * sampleBytes(settings) + (sun ? shadowBytes(settings) : 0);
+}
+
+// Beside the frame's images, bytes a pixel: pictures that are read back and held until they are in a file; a
+// capture's images, of several samples as the frame's; pages of files.
+double captureBytes(const Settings& settings, const RenderOptions& options, bool software) {
+    constexpr double one_picture = 60, channel = 4, once_more = 20, channel_once_more = 2, target = 16;
+    const auto channels = static_cast<double>(options.channels.size());
+    const double others = std::max(channels - 2, 0.0);
+    double bytes = one_picture + channel * others;
+    if (options.twice || options.through_gbuffer) bytes += once_more + channel_once_more * others;
+    if (software && settings.msaa > 1) bytes += target * settings.msaa * std::clamp(channels / 2, 1.0, 3.0);
+    return bytes;
+}
+
+// The reference's sums in double precision and what it tells beside lit; of that stay in memory
+// `keptReference`.
+constexpr double keptReference = 60;
+double referenceBytes(const Settings& settings, const RenderOptions& options) {
+    constexpr double lit = 190, surfaces = 110, judged = 190;
+    return lit + (settings.reference_mode == ReferenceMode::surface ? surfaces : 0) +
+           (options.environment_errors ? judged : 0);
+}
+
+// A CPU device's code of one path, beside what draws nothing: for each channel, and for materials, which
+// share pipelines.
+double pipelineBytes(const RenderOptions& options, std::size_t materials) {
+    return 40e6 + 0.8e6 * static_cast<double>(options.channels.size()) +
+           2e6 * static_cast<double>(std::min(materials, std::size_t{64}));
+}
+
+}  // namespace
+
+std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
+                         bool sun, std::size_t materials) {
+    double timed = 0, largest = 0, held = 0, code = 0;
+    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
+        if (software && std::ranges::count(settings, path, &Settings::path) > 0)
+            code += pipelineBytes(options, materials);
+    for (const Settings& of : settings) {
+        if (of.path == Path::reference) {
+            largest = std::max(largest, pixelsOf(of) * referenceBytes(of, options));
+            held += pixelsOf(of) * keptReference;
+            continue;
+        }
+        const double images = software ? imageBytes(of, sun) : 0;
+        if (options.runs > 0) timed += images;  // of all at once
+        if (options.channels.empty()) continue;
+        largest = std::max(largest, images + pixelsOf(of) * captureBytes(of, options, software));
+    }
+    return static_cast<std::uint64_t>(code + held + std::max(timed, largest));
+}
+
+std::uint64_t checkHostMemory(SceneViews& views, std::span<const Settings> settings,
+                              const RenderOptions& options, bool software, std::uint64_t granted,
+                              const std::function<FreeMemory()>& free) {
+    bool sun = false, samples = false, several = false;
+    for (const Settings& of : settings) {
+        samples = samples || of.msaa > 1;
+        several = several || of.camera != settings.front().camera || of.time != settings.front().time;
+        sun = sun || (of.shadows != Shadows::off && brightestSun(views.at(viewRequest(of)).lights));
+    }
+    const std::uint64_t needed = hostMemory(settings, options, software, sun, views.scene().materials.size());
+    if (needed <= granted) return needed;
+    std::vector<std::string> remedies{"a smaller --size"};
+    if (options.channels.size() > 8) remedies.emplace_back("fewer --channels");
+    if (samples) remedies.emplace_back("--msaa 1");
+    if (several) remedies.emplace_back("fewer cameras and times");
+    const Size& size = settings.front().size;
+    checkMemory(fmt::format("{} at {}x{}", views.scene().name, size.width, size.height), needed,
+                fmt::format("{} needs less", fmt::join(remedies, " or ")), free());
+    return needed;
+}
+
+}  // namespace diptych
