@@ -162,6 +162,30 @@ TEST_F(Launcher, TestBuildsEverythingAndHandsOnToCtest) {
     EXPECT_NE(contentsOf(home_ / "cmake.log").find("--target all"), std::string::npos);
 }
 
+TEST_F(Launcher, ATestRunEndsWithALineAKindAndCtestsOwn) {
+    home_.write(
+        "bin/ctest",
+        "#!/bin/sh\n"
+        "echo '1/2 Test #1: image.1 ..........   Passed    3.50 sec'\n"
+        "echo '2/2 Test #2: fuzz.png .........   Passed    5.00 sec'\n"
+        "mkdir -p '" +
+            build() + "/tests/results'\ncat >'" + build() +
+            "/tests/results/image.1.xml' <<END\n"
+            "<testsuites><testsuite><testcase name='A' time='1.6'/><testcase name='B' time='1'>"
+            "<skipped message='a.cpp:3&#x0A;no Chromium here'/></testcase></testsuite></testsuites>\n"
+            "END\n"
+            "echo '100% tests passed, 0 tests failed out of 2'\necho 'Total Test time (real) = 4 sec'\n",
+        true);
+    const Ran ran = run("test");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_TRUE(
+        ran.out.ends_with("fuzz         1 tests      5 s\n"
+                          "image        2 tests      3 s\n"
+                          "    1 skipped: no Chromium here\n\n"
+                          "100% tests passed, 0 tests failed out of 2\nTotal Test time (real) = 4 sec\n"))
+        << ran.out;
+}
+
 TEST_F(Launcher, AMovedRepositoryIsConfiguredAnew) {
     run("compare");
     home_.write("repository/build/CMakeCache.txt", "CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n");
