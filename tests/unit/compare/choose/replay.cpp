@@ -47,7 +47,7 @@ std::vector<RecordedSweep> recordedSweeps() {
     std::vector<std::filesystem::path> files;
     for (const auto& entry :
          std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/tests/unit/compare/choose/sweeps"))
-        files.push_back(entry.path());
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::ranges::sort(files);
     std::vector<RecordedSweep> sweeps;
     for (const auto& file : files) sweeps.push_back(readSweep(file));
