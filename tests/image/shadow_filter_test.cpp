@@ -5,6 +5,7 @@
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
+#include "tests/support/shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -128,23 +129,13 @@ TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
 // Ground, 8 m x 8 m, and a roof `height` above its half with negative x, or z, under a sun at the zenith;
 // seen from below the roof's height.
 Scene underARoof(double height, float angle, bool along_z = false, double fov = 0.5) {
-    const auto square = [](const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material) {
-        Primitive p;
-        p.positions = {corner, corner + x, corner + x + y, corner + y};
-        p.normals.assign(4, {0, 1, 0});
-        p.tangents.assign(4, {1, 0, 0, 1});
-        p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-        p.indices = {0, 1, 2, 0, 2, 3};
-        p.material = material;
-        return p;
-    };
     Scene scene;
     scene.name = "roof";
     const float h = static_cast<float>(height);
     scene.meshes.push_back({"roof",
-                            {square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 0),
-                             along_z ? square({-4, h, 0}, {8, 0, 0}, {0, 0, -4}, 1)
-                                     : square({-4, h, 4}, {4, 0, 0}, {0, 0, -8}, 1)}});
+                            {rectangle({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 0),
+                             along_z ? rectangle({-4, h, 0}, {8, 0, 0}, {0, 0, -4}, 1)
+                                     : rectangle({-4, h, 4}, {4, 0, 0}, {0, 0, -8}, 1)}});
     scene.nodes.push_back({"roof", -1, glm::dmat4(1.0), 0});
     scene.materials.resize(2);
     for (Material& material : scene.materials) material.double_sided = true;

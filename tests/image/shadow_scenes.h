@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/image/scenes.h"
+#include "tests/support/shapes.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -14,19 +15,6 @@
 #include <vector>
 
 namespace diptych::tests {
-
-// A rectangle from `corner` along x and y, seen from where cross(x, y) points.
-inline Primitive rectangle(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y,
-                           int material = 0) {
-    Primitive p;
-    p.positions = {corner, corner + x, corner + x + y, corner + y};
-    p.normals.assign(4, glm::normalize(glm::cross(x, y)));
-    p.tangents.assign(4, {1, 0, 0, 1});
-    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    p.indices = {0, 1, 2, 0, 2, 3};
-    p.material = material;
-    return p;
-}
 
 // A sun that stands `degrees` above the ground, towards +X and a little +Z.
 inline Light sunAt(double degrees) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/image/scenes.h"
+#include "tests/support/shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -18,13 +19,8 @@ constexpr int albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5
 inline Scene square() {
     Scene scene;
     scene.name = "square";
-    Primitive p;
-    p.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    p.normals.assign(4, {0, 0, 1});
-    p.tangents.assign(4, {1, 0, 0, 1});
-    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    Primitive p = rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     p.texcoords[1] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // mirrored left to right
-    p.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"square", {p}});
     scene.nodes.push_back({"square", -1, glm::dmat4(1.0), 0});
     scene.materials.push_back({});

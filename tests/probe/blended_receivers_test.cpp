@@ -5,6 +5,7 @@
 #include "shared/vulkan/device.h"
 #include "shared/vulkan/resources.h"
 #include "tests/probe/probe.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -25,11 +26,7 @@ protected:
         Scene made;
         made.materials.resize(2);
         made.materials[0].alpha_mode = AlphaMode::blend;
-        Primitive p;
-        p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-        p.normals.assign(4, {0, 0, 1});
-        p.tangents.assign(4, {1, 0, 0, 1});
-        p.indices = {0, 1, 2, 0, 2, 3};
+        const Primitive p = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
         Primitive opaque = p;
         opaque.material = 1;
         made.meshes = {{"square", {p, opaque}}};

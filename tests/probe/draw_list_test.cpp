@@ -6,6 +6,7 @@
 #include "shared/vulkan/device.h"
 #include "shared/vulkan/resources.h"
 #include "tests/probe/probe.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -28,11 +29,7 @@ Scene squares() {
     Scene scene;
     scene.materials.resize(2);
     scene.materials[1].alpha_mode = AlphaMode::mask;
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    p.normals.assign(4, {0, 0, 1});
-    p.tangents.assign(4, {1, 0, 0, 1});
-    p.indices = {0, 1, 2, 0, 2, 3};
+    const Primitive p = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     Primitive masked = p;
     masked.material = 1;
     scene.meshes = {{"square", {p, masked}}};

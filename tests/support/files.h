@@ -15,14 +15,18 @@
 
 namespace diptych {
 
-// An empty folder of the running test.
-inline std::filesystem::path folder() {
+// A folder of the running test; what is in it stays.
+inline std::filesystem::path testFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     const std::filesystem::path path =
         std::filesystem::path(testing::TempDir()) / "diptych" / test->test_suite_name() / test->name();
-    std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
     return path;
+}
+// The same, emptied.
+inline std::filesystem::path folder() {
+    std::filesystem::remove_all(testFolder());
+    return testFolder();
 }
 
 inline std::string contentsOf(const std::filesystem::path& file) {

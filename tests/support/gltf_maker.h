@@ -4,6 +4,8 @@
 
 #include "shared/scene/load.h"
 #include "shared/scene/model/scene.h"
+#include "tests/support/errors.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,20 +13,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace diptych {
-
-// A folder of the running test; its contents stay while the test runs.
-inline std::filesystem::path testFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto path =
-        std::filesystem::path(testing::TempDir()) / "diptych_gltf" / test->test_suite_name() / test->name();
-    std::filesystem::create_directories(path);
-    return path;
-}
 
 // Component types.
 constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
@@ -86,24 +78,14 @@ struct GltfFile {
     Scene load() { return loadScene(written()); }
     const Primitive& only(const Scene& scene) const { return scene.meshes.at(0).primitives.at(0); }
     std::string error() {
-        try {
-            load();
-        } catch (const std::runtime_error& e) {
-            return e.what();
-        }
-        return "";
+        return faultOf([&] { load(); });
     }
 };
 
 // The error of loading these bytes as a file; empty: it loads.
 inline std::string loadBytes(const std::string& bytes, const char* name = "scene.glb") {
     std::ofstream(testFolder() / name, std::ios::binary) << bytes;
-    try {
-        loadScene((testFolder() / name).string());
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { loadScene((testFolder() / name).string()); });
 }
 
 inline bool mentions(const std::vector<std::string>& notes, const std::string& text) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/support/reference_maker.h"
+#include "tests/support/shapes.h"
 
 #include "compare/reference/checkpoint.h"
 #include "shared/contract/debug_mode.h"
@@ -15,13 +16,9 @@ namespace diptych::reference {
 
 // A flat piece from `corner` along x and y; its front is where cross(x, y) points.
 inline Primitive quad(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material = 0) {
-    Primitive p;
-    p.positions = {corner, corner + x, corner + x + y, corner + y};
-    p.normals.assign(4, glm::normalize(glm::cross(x, y)));
+    Primitive p = rectangle(corner, x, y, material);
     p.tangents.assign(4, glm::vec4(glm::normalize(x), 1));
     p.texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    p.indices = {0, 1, 2, 0, 2, 3};
-    p.material = material;
     return p;
 }
 

@@ -2,6 +2,8 @@
 // Runs a program as users do: through the shell, in some folder.
 #pragma once
 
+#include "tests/support/files.h"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,17 +12,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 namespace diptych {
 
 namespace fs = std::filesystem;
-
-inline std::string contentsOf(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // A folder of the running test, removed at its end.
 class Folder {

@@ -3,6 +3,7 @@
 #include "compare/bench/bench.h"
 #include "compare/bench/workload.h"
 #include "compare/cli/command_line.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -26,16 +27,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-template <class Call>
-std::string thrownBy(Call&& call) {
-    try {
-        call();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return {};
-}
-
 BenchOptions asked(const std::vector<std::string>& words) {
     std::vector<std::string> line{"bench", "builtin:spheres"};
     line.insert(line.end(), words.begin(), words.end());
@@ -55,12 +46,12 @@ TEST(BenchCases, DeferredIsTimedByEachWayToShadeThatIsAskedFor) {
                                         "forward_plus, tiled"}));
     EXPECT_EQ(names(asked({"--assign", "tiled", "--lightings", "compute"})),
               (std::vector<std::string>{"deferred, tiled", "forward_plus, tiled"}));
-    EXPECT_NE(thrownBy([] {
+    EXPECT_NE(faultOf([] {
                   asked({"--lightings", "raster"});
               }).find("--lightings raster"),
               std::string::npos);
     for (const char* table : {"msaa", "growth"})
-        EXPECT_NE(thrownBy([&] {
+        EXPECT_NE(faultOf([&] {
                       makeBenchCases("builtin:spheres", {},
                                      asked({"--table", table, "--lightings", "fragment,compute"}));
                   }).find("--lightings"),
@@ -94,7 +85,7 @@ TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
         {{"--max-ms", "nan"}, "--max-ms nan"},
         {{"--kernels", "yes"}, "--kernels yes"}};
     for (const auto& [words, message] : wrong)
-        EXPECT_EQ(thrownBy([&] { asked(words); }).find(message), 0u) << words[1];
+        EXPECT_EQ(faultOf([&] { asked(words); }).find(message), 0u) << words[1];
 }
 
 TEST(BenchCases, EveryModeOfACountIsTimedInTurn) {
@@ -126,7 +117,7 @@ TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     EXPECT_EQ(skipName(cases.skips[0]), "deferred, per_object");
     EXPECT_EQ(cases.groups.size(), 3u);
     options.assign = {Assignment::per_object};
-    EXPECT_EQ(thrownBy([&] {
+    EXPECT_EQ(faultOf([&] {
                   makeBenchCases("builtin:spheres", Settings(), options);
               }).find("nothing to time: deferred, per_object: "),
               0u);
@@ -148,7 +139,7 @@ TEST(BenchCases, LightsComeFromTheSceneAFileOrARig) {
     EXPECT_EQ(makeBenchCases("builtin:spheres", files, options).groups[1].scene, "builtin:spheres");
     files.lights = "spot:4";
     EXPECT_EQ(
-        thrownBy([&] { makeBenchCases("a.glb", files, options); }).find("--lights spot:4: --light-counts"),
+        faultOf([&] { makeBenchCases("a.glb", files, options); }).find("--lights spot:4: --light-counts"),
         0u);
     options.light_counts.clear();
     EXPECT_EQ(makeBenchCases("a.glb", files, options).groups[0].settings[0].lights, "spot:4");

@@ -4,6 +4,7 @@
 #include "compare/bench/sample_table.h"
 #include "compare/cli/command_line.h"
 #include "compare/render/sample_counts.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,12 +24,7 @@ BenchOptions sampleOptions(std::vector<std::string> words = {}) {
 }
 
 std::string refusal(const std::vector<std::string>& words) {
-    try {
-        makeBenchCases("builtin:glass", Settings(), sampleOptions(words));
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return {};
+    return faultOf([&] { makeBenchCases("builtin:glass", Settings(), sampleOptions(words)); });
 }
 
 TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
+#include "tests/support/errors.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +17,7 @@ using namespace cli;
 namespace {
 
 std::string whatIsThrown(const std::vector<std::string>& words) {
-    try {
-        parseCommandLine(words);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "nothing";
+    return faultOf([&] { parseCommandLine(words); });
 }
 
 const std::vector<std::string> rendering{"compare", "render", "plan"};
@@ -162,8 +159,7 @@ TEST(CommandLine, SeveralScenesAndCameras) {
 }
 
 TEST(CommandLine, ASettingsFileComesFirstWhereverItStands) {
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / "diptych_settings_test.json";
+    const std::filesystem::path file = folder() / "settings.json";
     std::ofstream(file) << R"({"seed": 7, "size": [8, 4], "path": "deferred", "camera": "2"})";
     const Options options = parseCommandLine({"render", "--size", "3x2", "--settings", file.string()});
     EXPECT_EQ(options.settings.size, (Size{3, 2}));
@@ -176,7 +172,6 @@ TEST(CommandLine, ASettingsFileComesFirstWhereverItStands) {
     const std::string what = whatIsThrown({"render", "--settings", file.string()});
     EXPECT_NE(what.find("sed"), std::string::npos) << what;
     EXPECT_NE(what.find(file.string()), std::string::npos) << what;
-    std::filesystem::remove(file);
 }
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {

@@ -5,6 +5,7 @@
 #include "shared/scene/load.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +17,9 @@ namespace diptych::external {
 namespace {
 
 Scene readBack(const std::string& glb) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "written_scene.glb";
+    const std::filesystem::path file = testFolder() / "written.glb";
     std::ofstream(file, std::ios::binary) << glb;
-    Scene scene = loadScene(file.string());
-    std::filesystem::remove(file);
-    return scene;
+    return loadScene(file.string());
 }
 
 SceneView viewAt(const Scene& scene, double time) {

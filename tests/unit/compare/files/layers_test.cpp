@@ -4,6 +4,7 @@
 #include "compare/metrics/prefilter.h"
 #include "compare/verdict/selection.h"
 #include "shared/image/png.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -38,16 +39,6 @@ std::vector<std::string> namesOf(const std::vector<PictureChannel>& channels) {
     return names;
 }
 
-template <class Run>
-std::string thrown(const Run& run) {
-    try {
-        run();
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
-}
-
 TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
     const auto channels = channelsOf(
         file({layer("", {"R", "G", "B", "A", "Z"}), layer("normals", {"normals.X", "normals.Y", "normals.Z"}),
@@ -69,7 +60,7 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
     EXPECT_EQ(namesOf(channels), (std::vector<std::string>{"albedo", "occlusion"}));
     EXPECT_EQ(channels[0].image.pixel(0)[0], 20) << "in the order that was asked for";
     for (const char* words : {"albedo", "=a", "albedo=", "albedo=a,,b"})
-        EXPECT_EQ(thrown([&] {
+        EXPECT_EQ(faultOf([&] {
                       channelsOf(file({layer("", {"R"})}), {words});
                   }).find(std::string("--map ") + words + ": is NAME=CHANNEL"),
                   0u);
@@ -138,8 +129,8 @@ TEST(Layers, GreyIsAColour) {
 
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
     PictureFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
-    EXPECT_EQ(thrown([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
-    EXPECT_EQ(thrown([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
+    EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
+    EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
               "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test d.Y");
 }
 
@@ -147,13 +138,13 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     const auto a = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
     const auto b = [] { return channelsOf(file({layer("lit", {"lit.Y"})}), {}); };
     const auto c = [] { return channelsOf(file({layer("ao", {"ao.Y"})}), {}); };
-    EXPECT_EQ(thrown([&] { matchChannels(a(), b(), {}); }),
+    EXPECT_EQ(faultOf([&] { matchChannels(a(), b(), {}); }),
               "lit: R,G,B in the reference and lit.Y in the test; --map says what belongs together");
-    EXPECT_EQ(thrown([&] { matchChannels(a(), c(), {}); }),
+    EXPECT_EQ(faultOf([&] { matchChannels(a(), c(), {}); }),
               "no layer is in both: the reference has lit, the test ao; --map gives them one name");
-    EXPECT_EQ(thrown([&] { matchChannels(a(), a(), {"normals"}); }),
+    EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"normals"}); }),
               "--channels normals: not in both; both have lit");
-    EXPECT_EQ(thrown([&] { matchChannels(a(), a(), {"lti"}); }),
+    EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"lti"}); }),
               "--channels lti: not in both; did you mean lit?");
 }
 
@@ -193,11 +184,11 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     EXPECT_EQ(without(1), "xxxx..xxxx..") << "both sides of the edge";
     EXPECT_EQ(without(2), "xxx...xxx...");
     EXPECT_EQ(notes.back(), "6 of 12 pixels are compared, the others were left out by the command line");
-    EXPECT_EQ(thrown([&] { without(9); }), "the mask, ids, crop and edges leave no pixel to compare");
+    EXPECT_EQ(faultOf([&] { without(9); }), "the mask, ids, crop and edges leave no pixel to compare");
     Coverage all = everyPixel(12);
     SelectionOptions options;
     options.ignore_edges = 1;
-    EXPECT_EQ(thrown([&] { applySelection(all, 6, 2, options, {}, notes); }),
+    EXPECT_EQ(faultOf([&] { applySelection(all, 6, 2, options, {}, notes); }),
               "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
     Image depth(6, 2, 1, 10.0f);  // 5 % further away is another object
     depth.at(0, 0) = 10.6f;
@@ -265,11 +256,11 @@ TEST(Selection, MaskIdsAndCrop) {
     options.crop = cropOf("1,0,2x2");
     EXPECT_EQ(by(options), ".xx.xx");
     options.crop = cropOf("2,0,2x2");
-    EXPECT_EQ(thrown([&] { by(options); }), "--crop 2,0,2x2: is not inside a picture of 3x2");
+    EXPECT_EQ(faultOf([&] { by(options); }), "--crop 2,0,2x2: is not inside a picture of 3x2");
     Coverage four = everyPixel(4);
     options = {};
     options.mask = (files / "mask.png").string();
-    EXPECT_EQ(thrown([&] { applySelection(four, 2, 2, options, {}, notes); }),
+    EXPECT_EQ(faultOf([&] { applySelection(four, 2, 2, options, {}, notes); }),
               "--mask " + options.mask + ": is 3x2, the pictures are 2x2");
 }
 

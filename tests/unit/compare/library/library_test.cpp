@@ -2,6 +2,7 @@
 // The interface for other programs: the figures are those of diff, and what cannot be compared says why.
 #include "compare/library/diptych.h"
 #include "compare/verdict/measurement.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -21,16 +22,6 @@ std::vector<float> noise(std::size_t count, unsigned seed) {
     std::vector<float> values(count);
     for (float& value : values) value = static_cast<float>(random() % 1000) / 1000;
     return values;
-}
-
-template <class Run>
-std::string faultOf(const Run& run) {
-    try {
-        run();
-        return "";
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
 }
 
 TEST(Library, FiguresAreThoseOfDiff) {

@@ -5,6 +5,7 @@
 #include "compare/metrics/fast_math.h"
 #include "shared/image/picture_file.h"
 #include "shared/image/png.h"
+#include "tests/support/errors.h"
 #include "tests/support/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +28,7 @@ Image part(const Image& image, int x0, int y0, int width, int height) {
 }
 
 std::string errorOf(const Image& reference, const Image& test, const HdrFlipOptions& options) {
-    try {
-        hdrFlip(reference, test, options);
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { hdrFlip(reference, test, options); });
 }
 
 // The authors' program 1.6 prints six digits; its conversion to XYZ uses a white point rounded to nine

@@ -8,7 +8,7 @@
 #include "shared/image/exr.h"
 #include "tests/support/error_spread.h"
 #include "tests/support/files.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 #include "tests/support/report_maker.h"
 
 #include <fmt/format.h>
@@ -30,15 +30,11 @@ Figures printedFigures() {
 
 // lit, of both paths and the reference, is the same but for `scale`; roughness has the errors of the spread.
 Frame spreadFrame(Path path, const Image& lit, const Image& roughness) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
+    Frame frame = flatFrame(path, wide, high, 0, -1);
     frame.scene = "builtin:one";
-    frame.settings.path = path;
-    frame.settings.size = {wide, high};
     frame.channels[litMode] = lit;
     frame.channels[gpu::DEBUG_roughness] = roughness;
-    Image& ids = frame.channels[idMode] = Image(wide, high, 1, -1.0f);
-    for (std::size_t i = 0; i < counted; ++i) ids.data[spreadPixel(i)] = 3;
+    for (std::size_t i = 0; i < counted; ++i) frame.channels[idMode].data[spreadPixel(i)] = 3;
     return frame;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/grid.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +15,7 @@ using namespace tradeoff;
 namespace {
 
 std::string gridFault(const std::string& text) {
-    try {
-        readGrids(text, {});
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "none";
+    return faultOf([&] { readGrids(text, {}); });
 }
 
 TEST(TradeoffGrid, AProductAndAListOfThem) {

@@ -3,7 +3,7 @@
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/upsample.h"
 #include "shared/contract/debug_mode.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 #include "tests/support/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,7 @@ FrameErrors errorsBetween(const Frame& reference, const Frame& frame) {
 
 // lit is grey, of these values; a negative one is background.
 Frame frameOf(int width, int height, const std::vector<float>& values) {
-    Frame frame;
-    frame.name = "deferred";
-    frame.settings.size = {width, height};
-    frame.channels[litMode] = Image(width, height, 3);
-    frame.channels[idMode] = Image(width, height, 1);
+    Frame frame = flatFrame(Path::deferred, width, height);
     for (std::size_t i = 0; i < values.size(); ++i) {
         frame.channels[idMode].data[i] = values[i] < 0 ? -1.0f : static_cast<float>(i);
         for (int c = 0; c < 3; ++c) frame.channels[litMode].pixel(i)[c] = std::max(values[i], 0.0f);

@@ -4,7 +4,7 @@
 
 #include "compare/report/json.h"
 #include "compare/report/report.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 #include "tests/support/report_maker.h"
 
 #include <gtest/gtest.h>
@@ -20,15 +20,10 @@ constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // of these the f
 
 // Opaque 1 everywhere, and 0.5 of 3 over it.
 Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
+    Frame frame = flatFrame(path, blendWide, blendHigh, 1, 3);
     frame.scene = "a scene";
-    frame.settings.path = path;
     frame.settings.gbuffer = encoding;
-    frame.settings.size = {blendWide, blendHigh};
-    frame.unblended = Image(blendWide, blendHigh, 3, 1.0f);
-    frame.channels[litMode] = frame.unblended;
-    frame.channels[idMode] = Image(blendWide, blendHigh, 1, 3.0f);
+    frame.unblended = frame.channels[litMode];
     for (std::size_t i = 0; i < 3 * blendCovered; ++i) frame.channels[litMode].data[i] = 2;
     if (path == Path::reference) {
         frame.blended = Image(blendWide, blendHigh, 1);

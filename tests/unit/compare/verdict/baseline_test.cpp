@@ -4,7 +4,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/run/version.h"
 #include "tests/support/files.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,14 +23,9 @@ const ReportDevice aCpu{"a CPU", "1.0", "cpu"};
 
 // Values that no decimal of a few digits holds.
 Frame drawnNow(Path path = Path::deferred) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
+    Frame frame = flatFrame(path, 4, 3, 0.5f, 3);
     frame.scene = "builtin:one";
-    frame.settings.path = path;
-    frame.settings.size = {4, 3};
     frame.camera = {"main", {1.0 / 3, 2, 3}, {0, 0.1, 0}, {0, 1, 0}, 60.0 / 7, 0.5, 0.01, 100};
-    frame.channels[litMode] = Image(4, 3, 3, 0.5f);
-    frame.channels[idMode] = Image(4, 3, 1, 3.0f);
     return frame;
 }
 

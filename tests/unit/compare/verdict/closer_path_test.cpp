@@ -2,7 +2,7 @@
 #include "compare/verdict/closer_path.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,8 @@ namespace {
 
 // One row of grey pixels, of material 0 but for the last, which is of material 2.
 Frame frameOf(Path path, const std::vector<float>& values) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
-    frame.settings.path = path;
     const int width = static_cast<int>(values.size());
-    frame.settings.size = {width, 1};
-    frame.channels[litMode] = Image(width, 1, 3);
-    frame.channels[idMode] = Image(width, 1, 1);
+    Frame frame = flatFrame(path, width, 1);
     for (int x = 0; x < width; ++x)
         for (int c = 0; c < 3; ++c) frame.channels[litMode].at(x, 0, c) = values[static_cast<std::size_t>(x)];
     frame.channels[idMode].at(width - 1, 0) = 2;

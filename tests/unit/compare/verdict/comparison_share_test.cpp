@@ -2,7 +2,7 @@
 // Against the reference, a thousandth of the pixels may be beyond the tolerance, and not one more; between
 // the paths none.
 #include "compare/verdict/comparison.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,7 @@ namespace {
 constexpr std::size_t shareWide = 50, shareHigh = 50, shareCovered = 2000;  // the others are background
 
 Frame shareFrame(Path path, std::size_t wrong) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
-    frame.settings.path = path;
-    frame.settings.size = {shareWide, shareHigh};
-    frame.channels[litMode] = Image(shareWide, shareHigh, 3, 1.0f);
-    frame.channels[idMode] = Image(shareWide, shareHigh, 1, -1.0f);
+    Frame frame = flatFrame(path, shareWide, shareHigh, 1, -1);
     std::fill_n(frame.channels[idMode].data.begin(), shareCovered, 3.0f);
     for (std::size_t i = 0; i < wrong; ++i) frame.channels[litMode].pixel(7 * i)[1] = 2;
     for (std::size_t i = shareCovered; i < shareWide * shareHigh; ++i)

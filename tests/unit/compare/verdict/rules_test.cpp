@@ -2,6 +2,7 @@
 // Tolerance files: their syntax, the decisions they make, and the line named in errors.
 #include "compare/verdict/rules.h"
 #include "shared/text/wildcard.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,12 +29,9 @@ Rule onlyRule(const Json& rule, const Json& presets = Json::object()) {
 }
 
 std::string fault(const Json& document) {
-    try {
+    return faultOf([&] {
         rulesFromJson(document.is_string() ? document.get<std::string>() : document.dump(), "dir/t.json");
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    });
 }
 
 std::string faultOfRule(const Json& rule) {

@@ -9,7 +9,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/image/exr.h"
 #include "tests/support/files.h"
-#include "tests/support/modes.h"
+#include "tests/support/frames.h"
 
 #include <cmath>
 #include <limits>
@@ -22,15 +22,10 @@ const ReportDevice device{"a device", "1.0", "cpu"};
 
 // Two grey pixels.
 Frame frameOf(Path path, float left, float right) {
-    Frame frame;
-    frame.name = std::string(nameOf(path));
+    Frame frame = flatFrame(path, 2, 1);
     frame.scene = "builtin:one";
-    frame.settings.path = path;
-    frame.settings.size = {2, 1};
     frame.camera.far = std::numeric_limits<double>::infinity();
-    frame.channels[litMode] = Image(2, 1, 3);
     frame.channels[litMode].data = {left, left, left, right, right, right};
-    frame.channels[idMode] = Image(2, 1, 1);
     return frame;
 }
 

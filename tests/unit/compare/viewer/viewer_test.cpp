@@ -15,6 +15,7 @@
 #include "shared/scene/load.h"
 #include "shared/scene/scene_view.h"
 #include "tests/support/files.h"
+#include "tests/support/frames.h"
 #include "tests/support/sources.h"
 
 #include <GLFW/glfw3.h>
@@ -305,19 +306,9 @@ TEST(ViewerCanvas, NoSizeIsTooSmall) {
 
 // ---- pictures and differences ----------------------------------------------------------------------------
 
-Frame frameOf(int width, int height, float value) {
-    Frame frame;
-    frame.name = "deferred";
-    frame.settings.size.width = width;
-    frame.settings.size.height = height;
-    frame.channels[lit] = Image(width, height, 3, value);
-    frame.channels[ids] = Image(width, height, 1, 0.0f);
-    return frame;
-}
-
 TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
-    const Frame left = frameOf(2, 1, 0.5f);
-    Frame right = frameOf(2, 1, 0.5f);
+    const Frame left = flatFrame(Path::deferred, 2, 1, 0.5f);
+    Frame right = flatFrame(Path::deferred, 2, 1, 0.5f);
     right.channels[lit].at(0, 0, 1) = 0.75f;   // + 0.25
     right.channels[lit].at(0, 0, 2) = 0.375f;  // - 0.125, smaller
     right.channels[lit].at(1, 0, 0) = 0.0f;    // - 0.5
@@ -334,7 +325,7 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
 }
 
 TEST(ViewerDifference, AbsoluteAndRelativeAreTheMetrics) {
-    const Frame left = frameOf(1, 1, 0.5f), right = frameOf(1, 1, 0.75f);
+    const Frame left = flatFrame(Path::deferred, 1, 1, 0.5f), right = flatFrame(Path::deferred, 1, 1, 0.75f);
     Look look;
     look.difference = Difference::absolute;
     EXPECT_EQ(differenceOf(left, right, look).values.at(0, 0), 0.25f);
@@ -343,7 +334,7 @@ TEST(ViewerDifference, AbsoluteAndRelativeAreTheMetrics) {
 }
 
 TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
-    Frame left = frameOf(16, 16, 0.5f), right = frameOf(16, 16, 0.25f);
+    Frame left = flatFrame(Path::deferred, 16, 16, 0.5f), right = flatFrame(Path::deferred, 16, 16, 0.25f);
     Look look;
     look.difference = Difference::flip;
     const DifferencePanel panel = differenceOf(left, right, look);
@@ -359,15 +350,18 @@ TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
 TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
     Look look;
     look.difference = Difference::absolute;
-    EXPECT_NE(differenceOf(frameOf(2, 2, 0), frameOf(3, 2, 0), look).missing.find("2x2"), std::string::npos);
+    EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 3, 2, 0), look)
+                  .missing.find("2x2"),
+              std::string::npos);
     look.mode = normals;
-    EXPECT_NE(differenceOf(frameOf(2, 2, 0), frameOf(2, 2, 0), look).missing.find("normals"),
+    EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 2, 2, 0), look)
+                  .missing.find("normals"),
               std::string::npos);
 }
 
 // The panels are what `render` writes.
 TEST(ViewerPictures, ArePicturesOfTheChannel) {
-    Frame left = frameOf(3, 2, 0.5f), right = frameOf(3, 2, 0.25f);
+    Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
     left.channels[ids].at(2, 1) = -1;
     Look look;
     look.exposure = 2;

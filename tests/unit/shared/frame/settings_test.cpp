@@ -2,6 +2,7 @@
 #include "shared/frame/settings.h"
 
 #include "shared/frame/debug_modes.h"
+#include "tests/support/errors.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -98,15 +99,6 @@ Settings everythingChanged() {
     s.spp = 256;
     s.reference_mode = ReferenceMode::scene;
     return s;
-}
-
-std::string whatIsThrown(const auto& call) {
-    try {
-        call();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "nothing";
 }
 
 TEST(Settings, JsonRoundTripIsExact) {
@@ -336,7 +328,7 @@ TEST(Settings, BadJsonIsRefusedByName) {
         {R"({"time": 1e999})", "overflow"},
     };
     for (const auto& [text, name] : bad) {
-        const std::string what = whatIsThrown([&] { settingsFromJson(text); });
+        const std::string what = faultOf([&] { settingsFromJson(text); });
         EXPECT_NE(what.find(name), std::string::npos) << text << " -> " << what;
         EXPECT_EQ(what.find('\n'), std::string::npos) << text << " -> " << what;
     }
@@ -352,11 +344,11 @@ TEST(Settings, BadWordsAreRefusedByOptionAndValue) {
     };
     for (const auto& [option, value] : bad) {
         Settings s;
-        const std::string what = whatIsThrown([&, o = option, v = value] { s.set(o, v); });
+        const std::string what = faultOf([&, o = option, v = value] { s.set(o, v); });
         EXPECT_EQ(what.find(std::string("--") + option + " " + value), 0u) << what;
     }
     Settings s;
-    EXPECT_NE(whatIsThrown([&] { s.set("gamma", "2"); }).find("gamma"), std::string::npos);
+    EXPECT_NE(faultOf([&] { s.set("gamma", "2"); }).find("gamma"), std::string::npos);
 }
 
 TEST(Settings, TheUsualOnesHaveNoProblem) {

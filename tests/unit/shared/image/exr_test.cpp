@@ -2,6 +2,7 @@
 // EXR files of other programs: every compressor, tiles, crops, integers; and files with wrong headers.
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -27,12 +28,7 @@ std::span<const std::byte> bytesIn(const std::string& file) {
     return std::as_bytes(std::span(file));
 }
 std::string exrFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    try {
-        readExr(bytesIn(file), "a.exr", most);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "reads";
+    return faultOf([&] { readExr(bytesIn(file), "a.exr", most); });
 }
 
 // The pixels of channels i (half), j (float), k (uint): 0.5, 0.25 and 3, from the top left of the window.
@@ -193,7 +189,7 @@ TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
     std::string file = written(head);
     const std::size_t lengths = file.find("stringvector") + std::strlen("stringvector") + 1 + 4;
     file.replace(lengths, 4, "\xff\xff\xff\x7f");  // "one" is 2 GiB long
-    EXPECT_EQ(exrFault(file), "reads");
+    EXPECT_EQ(exrFault(file), "");
     const ExrHeader read = readExrHeader(bytesIn(file), limits::imageBytes());
     const std::string kept(reinterpret_cast<const char*>(read.bytes.data()), read.bytes.size());
     EXPECT_EQ(kept.find("stringvector"), std::string::npos);
@@ -216,7 +212,7 @@ std::string with(std::string file, const std::string& attribute, const std::stri
 TEST(ExrOfOthers, FaultsAreNamed) {
     const std::string file = written(header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION));
     const std::string size = std::to_string(file.size());
-    EXPECT_EQ(exrFault(file), "reads");
+    EXPECT_EQ(exrFault(file), "");
     EXPECT_EQ(exrFault(""), "a.exr: is not an EXR file");
     EXPECT_EQ(exrFault(file.substr(0, 50)), "a.exr: attribute channels: 55 bytes of 22 left in the file");
     EXPECT_EQ(exrFault(file.substr(0, file.find("dataWindow") + 4)),

@@ -4,6 +4,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
 #include "shared/image/png.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <fcntl.h>
@@ -23,17 +24,6 @@ namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The message of the exception that `act` throws; empty if it throws none.
-template <class Act>
-std::string faultOf(Act&& act) {
-    try {
-        act();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return {};
-}
 
 bool sameBits(const Image& a, const Image& b) {
     return a.width == b.width && a.height == b.height && a.components == b.components &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // PFM files made by hand: both kinds, both byte orders, rows from the bottom; and files with wrong headers.
 #include "shared/image/pfm.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -32,12 +33,7 @@ PfmPicture pfmOf(const std::string& file, std::uint64_t most = limits::imageByte
     return readPfm(std::as_bytes(std::span(file)), "a.pfm", most);
 }
 std::string pfmFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    try {
-        pfmOf(file, most);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "reads";
+    return faultOf([&] { pfmOf(file, most); });
 }
 
 TEST(Pfm, RowsAreStoredFromTheBottom) {

@@ -2,6 +2,7 @@
 // TIFFs made byte by byte, so that nothing of what reads them also made them.
 #include "shared/image/tiff.h"
 #include "shared/image/picture_file.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -70,12 +71,7 @@ TiffPicture read(const MadeTiff& file, std::uint64_t most = 1 << 20) {
 }
 
 std::string tiffFault(const std::string& bytes, std::uint64_t most = 1 << 20) {
-    try {
-        readTiff(std::as_bytes(std::span(bytes)), "a.tif", most);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "reads";
+    return faultOf([&] { readTiff(std::as_bytes(std::span(bytes)), "a.tif", most); });
 }
 
 TEST(Tiff, EverySampleIsReadAsItIs) {
@@ -141,31 +137,32 @@ TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
     };
     for (const Case& wrong :
          {Case{259, 7, "compression 7"}, Case{262, 5, "photometric interpretation 5"},
-          Case{258, 4, "4 bit samples"}, Case{339, 2, "format 2"}, Case{277, 2, "reads"},
-          Case{277, 4, "4 samples"}, Case{274, 6, "orientation 6"}, Case{256, 70000, "70000 x 2 pixels"},
+          Case{258, 4, "4 bit samples"}, Case{339, 2, "format 2"}, Case{277, 4, "4 samples"},
+          Case{274, 6, "orientation 6"}, Case{256, 70000, "70000 x 2 pixels"},
           Case{257, 60000, "bytes cannot hold"}, Case{256, 0, "a.tif"}}) {
         MadeTiff file = sound;
         file.tags[wrong.tag] = wrong.value;
-        if (wrong.tag == 277 && wrong.value == 2) {  // grey and alpha, which are there
-            file.strip.resize(8, 'x');
-            file.tags[279] = 8;
-        }
         const std::string fault = tiffFault(file.bytes());
         EXPECT_NE(fault.find(wrong.said), std::string::npos) << wrong.tag << ": " << fault;
         EXPECT_EQ(fault.find('\n'), std::string::npos);
     }
+    MadeTiff alpha = sound;  // beside grey: two samples a pixel, which are there
+    alpha.tags[277] = 2;
+    alpha.strip.resize(8, 'x');
+    alpha.tags[279] = 8;
+    EXPECT_EQ(tiffFault(alpha.bytes()), "");
     EXPECT_NE(tiffFault(sound.bytes(), 8).find("a.tif: "), std::string::npos) << "more memory than allowed";
 }
 
 // Cut anywhere, and with every byte changed in turn: it reads, or says why in a line.
 TEST(Tiff, BrokenFilesAreOneLine) {
     const std::string sound = made(3, 2, 3, 16, 1, std::string(36, 'y')).bytes();
-    ASSERT_EQ(tiffFault(sound), "reads");
+    ASSERT_EQ(tiffFault(sound), "");
     int refused = 0;
     const auto check = [&](const std::string& bytes) {
         const std::string fault = tiffFault(bytes);
-        refused += fault != "reads";
-        EXPECT_TRUE(fault == "reads" || fault.starts_with("a.tif: ")) << fault;
+        refused += !fault.empty();
+        EXPECT_TRUE(fault.empty() || fault.starts_with("a.tif: ")) << fault;
         EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
     };
     for (std::size_t size = 0; size < sound.size(); ++size) check(sound.substr(0, size));

@@ -2,6 +2,7 @@
 #include "shared/scene/requirements.h"
 
 #include "compare/render/left_out.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +18,7 @@ Scene plainScene() {
     scene.materials.resize(2);
     scene.textures.push_back({0, {}});
     scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    p.normals.assign(3, {0, 0, 1});
-    p.tangents.assign(3, {1, 0, 0, 1});
-    p.indices = {0, 1, 2};
-    scene.meshes.push_back({"triangle", {p}});
+    scene.meshes.push_back({"triangle", {triangleOfAMetre()}});
     Node node;
     node.mesh = 0;
     scene.nodes = {node, node};

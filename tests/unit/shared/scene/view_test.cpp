@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/view.h"
 #include "shared/scene/motion/bounds.h"
+#include "tests/support/errors.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -22,12 +24,7 @@ Scene squareAt(const glm::dvec3& centre, bool doubleSided = false, double mirror
     Scene scene;
     scene.materials.resize(1);
     scene.materials[0].double_sided = doubleSided;
-    Primitive p;
-    p.positions = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
-    p.normals.assign(4, {0, 0, 1});
-    p.tangents.assign(4, {1, 0, 0, 1});
-    p.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes.push_back({"square", {p}});
+    scene.meshes.push_back({"square", {rectangle({-0.5, -0.5, 0}, {1, 0, 0}, {0, 1, 0})}});
     Node node;
     node.mesh = 0;
     node.parent_from_node =
@@ -41,12 +38,7 @@ View viewOf(const Scene& scene, const std::string& choice, int width = 640, int 
 }
 
 std::string viewFault(const std::string& choice, const Scene& scene = squareAt({0, 0, 0})) {
-    try {
-        viewOf(scene, choice);
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { viewOf(scene, choice); });
 }
 
 // As the shaders use gpu::View: from a pixel and its depth to a position, in float.

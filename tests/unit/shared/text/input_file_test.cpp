@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opening files that are none, and names that lead elsewhere.
 #include "shared/text/input_file.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -17,24 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class Read>
-std::string fault(const Read& read) {
-    try {
-        read();
-        return "";
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-}
-
 TEST(InputFile, ReadsARegularFileAndALinkToOne) {
     const fs::path root = folder();
     std::ofstream(root / "a.txt") << "four";
     fs::create_symlink("a.txt", root / "b.txt");
     EXPECT_EQ(textIn(root / "a.txt", 4), "four");
     EXPECT_EQ(textIn(root / "b.txt", 4), "four") << "users may name a file by a link";
-    EXPECT_EQ(fault([&] { textIn(root / "a.txt", 3); }), "is 4 bytes: at most 3 are read");
-    EXPECT_EQ(fault([&] { textIn(root / "none.txt", 3); }), "no such file");
+    EXPECT_EQ(faultOf([&] { textIn(root / "a.txt", 3); }), "is 4 bytes: at most 3 are read");
+    EXPECT_EQ(faultOf([&] { textIn(root / "none.txt", 3); }), "no such file");
 }
 
 // None of them waits: the test would hang.
@@ -49,14 +40,15 @@ TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
     std::strcpy(address.sun_path, name.c_str());
     ASSERT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     for (const fs::path& path : {root / "fifo", root / "s", fs::path("/dev/zero"), fs::path("/dev/null")})
-        EXPECT_EQ(fault([&] { textIn(path, 100); }), "is not a regular file") << path;
-    EXPECT_EQ(fault([&] { textIn(root, 100); }), "is a folder");
-    EXPECT_EQ(fault([&] { textBelow(root, "fifo", 100); }), "is not a regular file");
+        EXPECT_EQ(faultOf([&] { textIn(path, 100); }), "is not a regular file") << path;
+    EXPECT_EQ(faultOf([&] { textIn(root, 100); }), "is a folder");
+    EXPECT_EQ(faultOf([&] { textBelow(root, "fifo", 100); }), "is not a regular file");
     ::close(listening);
     // A file of 2^40 bytes that takes no room on disk.
     { std::ofstream(root / "sparse"); }
     fs::resize_file(root / "sparse", std::uintmax_t(1) << 40);
-    EXPECT_EQ(fault([&] { textIn(root / "sparse", 1000); }), "is 1099511627776 bytes: at most 1000 are read");
+    EXPECT_EQ(faultOf([&] { textIn(root / "sparse", 1000); }),
+              "is 1099511627776 bytes: at most 1000 are read");
 }
 
 TEST(InputFile, BelowAFolderNoLinkIsFollowed) {
@@ -70,14 +62,14 @@ TEST(InputFile, BelowAFolderNoLinkIsFollowed) {
     fs::create_symlink("a.png", root / "shard/in/c.png");
     const fs::path shard = root / "shard";
     EXPECT_EQ(textBelow(shard, "in/a.png", 100), "fine");
-    EXPECT_NE(fault([&] { textBelow(shard, "out/key.png", 100); }).find("\"out\" is a link"),
+    EXPECT_NE(faultOf([&] { textBelow(shard, "out/key.png", 100); }).find("\"out\" is a link"),
               std::string::npos);
     for (const char* name : {"in/b.png", "in/c.png"})
-        EXPECT_NE(fault([&] { textBelow(shard, name, 100); }).find(".png\" is a link"), std::string::npos)
+        EXPECT_NE(faultOf([&] { textBelow(shard, name, 100); }).find(".png\" is a link"), std::string::npos)
             << name;
     for (const char* name :
          {"../private/key.png", "in/../../private/key.png", "/etc/passwd", "", "in//a.png", "in/"})
-        EXPECT_NE(fault([&] { textBelow(shard, name, 1 << 20); }), "") << name;
+        EXPECT_NE(faultOf([&] { textBelow(shard, name, 1 << 20); }), "") << name;
     fs::create_directory_symlink("shard", root / "named");
     EXPECT_EQ(textBelow(root / "named", "in/a.png", 100), "fine") << "the folder itself is the user's choice";
 }
@@ -90,7 +82,7 @@ TEST(InputFile, ReadsAsManyBytesAsWereAskedFor) {
     std::string piece(4, ' ');
     file.read(std::as_writable_bytes(std::span(piece)));
     EXPECT_EQ(piece, "abcd");
-    EXPECT_EQ(fault([&] { file.read(std::as_writable_bytes(std::span(piece))); }),
+    EXPECT_EQ(faultOf([&] { file.read(std::as_writable_bytes(std::span(piece))); }),
               "cannot be read to its end");
 }
 

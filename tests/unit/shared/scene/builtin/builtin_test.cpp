@@ -3,6 +3,7 @@
 
 #include "shared/scene/builtin/shapes.h"
 #include "shared/scene/builtin/textures.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -18,12 +19,7 @@ namespace diptych {
 namespace {
 
 std::string builtinFault(const std::string& name) {
-    try {
-        makeBuiltin(name);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    return faultOf([&] { makeBuiltin(name); });
 }
 
 std::size_t triangles(const Scene& scene) {

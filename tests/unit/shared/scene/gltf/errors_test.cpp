@@ -214,14 +214,7 @@ TEST(GltfErrors, ScenesThatAreNoFiles) {
     const std::filesystem::path file = testFolder() / "pipe.gltf";
     std::filesystem::remove(file);
     ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-    const auto outcome = [](const std::string& name) -> std::string {
-        try {
-            loadScene(name);
-            return "";
-        } catch (const std::runtime_error& e) {
-            return e.what();
-        }
-    };
+    const auto outcome = [](const std::string& name) { return faultOf([&] { loadScene(name); }); };
     EXPECT_EQ(outcome(file.string()), file.string() + ": is not a regular file");
     std::filesystem::create_directories(testFolder() / "folder.glb");
     EXPECT_EQ(outcome((testFolder() / "folder.glb").string()),

@@ -2,6 +2,7 @@
 // Images of every kind that glTF may use, written by libpng and libjpeg, are decoded to the stored numbers.
 #include "shared/scene/image/decode.h"
 #include "shared/image/picture_file.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -91,12 +92,7 @@ Bytes jpeg(J_COLOR_SPACE in, J_COLOR_SPACE space, std::vector<unsigned char> col
 }
 
 std::string failure(const Bytes& file) {
-    try {
-        decodeImage(file);
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { decodeImage(file); });
 }
 
 void expectRgba(const Bytes& file, const Bytes& rgba) {
@@ -408,14 +404,10 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
                           static_cast<float>(texture.rgba[4 * i + static_cast<std::size_t>(c)]) / 255);
     }
     const Bytes file = jpeg(JCS_RGB, JCS_YCbCr, {1, 2, 3});
-    const auto faultOf = [](std::span<const unsigned char> bytes, std::uint64_t most) -> std::string {
-        try {
-            readPicture(std::as_bytes(bytes), "a.jpg", {}, most);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "reads";
+    const auto pictureFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
+        return faultOf([&] { readPicture(std::as_bytes(bytes), "a.jpg", {}, most); });
     };
-    EXPECT_TRUE(faultOf(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
-    EXPECT_TRUE(faultOf(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
+    EXPECT_TRUE(pictureFault(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: "))
+        << "cut";
+    EXPECT_TRUE(pictureFault(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
 }

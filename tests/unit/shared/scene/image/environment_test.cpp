@@ -4,6 +4,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
 #include "shared/image/radiance.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <cmath>
@@ -26,12 +27,7 @@ Image numbered() {
 
 std::string environmentFault(const std::filesystem::path& file) {
     std::vector<std::string> notes;
-    try {
-        readEnvironment(file, notes);
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { readEnvironment(file, notes); });
 }
 
 }  // namespace

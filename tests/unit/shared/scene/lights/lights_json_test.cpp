@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/lights/lights_json.h"
+#include "tests/support/errors.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +18,7 @@ using namespace diptych;
 namespace {
 
 std::filesystem::path written(const std::string& text) {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / (std::string("diptych_") + test->name() + ".json");
+    const std::filesystem::path file = testFolder() / "lights.json";
     std::ofstream(file) << text;
     return file;
 }
@@ -28,12 +28,7 @@ std::vector<Light> read(const std::string& lights) {
 }
 
 std::string lightsFault(const std::string& text) {
-    try {
-        readLights(written(text));
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return faultOf([&] { readLights(written(text)); });
 }
 
 }  // namespace

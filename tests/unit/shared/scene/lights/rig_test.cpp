@@ -3,6 +3,8 @@
 #include "shared/scene/load.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/scene_view.h"
+#include "tests/support/errors.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -23,12 +25,7 @@ namespace {
 const Bounds ROOM{{-5, 0, -8}, {5, 4, 8}};
 
 std::string rigFault(const std::string& lights, const Bounds& bounds = ROOM) {
-    try {
-        makeLights(lights, 0, bounds);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    return faultOf([&] { makeLights(lights, 0, bounds); });
 }
 
 TEST(Rig, HashHasThePublishedValues) {
@@ -168,11 +165,10 @@ TEST(Rig, WrongOrdersNameTheOptionAndTheFault) {
 }
 
 TEST(Rig, FilesAreRead) {
-    const auto file = std::filesystem::temp_directory_path() / "diptych_rig_test.json";
+    const auto file = folder() / "lights.json";
     std::ofstream(file)
         << R"({ "lights": [ { "type": "point", "position": [1, 2, 3], "intensity": 5, "range": 4 } ] })";
     const auto lights = makeLights(file.string(), 0, ROOM);
-    std::filesystem::remove(file);
     ASSERT_EQ(lights.size(), 1u);
     EXPECT_NE(rigFault("/nonexistent/lights.json").find("/nonexistent/lights.json"), std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/deformation_bounds.h"
 #include "shared/scene/view.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -32,13 +33,8 @@ glm::dmat4 turned(double angle, const glm::dvec3& about) {
 Scene triangle() {
     Scene scene;
     scene.materials.resize(1);
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    p.normals.assign(3, {0, 0, 1});
-    p.tangents.assign(3, {1, 0, 0, 1});
-    p.indices = {0, 1, 2};
     scene.meshes.resize(1);
-    scene.meshes[0].primitives = {p};
+    scene.meshes[0].primitives = {triangleOfAMetre()};
     scene.nodes.resize(3);
     scene.nodes[0].mesh = 0;
     return scene;

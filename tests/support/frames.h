@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Frames that no device drew.
+#pragma once
+
+#include "shared/frame/frame.h"
+#include "tests/support/modes.h"
+
+#include <string>
+
+namespace diptych {
+
+// lit is `value` in every component, and every pixel shows material `id`; -1: background.
+inline Frame flatFrame(Path path, int width, int height, float value = 0, float id = 0) {
+    Frame frame;
+    frame.name = std::string(nameOf(path));
+    frame.settings.path = path;
+    frame.settings.size = {width, height};
+    frame.channels[litMode] = Image(width, height, 3, value);
+    frame.channels[idMode] = Image(width, height, 1, id);
+    return frame;
+}
+
+}  // namespace diptych
