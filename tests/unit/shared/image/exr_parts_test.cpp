@@ -149,8 +149,8 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     const PictureFile asked = partsOf(file, "beauty");
     EXPECT_EQ(layerNames(asked), (Names{"", "albedo"}));
     EXPECT_EQ(asked.layers[0].channels, (Names{"R", "G", "B", "A"}));
-    expectMade(asked.layers[0], 0, {3, 2, 1, 0}, color.data, color.data);
-    expectMade(partsOf(file, "normals").layers[0], 1, {0, 1, 2}, color.data, color.data);
+    expectMade(asked.layers[0], 0, {3, 2, 1, 0}, colorPart.data, colorPart.data);
+    expectMade(partsOf(file, "normals").layers[0], 1, {0, 1, 2}, colorPart.data, colorPart.data);
     EXPECT_EQ(partFault(file, "fog"), "a.exr: has no part \"fog\"");
     EXPECT_EQ(partFault(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not read");
 }
@@ -171,7 +171,7 @@ TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
     EXPECT_EQ(partsOf(file, "beauty").width, 9);
     const PictureFile wide = partsOf(file, "normals");
     EXPECT_EQ(wide.width, 12);
-    expectMade(wide.layers[0], 1, {0, 1, 2}, normals.data, box(0, 0, 11, 5));
+    expectMade(wide.layers[0], 1, {0, 1, 2}, normalsPart.data, box(0, 0, 11, 5));
 }
 
 TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
