@@ -174,9 +174,9 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
         std::FILE* stream = opened(other, 0);
         if (!stream) continue;
         const bool ended = lock(stream) && isAt(stream, other);
-        const bool same = headOf(stream, head) == Holds::this_picture;
+        const Holds holds = headOf(stream, head);
         std::vector<Record> records;
-        if (same) readRecords(stream, floats_, records);
+        if (holds == Holds::this_picture) readRecords(stream, floats_, records);
         try {
             for (Record& record : records) {
                 if (!have.insert(record.number).second) continue;
@@ -188,7 +188,8 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
             throw;
         }
         std::error_code ignored;
-        if (same && ended) fs::remove(other, ignored);
+        // Also what a program had just begun when it was killed.
+        if (holds != Holds::something_else && ended) fs::remove(other, ignored);
         std::fclose(stream);
     }
 }

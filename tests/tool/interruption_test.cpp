@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Signals, concurrent programs, and disks that are really full or read-only.
+#include "tests/campaign.h"
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <csignal>
+#include <memory>
+#include <random>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -139,6 +144,104 @@ TEST(Interruption, TwoProgramsLeaveOneWholeReport) {
             EXPECT_EQ(contentsOf(folder / "r/mine.txt"), "keep");
         }
     }
+}
+
+// The files of an output, and those that its manifest lists.
+std::pair<std::set<std::string>, std::set<std::string>> filesAndListed(const fs::path& output) {
+    const char* manifest = fs::exists(output / "report.json") ? "report.json" : "frame.json";
+    std::set<std::string> there, listed{manifest};
+    for (const auto& [path, text] : contentsBelow(output))
+        if (text != "(folder)") there.insert(path);
+    const auto json = nlohmann::json::parse(contentsOf(output / manifest), nullptr, false);
+    if (json.is_object() && json.contains("files"))
+        for (const std::string name : json["files"]) listed.insert(name);
+    return {there, listed};
+}
+
+// Two programs at once in one folder, each killed at any time: what is left is all or nothing, and what else
+// is left the next run removes. A campaign kills 200 times by each signal.
+TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
+    const Folder folder;
+    fs::create_directories(folder / "tmp");
+    const char* const earlier = std::getenv("TMPDIR");
+    const std::string given = earlier ? earlier : "";
+    ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
+    std::vector<std::vector<std::string>> commands{
+        {"compare", "builtin:triangle", "--channels", "lit"},
+        {"compare", "builtin:triangle", "builtin:points", "--channels", "lit"},
+        {"render", "builtin:triangle", "--path", "reference", "--reference-mode", "scene", "--spp", "64"}};
+    const std::set<std::string> allowed{"tmp", "out-0", "out-1", "out-2", ".stdout", ".stderr", ".other"};
+    std::vector<double> whole_ms;
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        const std::string out = "out-" + std::to_string(i);
+        for (const char* word : {"-q", "--size", "32x18", "--runs", "0", "-o", out.c_str()})
+            commands[i].emplace_back(word);
+        const auto start = std::chrono::steady_clock::now();
+        Running whole(folder, commands[i]);
+        ASSERT_EQ(whole.wait(), 0) << whole.err();
+        whole_ms.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::mt19937 random(campaignSeed());
+    int killed = 0, left = 0, runs = 0;
+    const int rounds = isCampaign() ? 500 : 3;  // of two programs, five signals in turn
+    for (int round = 0; round < rounds; ++round) {
+        constexpr int signals[] = {SIGKILL, SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+        const int signal = signals[round % 5];
+        const auto kind = static_cast<std::size_t>(round / 5 + round) % commands.size();
+        const fs::path output = folder / ("out-" + std::to_string(kind));
+        if (random() % 3 == 0) fs::remove_all(output);
+        const auto sleep = [&] {
+            std::uniform_real_distribution<double> ms(0, 0.6 * whole_ms[kind]);
+            std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms(random)));
+        };
+        const auto first = std::make_unique<Running>(folder, commands[kind]),
+                   second = std::make_unique<Running>(folder, commands[kind], folder / ".other");
+        for (const auto* program : {&first, &second}) {
+            sleep();
+            if (!(*program)->ended()) ::kill((*program)->process(), signal);
+        }
+        for (const auto* program : {&first, &second}) {
+            ASSERT_TRUE(soon([&] { return (*program)->ended(); })) << "round " << round;
+            const int status = (*program)->wait();
+            ++runs;
+            if (WIFSIGNALED(status)) {
+                ++killed;
+                EXPECT_EQ(WTERMSIG(status), signal) << "round " << round;
+            } else if (WEXITSTATUS(status) != 0) {
+                EXPECT_NE((*program)->err().find("another diptych is at work"), std::string::npos)
+                    << "round " << round << ": " << (*program)->err();
+            }
+        }
+        const std::vector<std::string> rubbish = leftoversIn(folder.path());
+        left += !rubbish.empty();
+        if (signal != SIGKILL) {
+            EXPECT_EQ(rubbish, std::vector<std::string>()) << "round " << round << " by " << signal;
+        }
+        if (fs::exists(output) && leftoversIn(output).empty()) {
+            const auto [there, listed] = filesAndListed(output);
+            EXPECT_EQ(there, listed) << "round " << round << " by " << signal;
+        }
+        Running next(folder, commands[kind]);
+        EXPECT_EQ(next.wait(), 0) << "round " << round << " by " << signal << ": " << next.err();
+        const auto [there, listed] = filesAndListed(output);
+        EXPECT_EQ(there, listed) << "round " << round << " by " << signal;
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            EXPECT_TRUE(allowed.contains(entry.path().filename().string()))
+                << "round " << round << " by " << signal << " left " << entry.path();
+        EXPECT_TRUE(fs::is_empty(folder / "tmp")) << "round " << round << " by " << signal;
+    }
+    if (given.empty())
+        ::unsetenv("TMPDIR");
+    else
+        ::setenv("TMPDIR", given.c_str(), 1);
+    EXPECT_GT(killed, 0);
+    RecordProperty("programs", runs);
+    RecordProperty("killed", killed);
+    RecordProperty("rounds_with_leftovers", left);
+    if (isCampaign())
+        std::printf("%d programs, %d of them killed; %d of %d rounds left something\n", runs, killed, left,
+                    rounds);
 }
 
 // One program waits until the other has moved its files.

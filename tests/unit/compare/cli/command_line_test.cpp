@@ -260,6 +260,8 @@ TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
             parseReported(command);
             ADD_FAILURE() << words.front() << " was taken";
         } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("the command of the comparison "))
+                << error.what();
             EXPECT_NE(std::string(error.what()).find(words.front().substr(0, words.front().find('='))),
                       std::string::npos)
                 << error.what();

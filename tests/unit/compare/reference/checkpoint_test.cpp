@@ -152,6 +152,16 @@ TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
 }
 
+// Of two programs the second was killed before it had written anything.
+TEST(ReferenceCheckpoint, WhatWasJustBegunIsRemoved) {
+    const Path stem = twoRecords(), second = stem.parent_path() / (std::string(keptName) + "-2");
+    for (const std::size_t size : {0, 10}) {
+        write(second, contentsOf(stem.parent_path() / keptName).substr(0, size));
+        EXPECT_EQ(numbersAt(stem), (Numbers{10, 11}));
+        EXPECT_EQ(namesIn(stem.parent_path()), Names{keptName}) << size;
+    }
+}
+
 TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
     const Path stem = twoRecords();
     {
