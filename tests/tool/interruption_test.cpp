@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Signals, concurrent programs, and disks that are really full or read-only.
-#include "tests/campaign.h"
+#include "tests/support/campaign.h"
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 
