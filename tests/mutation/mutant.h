@@ -55,8 +55,9 @@ inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> m
             words.insert(words.end(), in.begin(), in.end());
         if (op == 43) constants[in[2]] = in[3];  // OpConstant
         if (op == 50 && in[2] == id)
-            words.end()[-4] = 4u << 16 | 43, words.back() = diptychChosen();          // OpSpecConstant
-        if (op == 52 && in[3] == 170 && in[4] == id) diptychReach(constants[in[5]]);  // OpIEqual
+            words.end()[-4] = 4u << 16 | 43, words.back() = diptychChosen();  // OpSpecConstant
+        if (op == 52 && (in[3] | 1) == 171 && in[4] == id)
+            diptychReach(constants[in[5]]);  // OpIEqual, OpINotEqual
     }
     return words;
 }

@@ -69,6 +69,7 @@ TURNED = {"<": "> <=", "<=": "< >=", ">": "< >=", ">=": "> <=", "==": "!=", "!="
 NAMES = dict(pair.split("/") for pair in """min/max fmin/fmax floor/ceil sin/cos any/all any_of/all_of front/back true/false
     lower_bound/upper_bound min_element/max_element lessThan/lessThanEqual greaterThan/greaterThanEqual""".split())
 NAMES.update({other: name for name, other in NAMES.items()})
+ALIKE = re.compile(r"[iu]?vec\d|mix|pow|atan|clamp|(smooth)?step|(cross|reflect)\w*")  # in GLSL others seldom take arguments of one type
 NEXT = str.maketrans("xyzwrgba", "yxyzgrgb")  # components
 
 
@@ -216,7 +217,7 @@ def of_call(source, i, rng):
     cuts = [k for k in range(i + 2, close) if source.at[k] == "," and source.inside[k] == i + 1 and k not in source.dead]
     region = source.region(i, CHAIN) if cuts and source.kind[i] == "name" and source.at[i + 1] == "(" else None
     if (region is None or name in {*WORDS, *NAMES, "dot"} or name.isupper() or source.body(i) is None or source.declares(i + 2, close - 1)
-            or source.at[i - 1] not in WORDS and source.declares(i - 1, i)):
+            or source.at[i - 1] not in WORDS and source.declares(i - 1, i) or source.glsl and not ALIKE.fullmatch(name)):
         return
     (start, end), at = source.span(*region), rng.randrange(len(cuts))
     a, b = source.span(([i + 1] + cuts)[at] + 1, cuts[at] - 1)
