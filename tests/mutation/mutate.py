@@ -335,8 +335,9 @@ def blamed(said, edits, tree):
     for path, line, text in re.findall(r"^(?:ERROR: )?([^\s:]+):(\d+):(.*)$", said, re.M):
         edit, error = places.get((os.path.relpath(tree / "build" / path, tree), int(line))), "error: " in text or "' : " in text
         if error or "note: " in text and unexplained:
-            unexplained = edit is None
             bad |= {edit} - {None}
+        if "note: " not in text or edit:
+            unexplained = error and edit is None and "compilation terminated" not in text
     return bad
 
 

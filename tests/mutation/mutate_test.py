@@ -102,7 +102,8 @@ class Drawn(unittest.TestCase):
         place = f"/t/shared/a/a.h:{edit.lines[0] + 1}:7: "
         for said in (place + "error: no", "/t/b.cpp:1:1: error: no\n" + place + "note: here", f"ERROR: {place[:-3]} 'x' :  no"):
             self.assertIn(edit.number, mutate.blamed(said, edits, pathlib.Path("/t")), said)
-        self.assertEqual(mutate.blamed(place + "warning: no", edits, pathlib.Path("/t")), set())
+        for said in (place + "warning: no", "/t/b.cpp:1:1: error: no\n/t/b.cpp:2:1: warning: no\n" + place + "note: here"):
+            self.assertEqual(mutate.blamed(said, edits, pathlib.Path("/t")), set(), said)
 
     def test_where_modules_become_known_there_is_what_sets_the_switch(self):
         for old, _ in mutate.SETTERS:
