@@ -457,7 +457,7 @@ class Run:
             process.wait()
             said.seek(0)
             text = said.read()
-        failed = re.findall(r"^\[  FAILED  \] ([^\s,]+)", text, re.M) or re.findall(r"^\[ RUN      \] (\S+)$", text, re.M)[-1:]
+        failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", text, re.M) or re.findall(r"^\[ RUN      \] (\S+)$", text, re.M)[-1:]
         return [] if code == 0 else sorted(set(failed)) or [f"({code})"], time.monotonic() - begun
 
     def record(self, suite):
