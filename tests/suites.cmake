@@ -9,8 +9,8 @@
 #
 # Variables: program; folder, its label; seconds, the most that a process may take; results, the folder of JUnit files;
 # here, the folder of this file; processes, into how many suites are dealt; 0: one each; validated, the suites that run
-# under the validation layers, in three processes more, where others set DIPTYCH_VALIDATE=0 (empty: all of them); costs,
-# names and seconds of the longest, which start first.
+# under the validation layers, in three processes more, where others set DIPTYCH_VALIDATE=0 (empty: all of them), and
+# those that are beside them where nothing is left out; costs, names and seconds of the longest, which start first.
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
@@ -25,6 +25,8 @@ if("$ENV{DIPTYCH_TIER}" STREQUAL default)
     string(APPEND left_out ":${pattern}")
   endforeach()
   string(REGEX REPLACE "^:" "-" left_out "${left_out}")
+else()
+  list(APPEND validated ${validated_by_all})
 endif()
 execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=*${left_out}
   OUTPUT_VARIABLE lines RESULT_VARIABLE failed)

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -84,11 +85,10 @@ double pipelineBytes(const RenderOptions& options, std::size_t materials) {
 
 std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
                          bool sun, std::size_t materials) {
-    double timed = 0, largest = 0, held = 0, code = 0;
-    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
-        if (software && std::ranges::count(settings, path, &Settings::path) > 0)
-            code += pipelineBytes(options, materials);
+    double timed = 0, largest = 0, held = 0;
+    std::set<Path> paths;
     for (const Settings& of : settings) {
+        paths.insert(of.path);
         if (of.path == Path::reference) {
             largest = std::max(largest, pixelsOf(of) * referenceBytes(of, options));
             held += pixelsOf(of) * keptReference;
@@ -99,6 +99,7 @@ std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions
         if (options.channels.empty()) continue;
         largest = std::max(largest, images + pixelsOf(of) * captureBytes(of, options, software));
     }
+    const double code = software ? static_cast<double>(paths.size()) * pipelineBytes(options, materials) : 0;
     return static_cast<std::uint64_t>(code + held + std::max(timed, largest));
 }
 

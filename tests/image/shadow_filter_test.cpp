@@ -225,7 +225,7 @@ TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
         EXPECT_LE(c.visibility, seenOfDisc(c.at + texel, height, double{angle}) + 0.02) << c.at;
         penumbra += c.visibility > 0.01 && c.visibility < 0.99;
     }
-    EXPECT_GT(penumbra, 500);
+    EXPECT_GT(penumbra, 250);
 }
 
 // A blur makes an edge wider, along both axes of the map, and leaves it in its place.
