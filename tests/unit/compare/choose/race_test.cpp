@@ -69,6 +69,16 @@ TEST(ChooseRace, ADriftIsNoDifference) {
     for (const Standing& standing : result.standings) EXPECT_NEAR(standing.ratio, 1, 2e-3);
 }
 
+TEST(ChooseRace, EveryDrawIsCounted) {
+    std::size_t drawn = 0;
+    const auto draw = [&](std::span<const std::size_t> order) {
+        drawn += order.size();
+        return std::vector<double>(order.size(), 10.0);
+    };
+    EXPECT_EQ(race(3, draw, {}, 1).draws, drawn);
+    EXPECT_GT(drawn, 0u);
+}
+
 TEST(ChooseRace, TheFastestWinsAndIsSure) {
     std::size_t right = 0, sure = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
