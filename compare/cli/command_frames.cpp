@@ -11,6 +11,7 @@
 #include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -93,14 +94,14 @@ public:
         if (folder_) {
             Json manifest = result_;
             manifest["files"] = files_;
-            writeFile(*folder_ / several_manifest, jsonText(manifest));
+            writeFile(*folder_ / several_manifest, jsonText(manifest) + "\n");
             files_.emplace_back(several_manifest);
             folder_->put(files_, [&] {
                 checkFolder(output_, 1, options_.force);
                 return earlierIn(output_.path);
             });
         }
-        if (options_.json) printText(jsonText(result_));
+        if (options_.json) printOut("{}\n", jsonText(result_));
     }
 
 private:

@@ -92,7 +92,7 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const Pictur
         result["frames"][i]["file"] = places.back().string();
     }
     if (frames.size() > 1) {
-        writeFile(folder / several_manifest, jsonText(result));
+        writeFile(folder / several_manifest, jsonText(result) + "\n");
         files.emplace_back(several_manifest);
     }
     folder.put(files, earlier);
@@ -147,7 +147,7 @@ int runRender(const Options& options) {
         for (const std::string& line : frame.notes) printOut("  note: {}\n", line);
         for (const std::string& line : repairedInWords(frame)) printOut("  note: {}\n", line);
     }
-    if (options.json) printText(jsonText(result));
+    if (options.json) printOut("{}\n", jsonText(result));
     return 0;
 }
 

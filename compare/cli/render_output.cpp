@@ -4,7 +4,6 @@
 #include "compare/files/our_files.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/made_channels.h"
-#include "shared/text/json_text.h"
 
 #include <fmt/format.h>
 
@@ -76,10 +75,6 @@ void noteIgnored(const Options& options) {
         if (!why.empty() && given.valueOf(field.option) != usual.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }
-}
-
-std::string jsonText(const nlohmann::ordered_json& json) {
-    return jsonText(json) + "\n";
 }
 
 nlohmann::ordered_json resultOf(const ReportDevice& made) {

@@ -41,7 +41,6 @@ void noteIgnored(const Options& options);
 
 // The JSON of a run, without Frames.
 nlohmann::ordered_json resultOf(const ReportDevice& made);
-std::string jsonText(const nlohmann::ordered_json& json);
 // What is said to have made Frames; the reference needs no device.
 ReportDevice madeBy(const std::optional<Device>& device);
 // Where in the command's time drawing ends: writing takes as long as five frames drawn (lavapipe, the gallery
