@@ -147,7 +147,7 @@ private:
             const double px = x(choice_.candidates[i].ms()), py = y(choice_.candidates[i].judged->error);
             marks.push_back({px - 5, py - 5, px + 5, py + 5});
         }
-        constexpr double letter = 8, line = 17;
+        constexpr double letter = 10, line = 17;  // where the style makes text largest
         for (const auto& [i, word] : named)
             labels.push_back({x(choice_.candidates[i].ms()), y(choice_.candidates[i].judged->error),
                               letter * static_cast<double>(word.size()), line});

@@ -15,6 +15,8 @@ constexpr const char* lookAtChoice = R"(
       if (x.left < y.right - 1 && y.left < x.right - 1 && x.top < y.bottom - 1 && y.top < x.bottom - 1) told.overlaps.push([a, b]);
   });
   told.names = $$('svg.chart .name').map(name => name.textContent);
+  const svg = $('svg.chart'), unit = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+  told.letter = Math.max(...$$('.rows-named text').map(text => text.getBoundingClientRect().width / unit / text.textContent.length));
   told.limits = $$('svg.chart > .budget').length;
   told.points = $$('svg.chart .point[data-row]').length;
   told.rows = $$('.rows tbody tr').length;
@@ -33,6 +35,7 @@ void expectGoodPage(const Visit& seen, bool narrow) {
     EXPECT_EQ(told["outside"], nlohmann::json::array()) << narrow;
     EXPECT_LE(told["wide"].get<int>(), 0) << narrow;
     EXPECT_EQ(told["names"], (nlohmann::json{"time of a frame, ms", "FLIP against the reference"}));
+    EXPECT_LE(told["letter"].get<double>(), 10) << "the room that the plot gives each; " << narrow;
     EXPECT_EQ(told["limits"], 1);
     EXPECT_EQ(told["rows"], 8);
     EXPECT_GE(told["points"].get<int>(), 2);
