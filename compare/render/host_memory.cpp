@@ -15,7 +15,7 @@
 namespace diptych {
 namespace {
 
-// Of the images of one frame with one sample a pixel: depth, lit, and deferred's surfaces.
+// Bytes a sample takes in a frame's images: depth, lit and the G-buffer.
 double sampleBytes(const Settings& settings) {
     const double depth = settings.depth_format == DepthFormat::d16 ? 2 : 4;
     const double lit = settings.lit_format == LitFormat::fp32   ? 16

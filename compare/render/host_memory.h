@@ -21,9 +21,9 @@ namespace diptych {
 std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
                          bool sun, std::size_t materials);
 
-// Returns that, or throws std::runtime_error that says what is needed, what there is and what helps, where it
-// is more than `granted` and more than this process may still take: "builtin:gallery at 16384x16384: needs
-// about 21.0 GB, ...". Nothing is drawn for it.
+// Returns hostMemory(). Throws std::runtime_error where that is more than `granted` and more than this
+// process may still take; the message says what is needed, what is free and what helps: "builtin:gallery at
+// 16384x16384: needs about 79.3 GB, ...". Draws nothing.
 std::uint64_t checkHostMemory(
     SceneViews& views, std::span<const Settings> settings, const RenderOptions& options, bool software,
     std::uint64_t granted = 0, const std::function<FreeMemory()>& free = [] { return freeMemory(); });

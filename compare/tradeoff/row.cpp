@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Place = JsonAt<Json>;
 
-// Of a count, bytes or frames: sums of several stay exact.
+// Largest count of bytes or pixels in a row: sums of several rows stay exact.
 constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 template <class Value>

@@ -68,7 +68,7 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
                            row.picture == pictureOf(settings) && row.errors_map == errorsOf(settings) &&
                            fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
-    } catch (const std::runtime_error&) {  // not what was written: the row is measured again
+    } catch (const std::runtime_error&) {  // a damaged row is measured again
         return {};
     }
 }
