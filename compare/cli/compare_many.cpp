@@ -258,9 +258,9 @@ void showWhole(const Options& options, const WholeReport& whole, const Report& s
             piece.resize(std::min<std::uint64_t>(left, piece.size()));
             report.read(std::as_writable_bytes(std::span(piece)));
             lines += piece;
-            const std::size_t whole = lines.rfind('\n') + 1;  // no character is cut in two
-            printText(lines.substr(0, whole));
-            lines.erase(0, whole);
+            const std::size_t end = lines.rfind('\n') + 1;  // no character is cut in two
+            printText(lines.substr(0, end));
+            lines.erase(0, end);
         }
         printText(lines);
     } else if (!options.quiet) {
