@@ -49,8 +49,7 @@ void addDispatch(PassList& passes, Pass& pass, const FrameInputs& inputs, const 
     });
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_LIGHTING));
     variant.set(gpu::FEATURE_light_batch, batch.kind);
-    const VkPipeline pipeline =
-        inputs.pipelines.compute(computeModule(dispatch.shader, variant), variant, inputs.layouts.pipeline);
+    const VkPipeline pipeline = inputs.pipelines.compute(dispatch.shader, variant, inputs.layouts.pipeline);
     pass.recordRows(lightingGroups(passes.height()),
                     recordDispatch(inputs, pipeline, std::move(sets), batch, lightingGroups(passes.width()),
                                    dispatch.group));

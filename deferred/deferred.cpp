@@ -147,7 +147,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit, inputs.samples))
             images.push_back(image);
         Variant variant = lightingVariant(inputs);
-        group.specialise(variant);
+        variant.set(gpu::FEATURE_captures, group.images);
         addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
                             group.formats, last, inputs.samples);
         addTransparentCapture(passes, inputs, frame.depth, images);

@@ -33,7 +33,7 @@ public:
         : workload_(workload),
           lightsLayout_(makeSetLayout(device, lightTypes)),
           layouts_(device, lightsLayout_),
-          pipelines_(device, layouts_.pipeline, pipelinePartsFor(device.profile())),
+          pipelines_(device, layouts_.pipeline, drawingParts),
           lights_(filled(device, "lights", workload.lights)),
           indices_(filled(device, "lists", workload.indices)),
           uploader_(device),

@@ -18,7 +18,7 @@ constexpr std::uint32_t function_constant = 1000;  // of rows.glsl
 constexpr std::array row_bindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 OwnedShaderModule moduleOf(Device& device, const std::string& name) {
-    for (const EmbeddedModule& module : embeddedModules()) {
+    for (const ShaderModule& module : probe::shaderModules()) {
         if (module.name != name) continue;
         const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                             .pNext = nullptr,

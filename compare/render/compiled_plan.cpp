@@ -34,8 +34,6 @@ PipelineRequest without(PipelineRequest request, gpu::uint feature) {
         request.key.samples = VK_SAMPLE_COUNT_1_BIT;
         request.key.sample_shading = false;
     }
-    if (request.kernel != nullptr && (request.kernel->number == 0 || feature == gpu::FEATURE_samples))
-        request.kernel = &computeModule(request.kernel->shader, request.variant());
     return request;
 }
 

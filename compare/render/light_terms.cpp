@@ -62,7 +62,7 @@ std::array<double, 3> LightTerms::at(std::span<const std::size_t> shining, int x
             passes.run(next, image.pass + 1);
             next = image.pass + 1;
         }
-        const PassList::ReadBack request{image.image, 3};
+        const PassList::ReadBack request{image.image, 3, {}, image.component};
         const Image read = std::move(readImages(passes, std::span(&request, 1)).front());
         for (std::size_t c = 0; c < 3; ++c) sum.at(c) += double{read.at(x, y, static_cast<int>(c))};
     }

@@ -90,7 +90,7 @@ std::optional<Materials> posedMaterials(Device& device, SharedResources& shared,
 PipelineSet::PipelineSet(Device& device)
     : material(Materials::makeLayout(device)),
       layouts(device, material),
-      pipelines(device, layouts.pipeline, pipelinePartsFor(device.profile())) {}
+      pipelines(device, layouts.pipeline, drawingParts) {}
 
 SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),

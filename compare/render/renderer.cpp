@@ -180,8 +180,8 @@ private:
     }
 
     // Runs the capture's passes group by group, from pass `first` on, and hands out what each group left, one
-    // image after the other, without NaN and infinity: each is gone before the next is read, and only few are
-    // there at a time.
+    // image's channels after the other, without NaN and infinity: each image is gone before the next is read,
+    // and only few channels are there at a time.
     using Repaired = std::vector<std::uint32_t>;
     void readCaptured(std::size_t first, std::span<const CapturedImage> captured,
                       const std::function<void(const CapturedImage&, Image, Repaired)>& take) {
@@ -190,13 +190,22 @@ private:
             const std::size_t pass = captured.front().pass;
             goOn();
             passes.run(first, pass + 1);
-            for (first = pass + 1; !captured.empty() && captured.front().pass == pass;
-                 captured = captured.subspan(1)) {
-                const PassList::ReadBack request{captured.front().image,
-                                                 debugMode(captured.front().mode).width};
-                Image image = std::move(readImages(passes, std::span(&request, 1)).front());
-                Repaired repaired = repairNonfinite(image);
-                take(captured.front(), std::move(image), std::move(repaired));
+            first = pass + 1;
+            while (!captured.empty() && captured.front().pass == pass) {
+                const std::size_t image = captured.front().image.index;
+                std::vector<PassList::ReadBack> requests;
+                for (const CapturedImage& channel : captured)
+                    if (channel.pass == pass && channel.image.index == image)
+                        requests.push_back(
+                            {channel.image, debugMode(channel.mode).width, {}, channel.component});
+                    else
+                        break;
+                std::vector<Image> read = readImages(passes, requests);
+                for (std::size_t i = 0; i < read.size(); ++i) {
+                    Repaired repaired = repairNonfinite(read[i]);
+                    take(captured[i], std::move(read[i]), std::move(repaired));
+                }
+                captured = captured.subspan(read.size());
             }
         }
     }

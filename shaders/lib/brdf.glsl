@@ -6,13 +6,7 @@
 
 #include "shaders/lib/surface.glsl"
 
-// HALF: 1 in the modules that shade in floats of 16 bits, which a device may lack.
-#ifndef HALF
-#define HALF 0
-#endif
-#if HALF
 #extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
-#endif
 
 // What does not depend on the light.
 struct Brdf {
@@ -100,8 +94,7 @@ struct Reflected {
     vec3 lobe;      // 1/sr
 };
 
-#if HALF
-// The specular lobe in floats of 16 bits, as renderers for phones have it: what a surface reflects, while
+// The specular lobe in floats of 16 bits, which a device may lack, as renderers for phones have it: what a surface reflects, while
 // light and its sums stay in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 / pi of a half vector of
 // unit length, so that nothing small is squared, and is cut at what 16 bits hold; the visibility term is cut
 // where it would be infinite.
@@ -132,7 +125,6 @@ Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) 
     return Reflected(float(n_dot_l), vec3(f16vec3(b.diffuse) * base),
                      vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
 }
-#endif
 
 // l: unit, to the light.
 Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
@@ -148,10 +140,11 @@ Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
 
 // Adds what light of `irradiance` (W/m^2, across its direction) from the unit vector `l` sends to `v`.
 void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
-    Reflected reflected = reflectedLight(b, n, v, l);
-#if HALF
-    if (on(feature_half_shading)) reflected = reflectedInHalf(b, n, v, l);
-#endif
+    Reflected reflected;
+    if (on(feature_half_shading))
+        reflected = reflectedInHalf(b, n, v, l);
+    else
+        reflected = reflectedLight(b, n, v, l);
     vec3 received = irradiance * reflected.n_dot_l;
     vec3 from_lobe = reflected.lobe * received;
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;

@@ -1,56 +1,56 @@
 // SPDX-License-Identifier: MIT
-// The outputs of a capture pass: one channel an attachment; which one is a specialization constant.
-// ATTACHMENTS is how many there are. SHADES: 0 in the modules for channels that no light changes; a pipeline
-// would prune the code of lighting, but only after a compiler has read it.
+// The outputs of a capture pass: the images of CAPTURES that feature_captures names, without a gap.
 #ifndef CAPTURE_GLSL
 #define CAPTURE_GLSL
 
-#ifndef SHADES
-#define SHADES 1
-#endif
-
 #include "shaders/lib/debug.glsl"
-#if SHADES
 #include "shaders/lib/shade.glsl"
-#endif
 
-layout(location = 0) out vec4 out_channels[ATTACHMENTS];
+layout(location = 0) out vec4 out_0;
+layout(location = 1) out vec4 out_1;
+layout(location = 2) out vec4 out_2;
+layout(location = 3) out vec4 out_3;
+layout(location = 4) out vec4 out_4;
+layout(location = 5) out vec4 out_5;
+layout(location = 6) out vec4 out_6;
+layout(location = 7) out vec4 out_7;
+
+bool isCaptured(uint image) { return (feature_captures >> image & 1u) != 0u; }
+
+void write(uint image, vec4 texel) {
+    if (!isCaptured(image)) return;
+    uint before = bitCount(feature_captures & ((1u << image) - 1u));
+    if (before == 0u) out_0 = texel;
+    if (before == 1u) out_1 = texel;
+    if (before == 2u) out_2 = texel;
+    if (before == 3u) out_3 = texel;
+    if (before == 4u) out_4 = texel;
+    if (before == 5u) out_5 = texel;
+    if (before == 6u) out_6 = texel;
+    if (before == 7u) out_7 = texel;
+}
 
 // shaded: Surfaces that are shaded at the pixel, where it has several samples.
 void capture(Surface s, float z, uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z);
-#if SHADES
-    Radiance radiance = shade(s, lights);
-    // Which an earlier batch has shaded with.
-    if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
-#else
     Radiance radiance = noRadiance();
-#endif
-    // Written out, so that each constant picks its channel before a driver sees the others.
-#define CAPTURE(attachment, mode) out_channels[attachment] = debugValue(mode, s, lights, radiance, z, shaded);
-    CAPTURE(0, feature_capture_0)
-#if ATTACHMENTS > 1
-    CAPTURE(1, feature_capture_1)
-#endif
-#if ATTACHMENTS > 2
-    CAPTURE(2, feature_capture_2)
-#endif
-#if ATTACHMENTS > 3
-    CAPTURE(3, feature_capture_3)
-#endif
-#if ATTACHMENTS > 4
-    CAPTURE(4, feature_capture_4)
-#endif
-#if ATTACHMENTS > 5
-    CAPTURE(5, feature_capture_5)
-#endif
-#if ATTACHMENTS > 6
-    CAPTURE(6, feature_capture_6)
-#endif
-#if ATTACHMENTS > 7
-    CAPTURE(7, feature_capture_7)
-#endif
+    if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
+        radiance = shade(s, lights);
+        // Which an earlier batch has shaded with.
+        if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
+    }
+    vec4 images[CAPTURE_IMAGES];
+    for (uint i = 0; i < CAPTURE_IMAGES; ++i) images[i] = vec4(0.0);
+    // The channel at component 0 fills its image, later ones take a component each.
+#define CAPTURE(name, image, component)                                                      \
+    if (isCaptured(image)) {                                                                 \
+        vec4 value = debugValue(DEBUG_##name, s, lights, radiance, z, shaded);               \
+        if (component == 0) images[image] = value;                                           \
+        else images[image][component] = value.x;                                             \
+    }
+    CAPTURES(CAPTURE)
 #undef CAPTURE
+    for (uint i = 0; i < CAPTURE_IMAGES; ++i) write(i, images[i]);
 }
 
 #endif

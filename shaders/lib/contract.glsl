@@ -31,7 +31,7 @@
 #include "shared/contract/transparency.h"
 #include "shared/contract/view.h"
 
-#define FEATURE_CONSTANT(id, name, source, inputs, passes) \
+#define FEATURE_CONSTANT(id, name, source, passes) \
     layout(constant_id = id) const uint feature_##name = 0;
 FEATURES(FEATURE_CONSTANT)
 #undef FEATURE_CONSTANT

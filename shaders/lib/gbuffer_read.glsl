@@ -1,63 +1,56 @@
 // SPDX-License-Identifier: MIT
-// Makes a Surface from the G-buffer. SAMPLES: 1 where pixels have several samples.
+// Makes a Surface from the G-buffer.
 #ifndef GBUFFER_READ_GLSL
 #define GBUFFER_READ_GLSL
-
-#ifndef SAMPLES
-#define SAMPLES 0
-#endif
 
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/samples.glsl"
 #include "shaders/lib/stored_depth.glsl"
 
-#if SAMPLES
-#define GBUFFER_IMAGE usampler2DMS
-#else
-#define GBUFFER_IMAGE usampler2D
-#endif
+// Each image twice, for one sample a pixel and for several: a pipeline has the one that it reads.
+#define GBUFFER_IMAGE(at, name)                                       \
+    layout(set = SET_GBUFFER, binding = at) uniform usampler2D name;  \
+    layout(set = SET_GBUFFER, binding = at) uniform usampler2DMS name##_samples;
+GBUFFER_IMAGE(GBUFFER_ALBEDO, gbuffer_albedo)
+GBUFFER_IMAGE(GBUFFER_NORMALS, gbuffer_normals)
+GBUFFER_IMAGE(GBUFFER_PARAMS, gbuffer_params)
+GBUFFER_IMAGE(GBUFFER_EMISSION, gbuffer_emission)
+GBUFFER_IMAGE(GBUFFER_SPECULAR, gbuffer_specular)
+GBUFFER_IMAGE(GBUFFER_IDS, gbuffer_ids)
+GBUFFER_IMAGE(GBUFFER_LIGHTMAP, gbuffer_lightmap)
+#undef GBUFFER_IMAGE
+layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform usampler2DMS gbuffer_shaded_samples;
 
-layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform GBUFFER_IMAGE gbuffer_albedo;
-layout(set = SET_GBUFFER, binding = GBUFFER_NORMALS) uniform GBUFFER_IMAGE gbuffer_normals;
-layout(set = SET_GBUFFER, binding = GBUFFER_PARAMS) uniform GBUFFER_IMAGE gbuffer_params;
-layout(set = SET_GBUFFER, binding = GBUFFER_EMISSION) uniform GBUFFER_IMAGE gbuffer_emission;
-layout(set = SET_GBUFFER, binding = GBUFFER_SPECULAR) uniform GBUFFER_IMAGE gbuffer_specular;
-layout(set = SET_GBUFFER, binding = GBUFFER_IDS) uniform GBUFFER_IMAGE gbuffer_ids;
-layout(set = SET_GBUFFER, binding = GBUFFER_LIGHTMAP) uniform GBUFFER_IMAGE gbuffer_lightmap;
-#if SAMPLES
-layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform GBUFFER_IMAGE gbuffer_shaded;
-#endif
+#define FETCHED(name, p, i) (multisampled() ? texelFetch(name##_samples, p, i) : texelFetch(name, p, i))
 
 // i: the sample, 0 where pixels have one.
 GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     GBufferTexel t;
     for (uint k = 0; k < GBUFFER_ATTACHMENTS; ++k) t.attachments[k] = uvec4(0);
-    t.attachments[GBUFFER_ALBEDO] = texelFetch(gbuffer_albedo, p, i);
-    t.attachments[GBUFFER_NORMALS] = texelFetch(gbuffer_normals, p, i);
-    t.attachments[GBUFFER_PARAMS] = texelFetch(gbuffer_params, p, i);
+    t.attachments[GBUFFER_ALBEDO] = FETCHED(gbuffer_albedo, p, i);
+    t.attachments[GBUFFER_NORMALS] = FETCHED(gbuffer_normals, p, i);
+    t.attachments[GBUFFER_PARAMS] = FETCHED(gbuffer_params, p, i);
     if (on(feature_emission) || fullGBuffer())
-        t.attachments[GBUFFER_EMISSION] = texelFetch(gbuffer_emission, p, i);
-    if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = texelFetch(gbuffer_specular, p, i);
-    if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = texelFetch(gbuffer_ids, p, i);
-    if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = texelFetch(gbuffer_lightmap, p, i);
-#if SAMPLES
-    t.attachments[GBUFFER_SHADED] = texelFetch(gbuffer_shaded, p, i);
-#endif
+        t.attachments[GBUFFER_EMISSION] = FETCHED(gbuffer_emission, p, i);
+    if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = FETCHED(gbuffer_specular, p, i);
+    if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = FETCHED(gbuffer_ids, p, i);
+    if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = FETCHED(gbuffer_lightmap, p, i);
+    if (multisampled()) t.attachments[GBUFFER_SHADED] = texelFetch(gbuffer_shaded_samples, p, i);
     return t;
 }
 
 // The Surface of a sample and the reversed depth z that it is shaded at.
 Surface surfaceFromGBuffer(ivec2 p, int i, out float z) {
     GBufferTexel t = texelOfGBuffer(p, i);
-#if SAMPLES
-    uvec2 shaded = t.attachments[GBUFFER_SHADED].xy;
-    z = depthOfShaded(shaded);
-    vec2 place = placeOfShaded(shaded);
-#else
-    z = depthAt(p);
     vec2 place = vec2(0.5);
-#endif
+    if (multisampled()) {
+        uvec2 shaded = t.attachments[GBUFFER_SHADED].xy;
+        z = depthOfShaded(shaded);
+        place = placeOfShaded(shaded);
+    } else {
+        z = depthAt(p);
+    }
     return decodeGBuffer(t, positionFromDepth(vec2(p) + place, z));
 }
 

@@ -26,18 +26,14 @@ layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_t
 // buffer: in the pixels of a quad that the triangle does not cover lavapipe reads 0 from it, and derivatives,
 // which choose the mip level, would be wrong.
 vec2 slotTexcoord(uint slot) {
-#if INPUTS >= 3
     if (on(feature_texture_transform) || on(feature_second_texcoord)) return SHADED(v_slot_texcoords[slot]);
-#endif
     return shaded_texcoord;
 }
 
 // A slot's texture. With several samples a pixel the mip level is that of coordinates at the pixel's middle:
 // where they are shaded, neighbouring pixels are not a pixel apart.
 vec2 middleTexcoord(uint slot) {
-#if INPUTS >= 3
     if (on(feature_texture_transform) || on(feature_second_texcoord)) return MIDDLE(v_slot_texcoords[slot]);
-#endif
     return middle_texcoord;
 }
 vec4 sampledTexel(sampler2D map, uint slot) {
@@ -78,13 +74,6 @@ vec4 baseColor() {
     return color;
 }
 
-// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading. A
-// pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
-// differences to it; after `discard` they would be undefined. Returns which of the samples that the triangle
-// covers are left of it.
-// COVERAGE: 1 in the modules whose masks choose samples, which alone declare gl_SampleMask: who declares it
-// must write it.
-#if COVERAGE
 // The share of a pixel where alpha reaches the cutoff, as if it changed evenly across it (Golus 2017,
 // "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is that of the place which is shaded,
 // and lies within the triangle: beyond its edge a texture that repeats begins anew. What it changes by is
@@ -102,17 +91,19 @@ float sharpenedAlpha(float alpha) {
     return change > 0.0 ? clamp(above / change + 0.5, 0.0, 1.0) : above < 0.0 ? 0.0 : 1.0;
 }
 
+// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading. A
+// pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
+// differences to it; after `discard` they would be undefined. Returns which of the samples that the triangle
+// covers are left of it.
 uint cutOut(vec4 base_color) {
-    uint covered = coverageOf(sharpenedAlpha(base_color.a));
-    gl_SampleMask[0] = int(covered);
-    return covered & uint(gl_SampleMaskIn[0]);
-}
-#else
-uint cutOut(vec4 base_color) {
+    if (feature_alpha_mask == MASK_COVERS) {
+        uint covered = coverageOf(sharpenedAlpha(base_color.a));
+        gl_SampleMask[0] = int(covered);
+        return covered & uint(gl_SampleMaskIn[0]);
+    }
     if (on(feature_alpha_mask) && base_color.a < material.alpha_cutoff) demote;
     return uint(gl_SampleMaskIn[0]);
 }
-#endif
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
@@ -188,13 +179,11 @@ float overQuad(float value) {
 // where they are shaded are not a pixel apart. Which face is seen makes no difference to its changes.
 float filteredRoughness(float roughness) {
     vec3 n = middle_normal;
-#if INPUTS >= 2
     if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
         vec2 at = middleTexcoord(SLOT_normal);
         float scale = overQuad(material.normal_scale);
         n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
     }
-#endif
     vec3 unit = directionOf(n);
     float w = gl_FragCoord.w;
     float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));

@@ -6,17 +6,14 @@
 #define PIXEL_GLSL
 
 #include "shaders/lib/contract.glsl"
+#include "shaders/lib/samples.glsl"
 
 #ifdef STAGE_comp
 
 layout(local_size_x = int(LIGHTING_GROUP * LIGHTING_GROUP)) in;
 
-#if SAMPLES
-#define TARGET_IMAGE image2DMS
-#else
-#define TARGET_IMAGE image2D
-#endif
-layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly uniform TARGET_IMAGE lit_target;
+layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly uniform image2D lit_target;
+layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly uniform image2DMS lit_samples;
 
 ivec2 pixelHere() {
     uint i = gl_LocalInvocationIndex;
@@ -25,7 +22,10 @@ ivec2 pixelHere() {
 }
 
 // Workgroups at the right and lower edge have threads beyond the picture.
-bool isInPicture() { return all(lessThan(pixelHere(), imageSize(lit_target))); }
+bool isInPicture() {
+    ivec2 size = multisampled() ? imageSize(lit_samples) : imageSize(lit_target);
+    return all(lessThan(pixelHere(), size));
+}
 
 #else
 

@@ -9,12 +9,11 @@
 
 #include "shaders/lib/contract.glsl"
 
-// 1: two numbers of 32 bits are loaded as one of 64, where they lie so. lavapipe takes a quarter of the time.
-#ifndef WIDE
-#define WIDE 0
-#endif
-#if WIDE
+// Whether two numbers of 32 bits are loaded as one of 64, where they lie so, which a device may lack. lavapipe
+// takes a quarter of the time.
+#ifdef STAGE_comp
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+bool loadsPairs() { return (feature_posed_parts & POSED_PAIRS) != 0; }
 #endif
 
 #define ARRAY_AT(Name, type)                                                          \
@@ -31,7 +30,7 @@ ARRAY_AT(AttributesArray, VertexAttributes)
 ARRAY_AT(DeltaArray, PosedDelta)
 ARRAY_AT(MorphedArray, MorphedVertex)
 #undef ARRAY_AT
-#if WIDE
+#ifdef STAGE_comp
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PairArray { uint64_t at[]; };
 vec2 pairAt(uvec2 address, uint at) { return uintBitsToFloat(unpack32(PairArray(address).at[at])); }
 #endif
@@ -87,28 +86,27 @@ vec4 morphedColor(PosedInstance i, uint vertex) {
 }
 
 uvec2 jointsAt(PosedInstance i, uint at) {
-#if WIDE
-    return unpack32(PairArray(i.joints).at[at]);
-#else
-    return Uvec2Array(i.joints).at[at];
+#ifdef STAGE_comp
+    if (loadsPairs()) return unpack32(PairArray(i.joints).at[at]);
 #endif
+    return Uvec2Array(i.joints).at[at];
 }
 vec4 jointWeightsAt(PosedInstance i, uint at) {
-#if WIDE
-    return vec4(pairAt(i.joint_weights, 2 * at), pairAt(i.joint_weights, 2 * at + 1));
-#else
-    return Vec4Array(i.joint_weights).at[at];
+#ifdef STAGE_comp
+    if (loadsPairs()) return vec4(pairAt(i.joint_weights, 2 * at), pairAt(i.joint_weights, 2 * at + 1));
 #endif
+    return Vec4Array(i.joint_weights).at[at];
 }
 mat4x3 matrixAt(PosedInstance i, uint at) {
-#if WIDE
-    vec2 a = pairAt(i.matrices, 6 * at), b = pairAt(i.matrices, 6 * at + 1);
-    vec2 c = pairAt(i.matrices, 6 * at + 2), d = pairAt(i.matrices, 6 * at + 3);
-    vec2 e = pairAt(i.matrices, 6 * at + 4), f = pairAt(i.matrices, 6 * at + 5);
-    return mat4x3(vec3(a, b.x), vec3(b.y, c), vec3(d, e.x), vec3(e.y, f));
-#else
-    return MatrixArray(i.matrices).at[at];
+#ifdef STAGE_comp
+    if (loadsPairs()) {
+        vec2 a = pairAt(i.matrices, 6 * at), b = pairAt(i.matrices, 6 * at + 1);
+        vec2 c = pairAt(i.matrices, 6 * at + 2), d = pairAt(i.matrices, 6 * at + 3);
+        vec2 e = pairAt(i.matrices, 6 * at + 4), f = pairAt(i.matrices, 6 * at + 5);
+        return mat4x3(vec3(a, b.x), vec3(b.y, c), vec3(d, e.x), vec3(e.y, f));
+    }
 #endif
+    return MatrixArray(i.matrices).at[at];
 }
 
 // The weighted mean of the joints' matrices: from the object, about the pivot, to world axes.

@@ -14,7 +14,7 @@
 uint pair(uint i, uint j) { return 1u << (i * (i - 1u) / 2u + j); }
 
 // The pairs of which an attachment has different bits.
-uint differingPairs(GBUFFER_IMAGE attachment, ivec2 p) {
+uint differingPairs(usampler2DMS attachment, ivec2 p) {
     uvec4 texels[MAX_SAMPLES];
     uint differ = 0u, i = 0u;
     do {
@@ -27,12 +27,12 @@ uint differingPairs(GBUFFER_IMAGE attachment, ivec2 p) {
 
 // The pairs that have different bits in any attachment that the frame has.
 uint differingPairs(ivec2 p) {
-    uint differ = differingPairs(gbuffer_albedo, p) | differingPairs(gbuffer_normals, p) |
-                  differingPairs(gbuffer_params, p) | differingPairs(gbuffer_shaded, p);
-    if (on(feature_emission) || fullGBuffer()) differ |= differingPairs(gbuffer_emission, p);
-    if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular, p);
-    if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids, p);
-    if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap, p);
+    uint differ = differingPairs(gbuffer_albedo_samples, p) | differingPairs(gbuffer_normals_samples, p) |
+                  differingPairs(gbuffer_params_samples, p) | differingPairs(gbuffer_shaded_samples, p);
+    if (on(feature_emission) || fullGBuffer()) differ |= differingPairs(gbuffer_emission_samples, p);
+    if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular_samples, p);
+    if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids_samples, p);
+    if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap_samples, p);
     return differ;
 }
 
@@ -52,7 +52,7 @@ bool covered(ivec2 p) {
     bool whole = true;
     uint i = 0u;
     do {
-        uint left = leftOfShaded(texelFetch(gbuffer_shaded, p, int(i)).xy);
+        uint left = leftOfShaded(texelFetch(gbuffer_shaded_samples, p, int(i)).xy);
         whole = whole && left == (1u << feature_samples) - 1u;
     } while (++i < feature_samples);
     return whole;

@@ -3,16 +3,8 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
-// AREA_LIGHTS: 1 in the modules for scenes that have area lights. A pipeline that switches them off would
-// have their code pruned, but only after a compiler has read three times as much.
-#ifndef AREA_LIGHTS
-#define AREA_LIGHTS 0
-#endif
-
 #include "shaders/lib/ambient.glsl"
-#if AREA_LIGHTS
 #include "shaders/lib/area.glsl"
-#endif
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/environment.glsl"
 #include "shaders/lib/encoded_surface.glsl"
@@ -159,7 +151,6 @@ Radiance shade(Surface s, PixelLights lights) {
             ADD_CASTERS(addCastingSpot, packets, casters.spot_end)
         ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
     }
-#if AREA_LIGHTS
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v);
         AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
@@ -167,7 +158,6 @@ Radiance shade(Surface s, PixelLights lights) {
         if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
         if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
     }
-#endif
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
     if (on(feature_haze)) {

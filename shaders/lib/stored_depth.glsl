@@ -5,19 +5,16 @@
 #define STORED_DEPTH_GLSL
 
 #include "shaders/lib/reversed_depth.glsl"
+#include "shaders/lib/samples.glsl"
 
-#ifndef SAMPLES
-#define SAMPLES 0
-#endif
-
-#if SAMPLES
-layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2DMS gbuffer_depth;
-#else
 layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
-#endif
+layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2DMS gbuffer_depth_samples;
 
 // Reversed, in [0, 1]. i: the sample, 0 where pixels have one.
-float depthAt(ivec2 p, int i) { return reversedDepth(texelFetch(gbuffer_depth, p, i).r); }
+float depthAt(ivec2 p, int i) {
+    if (multisampled()) return reversedDepth(texelFetch(gbuffer_depth_samples, p, i).r);
+    return reversedDepth(texelFetch(gbuffer_depth, p, i).r);
+}
 float depthAt(ivec2 p) { return depthAt(p, 0); }
 
 #endif

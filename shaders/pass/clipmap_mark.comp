@@ -2,21 +2,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread a pixel: marks the page of the sun's clipmap that the surface at the pixel is read from.
-// MULTISAMPLED: 0 to 1, the surfaces of all of its samples, as if each were shaded where the sample is.
+// One thread a pixel: marks the page of the sun's clipmap that the surface at the pixel is read from; of
+// several samples the pages of all, as if each were shaded where the sample is.
 #include "shaders/lib/clipmap.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/reversed_depth.glsl"
 #include "shaders/lib/samples.glsl"
 
 layout(local_size_x = CLIPMAP_MARK_SIDE, local_size_y = CLIPMAP_MARK_SIDE) in;
-#if MULTISAMPLED
-layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS depth;
-ivec2 size() { return textureSize(depth); }
-#else
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2D depth;
-ivec2 size() { return textureSize(depth, 0); }
-#endif
+layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS depth_samples;
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_MARKS, scalar) buffer Marks { uint marks[]; };
 
 // z: the reversed depth at a place of the picture, pixels.
@@ -31,13 +26,14 @@ void mark(vec2 place, float z) {
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, size()))) return;
-#if MULTISAMPLED
+    ivec2 size = multisampled() ? textureSize(depth_samples) : textureSize(depth, 0);
+    if (any(greaterThanEqual(p, size))) return;
+    if (!multisampled()) {
+        mark(vec2(p) + 0.5, reversedDepth(texelFetch(depth, p, 0).r));
+        return;
+    }
     uint i = 0u;
     do {
-        mark(vec2(p) + samplePlace(i), reversedDepth(texelFetch(depth, p, int(i)).r));
+        mark(vec2(p) + samplePlace(i), reversedDepth(texelFetch(depth_samples, p, int(i)).r));
     } while (++i < feature_samples);
-#else
-    mark(vec2(p) + 0.5, reversedDepth(texelFetch(depth, p, 0).r));
-#endif
 }

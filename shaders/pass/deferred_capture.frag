@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
 
 // ATTACHMENTS: 1 to 8 channels.
-// SAMPLES: 0 to 1
 #define FLAT_VIEW
 #include "shaders/lib/capture.glsl"
 #include "shaders/lib/deferred.glsl"

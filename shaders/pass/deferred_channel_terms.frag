@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
 
 // The terms that deferred_channels.frag adds up to lit, one an attachment, before anything is blended.
 #define FLAT_VIEW

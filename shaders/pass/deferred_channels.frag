@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
 
 // Shades surfaces of float32 channels, whoever drew them, as deferred_shade.frag shades a G-buffer's.
 #define FLAT_VIEW

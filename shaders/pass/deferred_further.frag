@@ -5,7 +5,6 @@
 // Shades the groups that deferred_groups_list.frag has listed, one a fragment, and stores their samples. No
 // fragment is of the pixel that it shades: nothing here reads where it is but the list.
 #define FLAT_VIEW
-#define SAMPLES 1
 #include "shaders/lib/further_groups.glsl"
 #include "shaders/lib/gbuffer_read.glsl"
 #include "shaders/lib/sample_groups.glsl"

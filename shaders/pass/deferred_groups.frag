@@ -5,7 +5,6 @@
 // Which samples of a pixel deferred lighting shades as one. The depth of every sample of the pixel says so
 // (lib/sample_groups.glsl).
 #define FLAT_VIEW
-#define SAMPLES 1
 #include "shaders/lib/sample_pairs.glsl"
 
 void main() {

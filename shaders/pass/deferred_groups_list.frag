@@ -5,7 +5,6 @@
 // The same as deferred_groups.frag, and lists each pixel's groups after its first. Where in the list they
 // stand is by chance; what is shaded at a sample does not depend on it.
 #define FLAT_VIEW
-#define SAMPLES 1
 #include "shaders/lib/further_groups.glsl"
 #include "shaders/lib/sample_pairs.glsl"
 

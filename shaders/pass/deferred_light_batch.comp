@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
 
 // As deferred_light_batch.frag; stores nothing where nothing was drawn.
 #define TEXEL_VIEW

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
 
 #define FLAT_VIEW
 #include "shaders/lib/deferred_lighting.glsl"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
-// INPUTS: 0 to 3
 
 // Blended over what is there, in the order in which they are drawn.
 #include "shaders/lib/shade.glsl"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
-// INPUTS: 0 to 3
 
 // To the place of its pixel's list that its key has found.
 #include "shaders/lib/shade.glsl"

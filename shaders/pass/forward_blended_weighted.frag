@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// HALF: 0 to 1
-// INPUTS: 0 to 3
 
 // Weighted blended order-independent transparency (McGuire and Bavoil 2013): sums of radiance and opacity,
 // each layer weighted by how near it is.

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// INPUTS: 0 to 3
-// COVERAGE: 0 to 1
 
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-// ATTACHMENTS: 3 to 8, as many as the scene needs. Those that it lacks leave no gap.
-layout(location = 0) out uvec4 out_texel[ATTACHMENTS];
+// As many as the scene needs; those that it lacks leave no gap.
+layout(location = 0) out uvec4 out_albedo;
+layout(location = 1) out uvec4 out_normals;
+layout(location = 2) out uvec4 out_params;
+layout(location = 3) out uvec4 out_3;
+layout(location = 4) out uvec4 out_4;
+layout(location = 5) out uvec4 out_5;
+layout(location = 6) out uvec4 out_6;
+layout(location = 7) out uvec4 out_7;
 
-// Number k of those after the first three that this scene has.
-uvec4 optionalTexel(GBufferTexel t, uint k) {
-    bool there[] = bool[](on(feature_emission) || fullGBuffer(), on(feature_dielectric_specular),
-                          on(feature_gbuffer_wide_material_id), on(feature_lightmap), multisampled());
-    uvec4 texel = uvec4(0);
-    uint count = 0;
-    for (uint i = 0; i < 5; ++i)
-        if (there[i]) {
-            if (count == k) texel = t.attachments[GBUFFER_EMISSION + i];
-            ++count;
-        }
-    return texel;
+// Writes an attachment that only some scenes have, where this one does, to the first location that is free.
+void write(bool there, uvec4 texel, inout uint free) {
+    if (!there) return;
+    if (free == 3) out_3 = texel;
+    if (free == 4) out_4 = texel;
+    if (free == 5) out_5 = texel;
+    if (free == 6) out_6 = texel;
+    if (free == 7) out_7 = texel;
+    ++free;
 }
 
 void main() {
@@ -30,22 +32,13 @@ void main() {
     GBufferTexel t = encodeGBuffer(surfaceFromMaterial(base_color));
     if (multisampled())
         t.attachments[GBUFFER_SHADED].xy = shadedTexel(uint(gl_SampleMaskIn[0]), left, fragmentDepth());
-    out_texel[0] = t.attachments[GBUFFER_ALBEDO];
-    out_texel[1] = t.attachments[GBUFFER_NORMALS];
-    out_texel[2] = t.attachments[GBUFFER_PARAMS];
-#if ATTACHMENTS > 3
-    out_texel[3] = optionalTexel(t, 0);
-#endif
-#if ATTACHMENTS > 4
-    out_texel[4] = optionalTexel(t, 1);
-#endif
-#if ATTACHMENTS > 5
-    out_texel[5] = optionalTexel(t, 2);
-#endif
-#if ATTACHMENTS > 6
-    out_texel[6] = optionalTexel(t, 3);
-#endif
-#if ATTACHMENTS > 7
-    out_texel[7] = optionalTexel(t, 4);
-#endif
+    out_albedo = t.attachments[GBUFFER_ALBEDO];
+    out_normals = t.attachments[GBUFFER_NORMALS];
+    out_params = t.attachments[GBUFFER_PARAMS];
+    uint free = 3;
+    write(on(feature_emission) || fullGBuffer(), t.attachments[GBUFFER_EMISSION], free);
+    write(on(feature_dielectric_specular), t.attachments[GBUFFER_SPECULAR], free);
+    write(on(feature_gbuffer_wide_material_id), t.attachments[GBUFFER_IDS], free);
+    write(on(feature_lightmap), t.attachments[GBUFFER_LIGHTMAP], free);
+    write(multisampled(), t.attachments[GBUFFER_SHADED], free);
 }

@@ -6,20 +6,16 @@
 // The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
 // the larger one where nothing was drawn. With lights_in_front from the viewer on, and to any depth where a
 // pixel shows the background. One workgroup for each tile, one thread for four pixels.
-// MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/reversed_depth.glsl"
+#include "shaders/lib/samples.glsl"
 
 layout(local_size_x = LIGHT_TILE / 2, local_size_y = LIGHT_TILE / 2) in;
 
-#if MULTISAMPLED
-layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2DMS depth;
-ivec2 size() { return textureSize(depth); }
-#else
 layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2D depth;
-ivec2 size() { return textureSize(depth, 0); }
-#endif
+layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2DMS depth_samples;
+ivec2 size() { return multisampled() ? textureSize(depth_samples) : textureSize(depth, 0); }
 
 const float NO_DEPTH = 2.0;
 // Reversed depths as the bits of floats; of floats that are not negative the bits order as the values do.
@@ -49,23 +45,23 @@ void main() {
         uvec2 step = uvec2(i % steps, i / steps);
         ivec2 p = ivec2(gl_WorkGroupID.xy * side + step * LIGHT_TILE + 2u * gl_LocalInvocationID.xy);
         if (all(lessThan(p, size()))) {
-#if MULTISAMPLED
-            ivec2 last = size() - 1;
-            int s = 0;
-            do {
-                add(reversedDepth(texelFetch(depth, p, s).r), near, deep);
-                add(reversedDepth(texelFetch(depth, min(p + ivec2(1, 0), last), s).r), near, deep);
-                add(reversedDepth(texelFetch(depth, min(p + ivec2(0, 1), last), s).r), near, deep);
-                add(reversedDepth(texelFetch(depth, min(p + 1, last), s).r), near, deep);
-            } while (++s < textureSamples(depth));
-#else
             // Beyond the picture's edge the last pixel is repeated.
-            vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
-            add(reversedDepth(z.x), near, deep);
-            add(reversedDepth(z.y), near, deep);
-            add(reversedDepth(z.z), near, deep);
-            add(reversedDepth(z.w), near, deep);
-#endif
+            if (multisampled()) {
+                ivec2 last = size() - 1;
+                int s = 0;
+                do {
+                    add(reversedDepth(texelFetch(depth_samples, p, s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, min(p + ivec2(1, 0), last), s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, min(p + ivec2(0, 1), last), s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, min(p + 1, last), s).r), near, deep);
+                } while (++s < int(feature_samples));
+            } else {
+                vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
+                add(reversedDepth(z.x), near, deep);
+                add(reversedDepth(z.y), near, deep);
+                add(reversedDepth(z.z), near, deep);
+                add(reversedDepth(z.w), near, deep);
+            }
         }
     } while (++i < steps * steps);
     // One atomic operation for each subgroup, as those of single threads would wait for each other.

@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Poses the vertices of an instance into the buffers that draws read; a thread each.
-// WIDE: 0 to 1
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {

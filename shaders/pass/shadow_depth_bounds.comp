@@ -3,18 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest reversed depth that is drawn in a picture. One thread reads two columns of
-// DEPTH_BOUNDS_ROWS rows.
-// MULTISAMPLED: 0 to 1, over all samples of all pixels.
+// The least and the largest reversed depth that is drawn in a picture, over all samples of all pixels. One
+// thread reads two columns of DEPTH_BOUNDS_ROWS rows.
 #include "shaders/lib/reversed_depth.glsl"
+#include "shaders/lib/samples.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;
-layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform
-#if MULTISAMPLED
-    sampler2DMS depth;
-#else
-    sampler2D depth;
-#endif
+layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform sampler2D depth;
+layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform sampler2DMS depth_samples;
 layout(set = SET_DEPTH_BOUNDS, binding = BINDING_DEPTH_BOUNDS, scalar) buffer DepthBoundsBlock {
     DepthBounds bounds;
 };
@@ -27,26 +23,22 @@ void add(float z, inout uint nearest, inout uint deepest) {
 
 void main() {
     uint nearest = 0u, deepest = DEEPEST_OF_NOTHING;
-#if MULTISAMPLED
-    ivec2 size = textureSize(depth);
-#else
-    ivec2 size = textureSize(depth, 0);
-#endif
+    ivec2 size = multisampled() ? textureSize(depth_samples) : textureSize(depth, 0);
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * ivec2(2, DEPTH_BOUNDS_ROWS);
     for (int y = 0; y < int(DEPTH_BOUNDS_ROWS); y += 2) {
         // Beyond the picture's edge its last pixels are repeated.
-#if MULTISAMPLED
-        int s = 0;
-        do {
-            for (int i = 0; i < 4; ++i) {
-                ivec2 p = min(first + ivec2(i & 1, y + (i >> 1)), size - 1);
-                add(reversedDepth(texelFetch(depth, p, s).r), nearest, deepest);
-            }
-        } while (++s < textureSamples(depth));
-#else
-        vec4 z = textureGather(depth, vec2(min(first + ivec2(0, y), size - 1) + 1) / vec2(size));
-        for (int i = 0; i < 4; ++i) add(reversedDepth(z[i]), nearest, deepest);
-#endif
+        if (multisampled()) {
+            int s = 0;
+            do {
+                for (int i = 0; i < 4; ++i) {
+                    ivec2 p = min(first + ivec2(i & 1, y + (i >> 1)), size - 1);
+                    add(reversedDepth(texelFetch(depth_samples, p, s).r), nearest, deepest);
+                }
+            } while (++s < int(feature_samples));
+        } else {
+            vec4 z = textureGather(depth, vec2(min(first + ivec2(0, y), size - 1) + 1) / vec2(size));
+            for (int i = 0; i < 4; ++i) add(reversedDepth(z[i]), nearest, deepest);
+        }
     }
     // One atomic operation for each subgroup, as those of single threads would wait for each other.
     nearest = subgroupMax(nearest);

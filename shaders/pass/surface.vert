@@ -7,22 +7,15 @@
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/vertex.glsl"
 
-// INPUTS: 0 to 3
 layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 texcoords;  // first and second set
+layout(location = 4) in vec4 color;
 layout(location = 9) in vec3 normal_from_object_x;
 layout(location = 10) in vec3 normal_from_object_y;
 layout(location = 11) in vec4 normal_from_object_z;  // w: handedness
-#if INPUTS >= 1
-layout(location = 3) in vec4 texcoords;  // first and second set
-#endif
-#if INPUTS >= 2
-layout(location = 2) in vec4 tangent;
 layout(location = 12) in mat3 world_from_object;
 layout(location = 15) in vec3 world_from_object_origin;
-#endif
-#if INPUTS >= 3
-layout(location = 4) in vec4 color;
-#endif
 
 // What the buffers hold of a vertex, or what its instance's pose makes of it.
 struct Vertex {
@@ -31,16 +24,7 @@ struct Vertex {
 };
 
 Vertex vertexAt() {
-    Vertex v = Vertex(position, normal, vec4(0.0), vec4(0.0), vec4(0.0));
-#if INPUTS >= 1
-    v.texcoords = texcoords;
-#endif
-#if INPUTS >= 2
-    v.tangent = tangent;
-#endif
-#if INPUTS >= 3
-    v.color = color;
-#endif
+    Vertex v = Vertex(position, normal, tangent, texcoords, color);
     if (on(feature_vertex_posing)) {
         PosedInstance i = instanceOfDraw();
         uint number = numberIn(i);
@@ -56,14 +40,12 @@ Vertex vertexAt() {
 
 vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
 
-#if INPUTS >= 3
 // KHR_texture_transform and the choice of the UV set.
 vec2 slotTexcoord(uint slot, vec4 texcoords) {
     vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoords.zw : texcoords.xy);
     TextureTransform t = material.transforms[slot];
     return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));
 }
-#endif
 
 void main() {
     Vertex v = vertexAt();
@@ -72,18 +54,13 @@ void main() {
     // normal.
     v_normal = unitVector(normal_from_object_x * v.normal.x + normal_from_object_y * v.normal.y +
                           normal_from_object_z.xyz * v.normal.z);
-#if INPUTS >= 1
     v_texcoord = bounded(v.texcoords.xy);
-#endif
-#if INPUTS >= 2
     mat4x3 affine = mat4x3(world_from_object[0], world_from_object[1], world_from_object[2],
                            world_from_object_origin);
     vec3 world = affine * vec4(v.position, 1.0);
     v_tangent =
         vec4(unitVector(world_from_object * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
     v_world = world;
-#endif
-#if INPUTS >= 3
     v_color = v.color;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0) {
         v_irradiance = vertexIrradiance(world, v_normal);
@@ -92,5 +69,4 @@ void main() {
     if (on(feature_texture_transform) || on(feature_second_texcoord))
         for (uint slot = 0; slot < SLOT_COUNT; ++slot)
             v_slot_texcoords[slot] = slotTexcoord(slot, v.texcoords);
-#endif
 }

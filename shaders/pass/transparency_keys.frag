@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// INPUTS: 0 to 3
 
 // Which fragments of each pixel are its nearest ones.
 #include "shaders/lib/fragment_list.glsl"

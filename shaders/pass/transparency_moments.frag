@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// INPUTS: 0 to 3
 
 // Sums of optical depth, and of it times powers of depth.
 #include "shaders/lib/opacity.glsl"

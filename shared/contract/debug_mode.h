@@ -2,7 +2,8 @@
 // Every channel that a path can show or write. Numbers 0-9 are fixed; more are appended in blocks of ten
 // (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
 //
-// To add a channel: a row here, a line in shaders/lib/debug.glsl, a line in compare/reference/reference.cpp.
+// To add a channel: a row here and in CAPTURES, a line in shaders/lib/debug.glsl, a line in
+// compare/reference/reference.cpp.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
 #define DIPTYCH_CONTRACT_DEBUG_MODE_H
 
@@ -51,14 +52,55 @@
     X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer alone")
 // clang-format on
 
+// name  image  component: where a channel stands in the images of four components that captures draw, its first
+// component there. Images below FIRST_LIT_IMAGE hold what no light changes, so that drawing them shades
+// nothing. Of each image the channel at component 0 comes first. lit is alone, since it is blended into, and
+// shaded_samples, of which not the first sample counts but the most.
+// clang-format off
+#define CAPTURES(X)            \
+    X(albedo,             0, 0) \
+    X(metallic,           0, 3) \
+    X(normals,            1, 0) \
+    X(roughness,          1, 3) \
+    X(emission,           2, 0) \
+    X(occlusion,          2, 3) \
+    X(specular,           3, 0) \
+    X(material_id,        3, 3) \
+    X(position,           4, 0) \
+    X(depth,              4, 3) \
+    X(geometric_normal,   5, 0) \
+    X(dielectric_f90,     5, 3) \
+    X(lightmap,           6, 0) \
+    X(light_count,        6, 3) \
+    X(dielectric_f0,      7, 0) \
+    X(list_overflow,      7, 3) \
+    X(texcoords,          8, 0) \
+    X(cascade,            8, 2) \
+    X(page_residency,     8, 3) \
+    X(tangent,            9, 0) \
+    X(handedness,         9, 3) \
+    X(tangent_normal,    10, 0) \
+    X(shaded_samples,    11, 0) \
+    X(lit,               12, 0) \
+    X(lit_diffuse,       13, 0) \
+    X(shadow_visibility, 13, 3) \
+    X(lit_specular,      14, 0) \
+    X(local_visibility,  14, 3) \
+    X(lit_ambient,       15, 0) \
+    X(lit_haze,          16, 0) \
+    X(transmittance,     17, 0)
+// clang-format on
+
 CONTRACT_BEGIN
+CONTRACT_CONST(uint, CAPTURE_IMAGES, 18);
+CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 12);
+// Images of one capture pass: the fewest attachments that every Vulkan device has.
+CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
+
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows) \
     CONTRACT_CONST(uint, DEBUG_##name, number);
 DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
 #undef DIPTYCH_DEBUG_NUMBER
-
-// No channel: an attachment of the capture pass that is not in use.
-CONTRACT_CONST(uint, DEBUG_none, 0xffff);
 CONTRACT_END
 
 #endif

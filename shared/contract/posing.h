@@ -91,6 +91,7 @@ CONTRACT_CONST(uint, POSED_TEXCOORDS1, 16);
 CONTRACT_CONST(uint, POSED_COLORS, 32);
 CONTRACT_CONST(uint, POSED_FLAT, 64);     // flat_normals
 CONTRACT_CONST(uint, POSED_GROUPS, 128);  // tangents that are made of the morphed vertices
+CONTRACT_CONST(uint, POSED_PAIRS, 256);   // numbers of 32 bits are loaded in pairs
 
 // Positions beyond it are NaN, and their triangles are not drawn; m. maxCoordinate of scene.h.
 CONTRACT_CONST(float, MAX_POSED_COORDINATE, 1e18f);

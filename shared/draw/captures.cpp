@@ -6,35 +6,57 @@
 #include "shared/frame/debug_modes.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <stdexcept>
 #include <string>
 
 namespace diptych {
 
 namespace {
 
-VkFormat formatFor(const DebugMode& mode) {
-    return mode.width == 1   ? VK_FORMAT_R32_SFLOAT
-           : mode.width == 2 ? VK_FORMAT_R32G32_SFLOAT
-                             : VK_FORMAT_R32G32B32A32_SFLOAT;
-}
+constexpr int lit_mode = static_cast<int>(gpu::DEBUG_lit);
+
+struct Placed {
+    int mode;
+    PlaceInCaptures place;
+};
+constexpr std::array capture_places{
+#define DIPTYCH_CAPTURE(name, image, component) \
+    Placed{static_cast<int>(gpu::DEBUG_##name), {image, component}},
+    CAPTURES(DIPTYCH_CAPTURE)
+#undef DIPTYCH_CAPTURE
+};
+static_assert(capture_places.back().place.image + 1 == gpu::CAPTURE_IMAGES);
 
 }  // namespace
 
-void CaptureGroup::specialise(Variant& variant) const {
-    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
-        variant.set(gpu::FEATURE_capture_0 + i,
-                    i < modes.size() ? static_cast<gpu::uint>(modes[i]) : gpu::DEBUG_none);
+PlaceInCaptures placeInCaptures(int mode) {
+    const auto found = std::ranges::find(capture_places, mode, &Placed::mode);
+    if (found == capture_places.end()) throw std::out_of_range("no capture of debug mode " + std::to_string(mode));
+    return found->place;
 }
 
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit, std::size_t most) {
-    std::vector<int> ordered(modes.begin(), modes.end());
-    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isShaded(mode); });
+    gpu::uint images = 0;
+    for (const int mode : modes) images |= 1u << placeInCaptures(mode).image;
+    const auto lit_images = static_cast<std::size_t>(std::popcount(images >> gpu::FIRST_LIT_IMAGE));
     std::vector<CaptureGroup> groups;
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-        if (i % most == 0) groups.emplace_back();
-        groups.back().modes.push_back(ordered[i]);
-        groups.back().formats.push_back(
-            ordered[i] == static_cast<int>(gpu::DEBUG_lit) ? lit : formatFor(debugMode(ordered[i])));
+    for (const auto& [mode, place] : capture_places) {
+        if (std::ranges::find(modes, mode) == modes.end()) continue;
+        const gpu::uint bit = 1u << place.image;
+        // What still belongs into one pass: an image, or all that light changes at its first one.
+        const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
+        const std::size_t together =
+            place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, most) : 1;
+        if (groups.empty() || ((groups.back().images & bit) == 0 &&
+                               groups.back().formats.size() + together > most))
+            groups.emplace_back();
+        CaptureGroup& group = groups.back();
+        group.modes.push_back(mode);
+        if ((group.images & bit) != 0) continue;
+        group.images |= bit;
+        group.formats.push_back(mode == lit_mode ? lit : VK_FORMAT_R32G32B32A32_SFLOAT);
     }
     return groups;
 }
@@ -42,20 +64,34 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit, VkSampleCountFlagBits samples) {
     std::vector<CapturedImage> images;
-    for (std::size_t i = 0; i < group.modes.size(); ++i) {
-        if (lit.valid() && group.modes[i] == static_cast<int>(gpu::DEBUG_lit)) {
-            pass.color(lit, Load::keep);
-            images.push_back({group.modes[i], lit, passes.size() - 1});
-            continue;
+    std::size_t next = 0;
+    for (gpu::uint i = 0; i < gpu::CAPTURE_IMAGES; ++i) {
+        if ((group.images >> i & 1) == 0) continue;
+        std::vector<int> modes;
+        std::string name;
+        for (const int mode : group.modes) {
+            if (placeInCaptures(mode).image != i) continue;
+            name += (modes.empty() ? "" : ", ") + std::string(debugMode(mode).name);
+            modes.push_back(mode);
         }
-        const ImageRef image = passes.image({.name = std::string(debugMode(group.modes[i]).name),
-                                             .format = group.formats[i],
-                                             .samples = samples,
-                                             .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                             .life = Life::transient});
-        const float background = group.modes[i] == static_cast<int>(gpu::DEBUG_material_id) ? -1.0f : 0.0f;
-        pass.color(image, Load::clear, {.float32 = {background, 0, 0, 0}});
-        images.push_back({group.modes[i], image, passes.size() - 1});
+        const VkFormat format = group.formats.at(next++);
+        const bool goes_on = lit.valid() && modes.front() == lit_mode;
+        const ImageRef image = goes_on ? lit
+                                       : passes.image({.name = name,
+                                                       .format = format,
+                                                       .samples = samples,
+                                                       .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                                       .life = Life::transient});
+        if (goes_on) {
+            pass.color(image, Load::keep);
+        } else {
+            const auto [of, component] = placeInCaptures(static_cast<int>(gpu::DEBUG_material_id));
+            VkClearColorValue background{};
+            if (of == i) background.float32[component] = -1;
+            pass.color(image, Load::clear, background);
+        }
+        for (const int mode : modes)
+            images.push_back({mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
     }
     return images;
 }

@@ -2,6 +2,7 @@
 // Capture passes, which write channels (debug modes) to attachments.
 #pragma once
 
+#include "shared/contract/debug_mode.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
@@ -12,22 +13,29 @@
 
 namespace diptych {
 
-// A capture pass: up to CAPTURE_ATTACHMENTS channels. Channels that need no light come first, so that as few
-// passes as the attachments allow hold them all and only the last ones shade.
-struct CaptureGroup {
-    std::vector<int> modes;         // debug modes, one an attachment
-    std::vector<VkFormat> formats;  // float32, as wide as the channel; of lit the frame's own
-    void specialise(Variant& variant) const;
+// Where a channel stands in the images that captures draw (CAPTURES of contract/debug_mode.h).
+struct PlaceInCaptures {
+    gpu::uint image = 0, component = 0;  // its first component
 };
-// `lit`: the format of lit, over which something may be blended. `most`: attachments of a group.
+PlaceInCaptures placeInCaptures(int mode);  // throws std::out_of_range
+
+// A capture pass: up to CAPTURE_ATTACHMENTS images, in the order of CAPTURES, with all that is asked for of
+// them. What no light changes is in passes of its own, unless all that light changes fits in beside it.
+struct CaptureGroup {
+    gpu::uint images = 0;           // a bit each: FEATURE_captures
+    std::vector<VkFormat> formats;  // of each image: four float32; of lit's the frame's own
+    std::vector<int> modes;         // debug modes, by image
+};
+// `lit`: the format of lit, over which something may be blended. `most`: images of a group.
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit,
                                         std::size_t most = gpu::CAPTURE_ATTACHMENTS);
 
 // Groups share their images' memory: each is run, and read back, before the next one runs.
 struct CapturedImage {
     int mode = 0;
-    ImageRef image;
-    std::size_t pass = 0;                   // the number of its group's
+    ImageRef image;        // which other channels may share
+    int component = 0;     // its first one there
+    std::size_t pass = 0;  // the number of its group's
     std::optional<gpu::uint> surface = {};  // forward+: SURFACE_*, where it is not of the path's own
     bool before_blending = false;           // lit as it is before something is blended over it
 };
@@ -39,8 +47,9 @@ struct CaptureRequest {
     std::vector<int> modes, through_gbuffer, bounded;
 };
 
-// Adds the group's attachments to the list's last pass, cleared to what the background holds (0; material_id
-// -1). `lit`: the image that its lit goes on from, if there is one. `samples`: of each.
+// Adds the group's images to the list's last pass, cleared to what the background holds (0; material_id -1).
+// `lit`: the image that its lit goes on from, if there is one. `samples`: of each. Returns a row for each
+// channel, those of an image one after the other.
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit = {},
                                             VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);

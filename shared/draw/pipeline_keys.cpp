@@ -15,7 +15,7 @@ PipelineKey depthKey(const DrawItem& item) {
     key.depth_write = true;
     if (item.variant.get(gpu::FEATURE_alpha_mask) == 0) {
         key.vertex = Shader::depth_vert;
-        key.input = VERTEX_POSITIONS;
+        key.input = VERTEX_ALL;
         return key;
     }
     key.vertex = Shader::surface_vert;
@@ -82,15 +82,14 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_capture_frag;
     key.colors = group.formats;
-    group.specialise(key.variant);
+    key.variant.set(gpu::FEATURE_captures, group.images);
     key.variant.set(gpu::FEATURE_captured);
     return key;
 }
 
 PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface) {
-    bool normals = false;
-    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
-        normals |= key.variant.get(gpu::FEATURE_capture_0 + i) == gpu::DEBUG_geometric_normal;
+    const gpu::uint image = placeInCaptures(static_cast<int>(gpu::DEBUG_geometric_normal)).image;
+    const bool normals = (key.variant.get(gpu::FEATURE_captures) >> image & 1) != 0;
     if (!surface && !normals) return key;
     key.variant.take(inputs.variant, featuresSetBy(FeatureSource::gbuffer));
     key.variant.set(gpu::FEATURE_encoded_surface, surface);

@@ -70,9 +70,9 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
 }
 
 // By what the primitive has, whatever has a weight now: no other time needs another kernel.
-Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i) {
-    gpu::uint parts =
-        (i.flat_normals != 0 ? gpu::POSED_FLAT : 0) | (rest.instance.groups > 0 ? gpu::POSED_GROUPS : 0);
+Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i, bool pairs) {
+    gpu::uint parts = (i.flat_normals != 0 ? gpu::POSED_FLAT : 0) |
+                      (rest.instance.groups > 0 ? gpu::POSED_GROUPS : 0) | (pairs ? gpu::POSED_PAIRS : 0);
     for (const Deformations::Target& t : rest.targets)
         for (const auto& [part, deltas] : {std::pair{gpu::POSED_POSITIONS, t.positions},
                                            {gpu::POSED_NORMALS, t.normals},
@@ -111,13 +111,14 @@ OwnedPipelineLayout makePosingLayout(Device& device) {
 
 Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
                const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning)
-    : layout_(layout), skinning_(skinning), wide_(device.support().has(DeviceFeature::shaderInt64)) {
+    : layout_(layout), skinning_(skinning) {
     // Arrays first with their offsets in place of addresses.
     struct Arrays {
         gpu::PosedInstance instance;
         std::size_t record, matrices, deltas;
         std::uint64_t first_group, first_morphed;
     };
+    const bool pairs = device.support().has(DeviceFeature::shaderInt64);
     Arena arena;
     std::vector<Arrays> arrays;
     std::vector<const Instance*> posed;
@@ -153,7 +154,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
                           morphed});
-        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i)});
+        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs)});
         vertices_ += i.vertices;
         groups += i.groups;
         if (i.groups > 0) morphed += i.vertices;
@@ -233,7 +234,7 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
         for (const Posed& instance : instances_)
             if (instance.*threads > 0 && (!of_groups || instance.groups > 0))
                 dispatches.push_back(
-                    {&instance, pipelines.compute(shader, instance.variant, layout_, wide_ ? 1 : 0)});
+                    {&instance, pipelines.compute(shader, instance.variant, layout_)});
         return [layout = layout_, threads, dispatches = std::move(dispatches)](VkCommandBuffer commands) {
             VkPipeline bound = VK_NULL_HANDLE;
             for (const auto& [of, pipeline] : dispatches) {
@@ -262,7 +263,7 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
     for (const Posed& instance : instances_)
         if ((instance.variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_GROUPS) != 0)
             for (const Shader shader : {Shader::pose_morph_comp, Shader::pose_tangents_comp})
-                pipelines.compute(shader, instance.variant, layout_, wide_ ? 1 : 0);
+                pipelines.compute(shader, instance.variant, layout_);
     if (!any() || skinning_ == Skinning::vertex) return;
     Pass& pass = passes.compute("pose");
     if (makes_tangents_)

@@ -59,7 +59,6 @@ private:
     };
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     Skinning skinning_ = Skinning::compute;
-    bool wide_ = false;             // kernels load 64 bits at once
     std::vector<Posed> instances_;  // by box
     std::uint64_t vertices_ = 0;
     bool makes_tangents_ = false;

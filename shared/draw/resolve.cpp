@@ -34,10 +34,12 @@ void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, co
             sets->image(0, i, passes.view(sources[i < sources.size() ? i : 0]), sampler,
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
+    Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES));
+    variant.set(gpu::FEATURE_captures, (1u << sources.size()) - 1);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
         .vertex = Shader::full_screen_vert,
         .fragment = fragment,
-        .variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES)),
+        .variant = variant,
         .input = NO_VERTICES,
         .colors = formats,
     });
@@ -100,11 +102,13 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<Ca
         if (some.empty()) return;
         std::vector<ImageRef> sources, targets;
         for (CapturedImage& image : some) {
-            sources.push_back(image.image);
-            targets.push_back(passes.image({.name = name,
-                                            .format = passes.format(image.image),
-                                            .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                            .life = Life::transient}));
+            if (sources.empty() || sources.back().index != image.image.index) {
+                sources.push_back(image.image);
+                targets.push_back(passes.image({.name = name,
+                                                .format = passes.format(image.image),
+                                                .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                                .life = Life::transient}));
+            }
             image.image = targets.back();
             image.pass = passes.size();
         }

@@ -161,9 +161,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     if (!any()) return;
     Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    const auto kernel = [&](Shader shader, std::uint32_t number = 0) {
-        return pipelines.compute(shader, own, layouts_.pipeline(), number);
-    };
+    const auto kernel = [&](Shader shader) { return pipelines.compute(shader, own, layouts_.pipeline()); };
     const auto bind = [this, frame_set](VkCommandBuffer commands) {
         const std::array sets{frame_set, sets_[0]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0, sets.size(),
@@ -191,7 +189,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     if (tiled) {
         Pass& pass = passes.compute("assign depth bounds");
         const VkPipeline bounds =
-            kernel(Shader::light_depths_comp, variant.get(gpu::FEATURE_samples) > 1 ? 1 : 0);
+            kernel(Shader::light_depths_comp);
         pass.samples(depth, inCompute).uses(depths, write).record([=, this](VkCommandBuffer commands) {
             bind(commands);
             dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});

@@ -117,7 +117,7 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
     });
     Pass& mark = passes.compute(name);
     const VkPipeline pipeline =
-        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline(), inputs.samples > 1);
+        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline());
     mark.samples(depth, inCompute)
         .uses(marks, access::storageRead(inCompute))
         .uses(marks, access::storageWrite(inCompute))

@@ -29,11 +29,6 @@ struct CompilerDeviceDeleter {
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
 };
 
-// "gbuffer.frag" of "gbuffer.frag.3.inputs0".
-std::string fileOf(const ShaderModule& module) {
-    return std::string(module.name.substr(0, module.name.find('.', module.name.find('.') + 1)));
-}
-
 double numberOf(const VkPipelineExecutableStatisticKHR& statistic) {
     switch (statistic.format) {
         case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
@@ -57,8 +52,8 @@ constexpr const char* oldestFamily = "vega10";
 }  // namespace
 
 std::string PipelineRequest::name() const {
-    if (kernel != nullptr) return fileOf(*kernel);
-    return fileOf(*shaderModules(key.fragment != Shader::none ? key.fragment : key.vertex).data());
+    const Shader shader = key.fragment != Shader::none ? key.fragment : key.vertex;
+    return std::string((kernel != nullptr ? *kernel : shaderModule(shader)).name);
 }
 
 struct DeviceCompiler::State {
@@ -125,7 +120,7 @@ void DeviceCompiler::State::tryPipelines() const {
                            .fragment = Shader::probe_rounding_frag,
                            .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
     makePipeline(site, draw, plainParts(draw));
-    makePipeline(site, plainModule(Shader::cull_clusters_comp), {});
+    makePipeline(site, shaderModule(Shader::cull_clusters_comp), {});
 }
 
 DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
@@ -257,7 +252,7 @@ std::vector<CompiledShader> DeviceCompiler::State::shadersOf(
         CompiledShader shader;
         // A fragment shader is the last of a draw's modules; what else there is comes from the first.
         const bool last = (executables[i].stages & VK_SHADER_STAGE_FRAGMENT_BIT) != 0;
-        shader.name = fileOf(last ? *modules.back() : *modules.front());
+        shader.name = (last ? modules.back() : modules.front())->name;
         shader.subgroup_size = executables[i].subgroupSize;
         const VkPipelineExecutableInfoKHR which{VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR, nullptr,
                                                 pipeline, i};

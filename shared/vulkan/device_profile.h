@@ -50,10 +50,6 @@ struct DeviceProfile {
     // The driver's compiler takes twice as long for every branch inside a loop: pipelines are made of modules
     // whose branches are selections (flattened() of flatten.h).
     bool flattens_branches = false;
-    // Sets of inputs between vertex and fragment shaders that pipelines are made with
-    // (shaders/lib/inputs.glsl): 4, where every input costs, or 1, the set of all inputs, so that fewer
-    // modules are loaded.
-    int input_sets = 1;
     // Light packets that one draw may walk at a pixel; longer lists are walked by several draws. Mesa
     // lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together, of which
     // some are left for other loops.

@@ -51,6 +51,7 @@ struct ImageDeclaration {
 // One level of one layer, to draw to.
 struct Slice {
     std::uint32_t level = 0, layer = 0;
+    bool operator==(const Slice&) const = default;
 };
 
 // One pass, declared by chaining. A draw is recorded between begin and end of rendering, with viewport and

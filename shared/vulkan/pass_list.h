@@ -113,6 +113,7 @@ public:
         ImageRef image;
         int components = 1;
         Slice slice{};
+        int first = 0;  // component
     };
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
     // The same into memory of the caller's, as many floats each.

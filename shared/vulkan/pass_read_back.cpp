@@ -75,15 +75,22 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
     const auto infoOf = [&](const ReadBack& request) -> const GpuImageInfo& {
         return resource(request.image).image->info();
     };
-    std::vector<GpuBuffer> buffers;
+    // Requests of one image that follow each other read one copy of it.
+    std::vector<ReadBack> copied;
+    std::vector<std::size_t> copy_of;
     for (const ReadBack& request : requests) {
+        if (copied.empty() || copied.back().image.index != request.image.index ||
+            copied.back().slice != request.slice)
+            copied.push_back(request);
+        copy_of.push_back(copied.size() - 1);
+    }
+    std::vector<GpuBuffer> buffers;
+    std::vector<Use> uses;
+    for (const ReadBack& request : copied) {
         const GpuImageInfo& image = infoOf(request);
         buffers.emplace_back(device_, "read back",
                              texelsOf(image, request.slice) * bytesPerTexel(image.format),
                              VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    }
-    std::vector<Use> uses;
-    for (const ReadBack& request : requests) {
         const Resource& found = resource(request.image);
         if (found.life == Life::transient && (last_run_ < found.first || last_run_ > found.last))
             throw std::logic_error("PassList: " + found.image->info().name +
@@ -93,9 +100,9 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
     }
     device_.submit([&](VkCommandBuffer commands) {
         barriersBefore(RecordedBarrier::no_pass, uses, commands);
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            const GpuImage& image = *resource(requests[i].image).image;
-            const Slice& slice = requests[i].slice;
+        for (std::size_t i = 0; i < copied.size(); ++i) {
+            const GpuImage& image = *resource(copied[i].image).image;
+            const Slice& slice = copied[i].slice;
             const VkExtent2D extent = diptych::extentOf(image.info(), slice);
             const VkBufferImageCopy copy{.bufferOffset = 0,
                                          .bufferRowLength = 0,
@@ -114,27 +121,29 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
         const auto kept = static_cast<std::size_t>(requests[image].components);
         const VkFormat format = infoOf(requests[image]).format;
         const std::size_t stored = componentsOf(format);
-        if (kept > stored)
+        const auto first = static_cast<std::size_t>(requests[image].first);
+        const void* const mapped = buffers[copy_of[image]].mapped();
+        if (first + kept > stored)
             throw std::logic_error("PassList: an image has fewer components than are read back");
         float* const to = into[image].data();
         if (isSmall(format)) {
-            const auto* words = static_cast<const std::uint16_t*>(buffers[image].mapped());
+            const auto* words = static_cast<const std::uint16_t*>(mapped);
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
                 for (std::size_t i = range.begin(); i < range.end(); ++i) {
                     const std::array<float, 4> texel = unpacked(format, words, i);
-                    std::copy_n(texel.begin(), kept, to + i * kept);
+                    std::copy_n(texel.begin() + first, kept, to + i * kept);
                 }
             });
             continue;
         }
-        const auto* from = static_cast<const float*>(buffers[image].mapped());
+        const auto* from = static_cast<const float*>(mapped);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
             if (kept == stored)
                 std::copy_n(from + range.begin() * stored, range.size() * stored,
                             to + range.begin() * stored);
             else
                 for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    std::copy_n(from + i * stored, kept, to + i * kept);
+                    std::copy_n(from + i * stored + first, kept, to + i * kept);
         });
     }
 }

@@ -2,6 +2,7 @@
 #include "shared/vulkan/physical_device.h"
 
 #include "shared/contract/bindings.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"

@@ -42,12 +42,13 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
         refuse(site, name, "it lacks depth clamping; choose another device with --device");
 }
 
-// The module without what the variant switches off.
+// The module without what the variant switches off. `outputs`: those that the next stage reads.
 std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
-                                            const Variant& variant) {
-    if (const auto problem = moduleProblem(site.support, module.words))
+                                            const Variant& variant,
+                                            const std::optional<std::set<std::uint32_t>>& outputs = {}) {
+    auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); }, outputs);
+    if (const auto problem = moduleProblem(site.support, words))
         refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
-    auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); });
     return site.flattens_branches ? flattened(words) : words;
 }
 
@@ -105,9 +106,8 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
 }  // namespace
 
 PipelineParts plainParts(const PipelineKey& key) {
-    const auto number = static_cast<std::uint32_t>(key.colors.size());
-    return {&plainModule(key.vertex),
-            key.fragment == Shader::none ? nullptr : &plainModule(key.fragment, number),
+    return {&shaderModule(key.vertex),
+            key.fragment == Shader::none ? nullptr : &shaderModule(key.fragment),
             {},
             {}};
 }
@@ -120,10 +120,12 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
         code.push_back(makeModule(site, words));
         stages.push_back(stageOf(stage, code.back()));
     };
-    const std::vector<std::uint32_t> vertex = specializedWords(site, *parts.vertex, key.variant);
+    std::vector<std::uint32_t> fragment;
+    if (parts.fragment != nullptr) fragment = specializedWords(site, *parts.fragment, key.variant);
+    const std::vector<std::uint32_t> vertex =
+        specializedWords(site, *parts.vertex, key.variant, inputLocations(fragment));
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
-    if (parts.fragment != nullptr)
-        addStage(VK_SHADER_STAGE_FRAGMENT_BIT, specializedWords(site, *parts.fragment, key.variant));
+    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
     // Attributes that this variant does not read are not fetched.
     std::vector<VkVertexInputAttributeDescription> attributes = parts.attributes;
     std::erase_if(attributes, [read = inputLocations(vertex)](const VkVertexInputAttributeDescription& a) {

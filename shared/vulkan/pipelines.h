@@ -59,8 +59,7 @@ struct PipelineParts {
 };
 using ChooseParts = std::function<PipelineParts(const PipelineKey&)>;
 
-// The plain modules, and no vertices. Throws std::logic_error where a shader draws to no such number of
-// attachments.
+// The embedded modules, and no vertices.
 PipelineParts plainParts(const PipelineKey& key);
 
 // Where a pipeline is made.
@@ -81,18 +80,15 @@ OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
 
 class Pipelines {
 public:
-    // `layout` must outlive the pipelines. Without `choose` shaders are their plain modules, and there are no
-    // vertices.
+    // `layout` must outlive the pipelines. Without `choose` there are no vertices.
     Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts)
         : device_(device), layout_(layout), choose_(std::move(choose)) {}
 
     VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
     std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
-    // A compute shader, with a layout of its own, whose dispatches may begin at any workgroup; `number`: of
-    // its module.
-    VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout,
-                       std::uint32_t number = 0) {
-        return compute(plainModule(shader, number), variant, layout);
+    // A compute shader, with a layout of its own, whose dispatches may begin at any workgroup.
+    VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout) {
+        return compute(shaderModule(shader), variant, layout);
     }
     // `module` must outlive the pipelines.
     VkPipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sparse conditional constant propagation (Wegman and Zadeck, "Constant propagation with conditional
 // branches", TOPLAS 13(2), 1991) in one walk over the blocks: loops are not iterated, so that what a loop
-// changes counts as unknown. Then what the living code reads is marked from its effects on, and written.
+// changes counts as unknown. Then what the living code reads is marked from its effects on, and written, and of
+// what stands before the code what it still names.
 #include "shared/vulkan/specialize.h"
 
 #include "shared/vulkan/spirv_ops.h"
@@ -9,8 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych {
 
@@ -18,9 +19,70 @@ namespace {
 
 using namespace spirv;
 
-constexpr std::uint32_t decorationSpecId = 1, decorationLocation = 30, memoryVolatile = 1, storageInput = 1;
+constexpr std::uint32_t decorationSpecId = 1, decorationBuiltIn = 11, decorationLocation = 30,
+                        memoryVolatile = 1, storageInput = 1, storageOutput = 3;
 
 constexpr std::uint32_t none = ~0u;
+
+// Calls `id` with every id that an instruction names, its result and its type among them.
+template <typename Take>
+void eachId(Words in, Take&& id) {
+    struct Literals {  // words that are numbers
+        std::size_t first, end;
+    };
+    const std::uint32_t op = opOf(in);
+    const Literals literals = [&]() -> Literals {
+        switch (op) {
+            case OpSelectionMerge:
+            case OpTypeForwardPointer:
+            case OpTypeInt:
+            case OpTypeFloat:
+                return {2, in.size()};
+            case OpTypePointer:
+                return {2, 3};
+            case OpLoopMerge:
+            case OpTypeVector:
+            case OpTypeMatrix:
+            case OpTypeImage:
+            case OpConstant:
+            case OpSpecConstant:
+            case OpStore:
+                return {3, in.size()};
+            case OpVariable:
+            case OpFunction:
+            case OpSpecConstantOp:
+                return {3, 4};
+            case OpLoad:
+            case OpArrayLength:
+            case OpCompositeExtract:
+            case OpBranchConditional:
+                return {4, in.size()};
+            case OpExtInst:
+            case OpImageWrite:
+                return {4, 5};
+            case OpCompositeInsert:
+            case OpVectorShuffle:
+                return {5, in.size()};
+            case OpImageSampleImplicitLod:
+            case OpImageSampleExplicitLod:
+            case OpImageFetch:
+            case OpImageRead:
+                return {5, 6};
+            case OpImageSampleDrefImplicitLod:
+            case OpImageSampleDrefExplicitLod:
+            case OpImageGather:
+            case OpImageDrefGather:
+                return {6, 7};
+            default:
+                return {in.size(), in.size()};
+        }
+    }();
+    for (std::size_t i = 1; i < in.size(); ++i) {
+        if (i >= literals.first && i < literals.end) continue;
+        if (op == OpSwitch && i > 2 && i % 2 == 1) continue;
+        id(in[i]);
+    }
+}
 
 // An instruction that does nothing but make its result may go where nothing reads that.
 bool isPure(std::span<const std::uint32_t> in) {
@@ -48,16 +110,54 @@ bool isPure(std::span<const std::uint32_t> in) {
     }
 }
 
+// The variables of a storage class that have a location, and all locations that they take: a vector one, a
+// matrix one a column, an array those of its elements. By id.
+std::map<std::uint32_t, std::vector<std::uint32_t>> interfaceOf(Words module, std::uint32_t storage) {
+    std::map<std::uint32_t, std::uint32_t> taken, pointed, first, numbers;  // by id
+    std::map<std::uint32_t, std::vector<std::uint32_t>> found;
+    const auto ofType = [&](std::uint32_t type) { return std::max(1u, taken[type]); };
+    std::size_t at = headerWords;
+    for (Words in; at < module.size() && opOf(in = instructionAt(module, at)) != OpFunction;
+         at += in.size()) {
+        switch (opOf(in)) {
+            case OpDecorate:
+                if (in[2] == decorationLocation) first[in[1]] = in[3];
+                break;
+            case OpConstant:
+                numbers[in[2]] = in[3];
+                break;
+            case OpTypeMatrix:
+                taken[in[1]] = in[3];
+                break;
+            case OpTypeArray:
+                taken[in[1]] = numbers[in[3]] * ofType(in[2]);
+                break;
+            case OpTypePointer:
+                pointed[in[1]] = in[3];
+                break;
+            case OpVariable:
+                if (in[3] != storage || !first.contains(in[2])) break;
+                for (std::uint32_t i = 0; i < ofType(pointed[in[1]]); ++i)
+                    found[in[2]].push_back(first[in[2]] + i);
+                break;
+            default:
+                break;
+        }
+    }
+    return found;
+}
+
 class Specializer {
 public:
-    Specializer(std::span<const std::uint32_t> words, const SpecializationValue& value)
+    Specializer(std::span<const std::uint32_t> words, const SpecializationValue& value,
+                const std::optional<std::set<std::uint32_t>>& outputs)
         : words_(words), value_(value) {
         if (words.size() < headerWords || words[0] != magicNumber)
             throw std::logic_error("not a SPIR-V module");
         bound_ = words[3];
         bits_.resize(bound_);
         ids_.resize(bound_);
-        readModule();
+        readModule(outputs);
         readFunction();
     }
 
@@ -79,7 +179,8 @@ private:
         bool boolean = false;        // a type of bools
         bool known = false;          // its value is in bits_
         bool marked = false;
-        bool unread_input = false;  // a variable of storage class Input that nothing has needed so far
+        bool unread = false;  // an output that no later stage reads
+        bool named = false;   // the code that is left names it
     };
     struct Block {
         std::uint32_t first = 0, last = 0;  // instructions: places in at_; the last is the terminator
@@ -96,7 +197,7 @@ private:
     std::span<const std::uint32_t> instruction(std::uint32_t at) const { return instructionAt(words_, at); }
     std::uint32_t op(std::uint32_t at) const { return words_[at] & 0xffff; }
 
-    void readModule() {
+    void readModule(const std::optional<std::set<std::uint32_t>>& outputs) {
         std::uint32_t at = headerWords;
         for (; at < words_.size() && op(at) != OpFunction; at += words_[at] >> 16) {
             const auto in = instruction(at);
@@ -135,14 +236,15 @@ private:
                 case OpSpecConstantOp:
                     if (const auto folded = fold(in[3], in[1], in.subspan(4))) know(in[1], in[2], *folded);
                     break;
-                case OpVariable:
-                    ids_[in[2]].unread_input = in[3] == storageInput;
-                    break;
                 default:
                     break;
             }
         }
         function_ = at;
+        if (!outputs) return;
+        for (const auto& [variable, locations] : interfaceOf(words_, storageOutput))
+            ids_[variable].unread = std::ranges::none_of(
+                locations, [&](std::uint32_t location) { return outputs->contains(location); });
     }
 
     void readFunction() {
@@ -439,8 +541,9 @@ private:
                 const auto in = instruction(at_[i]);
                 const std::uint32_t operation = op(at_[i]);
                 if (operation == OpSelectionMerge || operation == OpLoopMerge) continue;
+                if (isUnread(in)) continue;
                 if (!hasResult(in)) {
-                    for (const std::uint32_t word : in.subspan(1)) need(word);
+                    eachId(in, [&](std::uint32_t id) { need(id); });
                 } else if (!isPure(in)) {
                     need(in[2]);
                 }
@@ -458,7 +561,7 @@ private:
             }
             const auto in = instruction(ids_[id].at);
             if (op(ids_[id].at) != OpPhi) {
-                for (const std::uint32_t word : in.subspan(3)) need(word);
+                eachId(in, [&](std::uint32_t operand) { need(operand); });
                 continue;
             }
             for (std::size_t i = 3; i < in.size(); i += 2)
@@ -466,16 +569,23 @@ private:
         }
     }
 
-    // A word that may be an id, or a number that looks like one: then something is kept that need not be.
-    void need(std::uint32_t word) {
-        if (word >= bound_) return;
-        ids_[word].unread_input = false;
-        if (ids_[word].marked || ids_[word].at == 0) return;
-        ids_[word].marked = true;
-        if (ids_[word].known)
-            constants_.push_back(word);
+    void need(std::uint32_t id) {
+        if (ids_[id].marked || ids_[id].at == 0) return;
+        ids_[id].marked = true;
+        if (ids_[id].known)
+            constants_.push_back(id);
         else
-            pending_.push_back(word);
+            pending_.push_back(id);
+    }
+
+    // A store to an output that no later stage reads.
+    bool isUnread(std::span<const std::uint32_t> in) const {
+        if (opOf(in) != OpStore) return false;
+        std::uint32_t pointer = in[1];
+        while (ids_[pointer].at != 0 &&
+               (op(ids_[pointer].at) == OpAccessChain || op(ids_[pointer].at) == OpInBoundsAccessChain))
+            pointer = instruction(ids_[pointer].at)[3];
+        return ids_[pointer].unread;
     }
 
     void put(std::span<const std::uint32_t> in) { out_.insert(out_.end(), in.begin(), in.end()); }
@@ -492,31 +602,121 @@ private:
     }
 
     std::vector<std::uint32_t> written() {
-        out_.reserve(words_.size());
-        put(words_.first(5));
-        for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) putGlobal(at);
         for (const std::uint32_t id : constants_) putConstant(id);
         putUndefined();
         put(instruction(function_));
-        for (std::uint32_t number = 0; number < blocks_.size(); ++number) putBlock(number);
+        for (const std::uint32_t number : writtenOrder()) putBlock(number);
         put(OpFunctionEnd, {});
+        const std::vector<std::uint32_t> code = std::move(out_);
+        findNamed(code);
+        out_.clear();
+        out_.reserve(words_.size());
+        put(words_.first(headerWords));
+        for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) putGlobal(at);
+        put(code);
         out_[3] = bound_;
         return std::move(out_);
     }
 
+    // Blocks in the module's order, but each after all that lead to it: a block that is left to fewer may have
+    // come to stand below one that the module has after it.
+    std::vector<std::uint32_t> writtenOrder() const {
+        std::vector<std::uint32_t> place(blocks_.size(), none), before(blocks_.size()), written;
+        for (std::uint32_t i = 0; i < order_.size(); ++i) place[order_[i]] = i;
+        const auto forward = [&](std::uint32_t from, std::uint32_t to) { return place[from] < place[to]; };
+        for (const std::uint32_t number : order_)
+            if (blocks_[number].alive)
+                for (const std::uint32_t to : blocks_[number].taken)
+                    if (forward(number, to)) ++before[to];
+        std::set<std::uint32_t> ready{0};
+        while (!ready.empty()) {
+            const std::uint32_t number = *ready.begin();
+            ready.erase(ready.begin());
+            written.push_back(number);
+            for (const std::uint32_t to : blocks_[number].taken)
+                if (forward(number, to) && --before[to] == 0) ready.insert(to);
+        }
+        for (std::uint32_t number = 0; number < blocks_.size(); ++number)
+            if (!blocks_[number].alive && blocks_[number].stub) written.push_back(number);
+        return written;
+    }
+
+    // What the code names, and what that is made of; and what the module says of itself: the size of a workgroup,
+    // and constants that are built in.
+    void findNamed(std::span<const std::uint32_t> code) {
+        std::vector<std::uint32_t> made(bound_), named;  // made: the place of its instruction
+        const auto name = [&](std::uint32_t id) {
+            if (id >= ids_.size() || std::exchange(ids_[id].named, true)) return;  // new ids are the code's
+            if (made[id] != 0) named.push_back(id);
+        };
+        for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16)
+            if (const std::uint32_t result = resultOf(instruction(at)); result != 0) made[result] = at;
+        for (std::size_t at = 0; at < code.size(); at += code[at] >> 16) {
+            eachId(instructionAt(code, at), name);
+            interpolates_ |= opOf(instructionAt(code, at)) == OpExtInst && code[at + 4] >= extendedInterpolates;
+            demotes_ |= opOf(instructionAt(code, at)) == OpDemoteToHelperInvocation;
+        }
+        for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) {
+            const auto in = instruction(at);
+            if (op(at) == OpExecutionModeId) std::ranges::for_each(in.subspan(3), name);
+            if (op(at) == OpDecorate && in[2] == decorationBuiltIn && made[in[1]] != 0 &&
+                op(made[in[1]]) != OpVariable)
+                name(in[1]);
+        }
+        while (!named.empty()) {
+            const auto in = instruction(made[named.back()]);
+            named.pop_back();
+            if (ids_[resultOf(in)].known)
+                name(in[1]);  // the type of a constant
+            else
+                eachId(in, name);
+            needs16_ |= opOf(in) == OpTypeFloat && in[2] == 16;
+            needs64_ |= opOf(in) == OpTypeInt && in[2] == 64;
+            stores_samples_ |= opOf(in) == OpTypeImage && in[6] == 1 && in[7] == 2;
+        }
+    }
+
+    // Of an instruction before the function: the id of the type, constant or variable that it makes; 0 of none.
+    static std::uint32_t resultOf(std::span<const std::uint32_t> in) {
+        const std::uint32_t op = opOf(in);
+        if (op >= OpTypeVoid && op <= OpTypeFunction) return in[1];
+        if ((op >= OpConstantTrue && op <= OpSpecConstantOp) || op == OpVariable || op == OpUndef) return in[2];
+        return 0;
+    }
+
+    // Whether what demands a capability is left; of others nobody asks.
+    bool isDemanded(std::uint32_t capability) const {
+        switch (capability) {
+            case capabilityFloat16:
+                return needs16_;
+            case capabilityInt64:
+                return needs64_;
+            case capabilityStorageImageMultisample:
+                return stores_samples_;
+            case capabilityInterpolationFunction:
+                return interpolates_;
+            case capabilityDemoteToHelperInvocation:
+                return demotes_;
+            default:
+                return true;
+        }
+    }
+
     void putGlobal(std::uint32_t at) {
         const auto in = instruction(at);
+        if (const std::uint32_t result = resultOf(in); result != 0 && !ids_[result].named) return;
         switch (op(at)) {
+            case OpCapability:
+                if (!isDemanded(in[1])) return;
+                break;
             case OpName:
-            case OpDecorate: {
-                // Of what is made in the function only where it is still made there.
-                const Id& id = ids_[in[1]];
-                if (id.unread_input) return;
-                if (id.at != 0 && (!id.marked || id.known || id.copied != 0)) return;
-                if (id.block != none && !blocks_[id.block].alive && !blocks_[id.block].stub) return;
+            case OpMemberName:
+            case OpDecorate:
+            case OpMemberDecorate:
+            case OpTypeForwardPointer:
+                if (!ids_[in[1]].named) return;
                 if (op(at) == OpDecorate && in[2] == decorationSpecId) return;
                 break;
-            }
             case OpEntryPoint: {
                 // The stage, the function, its name up to a word with a zero byte, the interface.
                 std::size_t interface = 3;
@@ -524,13 +724,10 @@ private:
                 const std::size_t start = out_.size();
                 put(in.first(interface));
                 for (const std::uint32_t id : in.subspan(interface))
-                    if (!ids_[id].unread_input) out_.push_back(id);
+                    if (ids_[id].named) out_.push_back(id);
                 out_[start] = static_cast<std::uint32_t>(out_.size() - start) << 16 | OpEntryPoint;
                 return;
             }
-            case OpVariable:
-                if (ids_[in[2]].unread_input) return;
-                break;
             case OpSpecConstantTrue:
             case OpSpecConstantFalse:
             case OpSpecConstant:
@@ -594,7 +791,7 @@ private:
     void putInstruction(std::uint32_t number, std::uint32_t at) {
         const auto in = instruction(at);
         const std::uint32_t operation = op(at);
-        if (operation == OpSelectionMerge || operation == OpLoopMerge) return;
+        if (operation == OpSelectionMerge || operation == OpLoopMerge || isUnread(in)) return;
         if (!hasResult(in)) return put(in);
         const Id& id = ids_[in[2]];
         if (!id.marked || id.known) return;
@@ -621,40 +818,21 @@ private:
     std::vector<std::uint32_t> pending_, constants_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> undefined_;  // of such a loop's phi
     std::vector<std::uint32_t> out_;
+    bool needs16_ = false, needs64_ = false, stores_samples_ = false, interpolates_ = false, demotes_ = false;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
-                                       const SpecializationValue& value) {
-    return Specializer(module, value).result();
+                                       const SpecializationValue& value,
+                                       const std::optional<std::set<std::uint32_t>>& outputs) {
+    return Specializer(module, value, outputs).result();
 }
 
 std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module) {
-    std::map<std::uint32_t, std::uint32_t> columns, pointed, locations;  // by id
     std::set<std::uint32_t> found;
-    std::size_t at = headerWords;
-    for (Words in; at < module.size() && opOf(in = instructionAt(module, at)) != OpFunction;
-         at += in.size()) {
-        switch (opOf(in)) {
-            case OpDecorate:
-                if (in[2] == decorationLocation) locations[in[1]] = in[3];
-                break;
-            case OpTypeMatrix:
-                columns[in[1]] = in[3];
-                break;
-            case OpTypePointer:
-                pointed[in[1]] = in[3];
-                break;
-            case OpVariable:
-                if (in[3] != storageInput || !locations.contains(in[2])) break;
-                for (std::uint32_t i = 0; i < std::max(1u, columns[pointed[in[1]]]); ++i)
-                    found.insert(locations[in[2]] + i);
-                break;
-            default:
-                break;
-        }
-    }
+    for (const auto& [variable, locations] : interfaceOf(module, storageInput))
+        found.insert(locations.begin(), locations.end());
     return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -19,12 +20,17 @@ using SpecializationValue = std::function<std::uint32_t(std::uint32_t id)>;
 // build does that: shaders/README.md), and constants of 32 bits. Integer and logical arithmetic on constants
 // is folded, as vkCreateGraphicsPipelines would fold it; arithmetic on floats is left as it is, instruction
 // by instruction, so that what is computed does not change by a bit. Code that no constant lets run is left
-// out, as are results and inputs that nothing reads; other names, interface and bindings stay. In time linear
-// in its length. Throws std::logic_error where the module is no such one.
+// out, as are results that nothing reads, and every input, output, binding, type and name that the code which
+// is left does not name, with the capabilities that they alone demanded: floats of 16 bits, integers of 64,
+// stored samples, interpolation at a place, helper invocations. `outputs`: the locations that the next stage
+// reads; nothing is stored at others. In time linear in its length. Throws std::logic_error where the module
+// is no such one.
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
-                                       const SpecializationValue& value);
+                                       const SpecializationValue& value,
+                                       const std::optional<std::set<std::uint32_t>>& outputs = {});
 
-// Locations of the inputs that a module declares, scalars, vectors and matrices: each column has its own.
+// Locations of the inputs that a module declares: each column of a matrix and each element of an array has its
+// own.
 std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module);
 
 }  // namespace diptych

@@ -11,17 +11,22 @@ namespace diptych::spirv {
 enum Op : std::uint32_t {
     OpUndef = 1,
     OpName = 5,
+    OpMemberName = 6,
     OpExtInst = 12,
     OpEntryPoint = 15,
     OpCapability = 17,
+    OpTypeVoid = 19,
     OpTypeBool = 20,
     OpTypeInt = 21,
     OpTypeFloat = 22,
     OpTypeVector = 23,
     OpTypeMatrix = 24,
+    OpTypeImage = 25,
     OpTypeArray = 28,
     OpTypeStruct = 30,
     OpTypePointer = 32,
+    OpTypeFunction = 33,
+    OpTypeForwardPointer = 39,
     OpConstantTrue = 41,
     OpConstantFalse = 42,
     OpConstant = 43,
@@ -37,12 +42,26 @@ enum Op : std::uint32_t {
     OpVariable = 59,
     OpImageTexelPointer = 60,
     OpLoad = 61,
+    OpStore = 62,
     OpAccessChain = 65,
     OpInBoundsAccessChain = 66,
     OpPtrAccessChain = 67,
     OpArrayLength = 68,
     OpDecorate = 71,
+    OpMemberDecorate = 72,
+    OpVectorShuffle = 79,
+    OpCompositeExtract = 81,
+    OpCompositeInsert = 82,
     OpCopyObject = 83,
+    OpImageSampleImplicitLod = 87,
+    OpImageSampleExplicitLod = 88,
+    OpImageSampleDrefImplicitLod = 89,
+    OpImageSampleDrefExplicitLod = 90,
+    OpImageFetch = 95,
+    OpImageGather = 96,
+    OpImageDrefGather = 97,
+    OpImageRead = 98,
+    OpImageWrite = 99,
     OpBitcast = 124,
     OpIAdd = 128,
     OpISub = 130,
@@ -85,12 +104,19 @@ enum Op : std::uint32_t {
     OpKill = 252,
     OpReturn = 253,
     OpUnreachable = 255,
+    OpExecutionModeId = 331,
     OpCopyLogical = 400,
     OpTerminateInvocation = 4416,
+    OpDemoteToHelperInvocation = 5380,
 };
 
 // Instructions of GLSL.std.450 that store, and the first one of those that interpolate.
 inline constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51, extendedInterpolates = 76;
+
+// Capabilities that something demands which a variant may lack.
+inline constexpr std::uint32_t capabilityFloat16 = 9, capabilityInt64 = 11,
+                               capabilityStorageImageMultisample = 27, capabilityInterpolationFunction = 52,
+                               capabilityDemoteToHelperInvocation = 5379;
 
 inline constexpr std::uint32_t magicNumber = 0x07230203, headerWords = 5;
 

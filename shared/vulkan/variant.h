@@ -47,7 +47,6 @@ struct FeatureRow {
     const char* name;
     FeatureSource source;
     bool switches;     // what a scene or a view may lack: 0 is a variant without it
-    int inputs;        // the least set of inputs (shaders/lib/inputs.glsl) that it needs
     gpu::uint passes;  // PASS_*
 };
 namespace feature_table {
@@ -60,8 +59,8 @@ inline constexpr SetBy item{FeatureSource::item, true}, frame{FeatureSource::fra
     amount{FeatureSource::frame, false}, gbuffer{FeatureSource::gbuffer, false},
     pass{FeatureSource::pass, false};
 inline constexpr FeatureRow rows[] = {
-#define DIPTYCH_FEATURE_ROW(id, name, source, inputs, passes) \
-    FeatureRow{id, #name, source.from, source.switches, inputs, passes},
+#define DIPTYCH_FEATURE_ROW(id, name, source, passes) \
+    FeatureRow{id, #name, source.from, source.switches, passes},
     FEATURES(DIPTYCH_FEATURE_ROW)
 #undef DIPTYCH_FEATURE_ROW
 };
@@ -80,14 +79,6 @@ constexpr FeatureMask featuresSetBy(FeatureSource source) {
     FeatureMask mask;
     for (const FeatureRow& row : featureRows)
         if (row.source == source) mask = mask.with(row.id);
-    return mask;
-}
-
-// The features that need at least this set of inputs.
-constexpr FeatureMask featuresNeedingInputs(int inputs) {
-    FeatureMask mask;
-    for (const FeatureRow& row : featureRows)
-        if (row.inputs >= inputs) mask = mask.with(row.id);
     return mask;
 }
 

@@ -35,9 +35,9 @@ public:
             makePipelineLayout(device_, set_layouts,
                                VkPushConstantRange{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::uint32_t)});
         const ShaderModule read{
-            "lit_sample.frag", Shader::none, 0, true, false, false, false, false, 3, words_};
+            "lit_sample.frag", words_};
         Pipelines reading(device_, layout, [&](const PipelineKey&) {
-            return PipelineParts{&plainModule(Shader::full_screen_vert), &read, {}, {}};
+            return PipelineParts{&shaderModule(Shader::full_screen_vert), &read, {}, {}};
         });
         const VkPipeline pipeline = reading.get(PipelineKey{.colors = {litFormat}});
         DescriptorSets sets(device_, set_layout, types, 1);

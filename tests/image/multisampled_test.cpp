@@ -46,9 +46,9 @@ public:
 
     Sampled draw(const std::vector<Drawn>& drawn) {
         const ShaderModule vertex{
-            "multisampled.vert", Shader::none, 0, true, false, false, false, false, 3, v_},
-            fragment{"multisampled.frag", Shader::none, 0, true, false, false, false, false, 3, f_},
-            read{"multisampled_read.frag", Shader::none, 0, true, false, false, false, false, 3, r_};
+            "multisampled.vert", v_},
+            fragment{"multisampled.frag", f_},
+            read{"multisampled_read.frag", r_};
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
         const OwnedDescriptorSetLayout setLayout = makeSetLayout(device(), types);

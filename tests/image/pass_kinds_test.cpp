@@ -44,8 +44,8 @@ public:
     explicit Triangles(Device& on = device())
         : vertexWords_(compiledTestShader("pass_kinds.vert")),
           fragmentWords_(compiledTestShader("pass_kinds.frag")),
-          vertex_{"pass_kinds.vert", Shader::none, 0, true, false, false, false, false, 3, vertexWords_},
-          fragment_{"pass_kinds.frag", Shader::none, 0, true, false, false, false, false, 3, fragmentWords_},
+          vertex_{"pass_kinds.vert", vertexWords_},
+          fragment_{"pass_kinds.frag", fragmentWords_},
           layout_(makePipelineLayout(on, {}, VkPushConstantRange{triangleStages, 0, sizeof(DrawnTriangle)})),
           pipelines_(on, layout_, [this](const PipelineKey& key) {
               return PipelineParts{&vertex_, key.colors.empty() ? nullptr : &fragment_, {}, {}};
@@ -216,7 +216,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     const OwnedPipelineLayout layout = makePipelineLayout(device(), setLayouts);
     DescriptorSets sets(device(), setLayout, storage, 1);
     const std::vector<std::uint32_t> words = compiledTestShader("pass_kinds.comp");
-    const ShaderModule module{"pass_kinds.comp", Shader::none, 0, true, false, false, false, false, 3, words};
+    const ShaderModule module{"pass_kinds.comp", words};
     const VkPipeline kernel = triangles.pipelines().compute(module, {}, layout);
 
     constexpr std::uint32_t groups = 5;

@@ -165,7 +165,7 @@ TEST(Conventions, APlantedPrinterIsFound) {
         EXPECT_EQ(otherPrinters({{"compare/cli/planted.cpp", line}}).size(), 1u) << line;
     for (const char* line :
          {"fmt::print(out.stream(), \"PF\");", "std::fwrite(at, 1, size, file.stream());", "printText(text);",
-          "std::snprintf(at, size, \"%d\", number);", "featuresNeedingInputs(inputs)"})
+          "std::snprintf(at, size, \"%d\", number);", "fingerprints(inputs)"})
         EXPECT_TRUE(otherPrinters({{"compare/cli/planted.cpp", line}}).empty()) << line;
 }
 

@@ -4,6 +4,8 @@
 #include "shared/vulkan/specialize.h"
 
 #include "shared/contract/features.h"
+#include "shared/contract/material.h"
+#include "shared/contract/posing.h"
 #include "shared/vulkan/flatten.h"
 #include "shared/vulkan/spirv.h"
 
@@ -11,9 +13,12 @@
 #include <gtest/gtest.h>
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
+#include <tbb/parallel_for.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <span>
@@ -29,8 +34,9 @@ using FeatureValues = std::vector<std::uint32_t>;  // by number
 
 constexpr spv_target_env spirvEnvironment = SPV_ENV_VULKAN_1_3;
 
-SpirvWords specializedBy(std::span<const std::uint32_t> module, const FeatureValues& values) {
-    return specialized(module, [&](std::uint32_t id) { return values.at(id); });
+SpirvWords specializedBy(std::span<const std::uint32_t> module, const FeatureValues& values,
+                         const std::optional<std::set<std::uint32_t>>& outputs = {}) {
+    return specialized(module, [&](std::uint32_t id) { return values.at(id); }, outputs);
 }
 
 // What the validator says against it; nothing of a valid one.
@@ -45,10 +51,8 @@ std::string complaint(const SpirvWords& words) {
     return said;
 }
 
-// How many of each instruction SPIRV-Tools leaves in a module's function with these values, but for those
-// that say only where to go.
-std::map<std::string, int> optimisedInstructions(std::span<const std::uint32_t> module,
-                                                 const FeatureValues& values) {
+// The module as SPIRV-Tools leaves it with these values.
+SpirvWords optimised(std::span<const std::uint32_t> module, const FeatureValues& values) {
     spvtools::Optimizer optimizer(spirvEnvironment);
     std::unordered_map<std::uint32_t, SpirvWords> given;
     for (std::uint32_t id = 0; id < values.size(); ++id) given[id] = {values[id]};
@@ -61,10 +65,17 @@ std::map<std::string, int> optimisedInstructions(std::span<const std::uint32_t> 
         "--vector-dce", "--eliminate-dead-code-aggressive"};
     EXPECT_TRUE(optimizer.RegisterPassesFromFlags(begin));
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(optimizer.RegisterPassesFromFlags(round));
+    EXPECT_TRUE(optimizer.RegisterPassesFromFlags(
+        {"--eliminate-dead-variables", "--remove-unused-interface-variables"}));
     SpirvWords small;
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);  // it knows no scalar layout of blocks
     EXPECT_TRUE(optimizer.Run(module.data(), module.size(), &small, options));
+    return small;
+}
+
+// How many of each instruction a module's function has, but for those that say only where to go.
+std::map<std::string, int> computations(const SpirvWords& small) {
     std::map<std::string, int> instructions;
     bool inside = false;
     for (std::size_t at = 5; at < small.size(); at += small[at] >> 16) {
@@ -79,6 +90,25 @@ std::map<std::string, int> optimisedInstructions(std::span<const std::uint32_t> 
         ++instructions[fmt::format("{}.{}", op, extended)];
     }
     return instructions;
+}
+
+// What a module has between it and the world: its inputs, outputs and bindings, each by storage class and
+// location or set and binding, with how many there are of each.
+std::map<std::string, int> interfaceOf(const SpirvWords& words) {
+    std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> decorations;
+    std::map<std::string, int> found;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+        const std::uint32_t op = words[at] & 0xffff;
+        if (op == 54) break;                                     // OpFunction
+        if (op == 71) decorations[words[at + 1]][words[at + 2]] =  // OpDecorate
+                          words[at] >> 16 > 3 ? words[at + 3] : 1;
+        if (op != 59) continue;  // OpVariable
+        auto& of = decorations[words[at + 2]];
+        constexpr std::uint32_t location = 30, binding = 33, set = 34, built_in = 11;
+        ++found[fmt::format("class {} location {} set {} binding {} built in {}", words[at + 3],
+                            of.contains(location) ? of[location] : 99, of[set], of[binding], of[built_in])];
+    }
+    return found;
 }
 
 // Values as a scene may ask for, most of them off, and others that no scene would.
@@ -149,33 +179,51 @@ std::size_t countOf(const std::string& text, const std::string& what) {
     return found;
 }
 
-// The unit's modules by entry point: one of each shader's variants, the one with most code.
-std::vector<const ShaderModule*> largestModules() {
-    std::map<Shader, const ShaderModule*> largest;
-    for (const ShaderModule& module : shaderModules()) {
-        const ShaderModule*& one = largest[module.shader];
-        if (one == nullptr || module.words.size() > one->words.size()) one = &module;
-    }
-    std::vector<const ShaderModule*> modules;
-    for (const auto& [shader, module] : largest) modules.push_back(module);
-    return modules;
+// Each module with these values, on all cores; what `judge` says against one, by its name and seed.
+std::string ofEveryModule(std::uint32_t first, std::uint32_t end,
+                          const std::function<std::string(const ShaderModule&, const FeatureValues&)>& judge) {
+    const auto modules = shaderModules();
+    std::vector<std::string> said(modules.size());
+    tbb::parallel_for(std::size_t{0}, modules.size(), [&](std::size_t i) {
+        for (std::uint32_t seed = first; seed < end; ++seed)
+            if (const std::string words = judge(modules[i], featureValues(seed)); !words.empty())
+                said[i] += fmt::format("{}, seed {}: {}\n", modules[i].name, seed, words);
+    });
+    return fmt::format("{}", fmt::join(said, ""));
 }
 
 TEST(Specialize, EveryModuleStaysValid) {
-    for (const ShaderModule& module : shaderModules())
-        for (const std::uint32_t seed : {0u, 1u, 2u})
-            EXPECT_EQ(complaint(specializedBy(module.words, featureValues(seed))), "")
-                << module.name << ", seed " << seed;
+    EXPECT_EQ(ofEveryModule(0, 30, [](const ShaderModule& module, const FeatureValues& values) {
+                  return complaint(specializedBy(module.words, values));
+              }), "");
+}
+
+TEST(SpecializeLong, EveryModuleStaysValid) {
+    EXPECT_EQ(ofEveryModule(30, 300, [](const ShaderModule& module, const FeatureValues& values) {
+                  return complaint(specializedBy(module.words, values));
+              }), "");
 }
 
 TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
-    for (const ShaderModule* module : largestModules())
-        for (const std::uint32_t seed : {0u, 1u, 2u, 3u}) {
-            const FeatureValues values = featureValues(seed);
-            const auto theirs = optimisedInstructions(module->words, values);
-            EXPECT_EQ(theirs, optimisedInstructions(specializedBy(module->words, values), values))
-                << module->name << ", seed " << seed;
-        }
+    EXPECT_EQ(ofEveryModule(0, 4, [](const ShaderModule& module, const FeatureValues& values) {
+                  const SpirvWords theirs = optimised(module.words, values),
+                                   ours = optimised(specializedBy(module.words, values), values);
+                  return std::string(computations(theirs) == computations(ours) ? "" : "other computations");
+              }), "");
+}
+
+// Every input, output and binding that is left is one that SPIRV-Tools leaves, and the other way round.
+TEST(Specialize, LeavesTheInterfaceThatTheOptimiserLeaves) {
+    EXPECT_EQ(ofEveryModule(0, 6, [](const ShaderModule& module, const FeatureValues& values) {
+                  const auto theirs = interfaceOf(optimised(module.words, values)),
+                             ours = interfaceOf(specializedBy(module.words, values));
+                  std::string said;
+                  for (const auto& [name, count] : ours)
+                      if (!theirs.contains(name)) said += "kept " + name + "; ";
+                  for (const auto& [name, count] : theirs)
+                      if (!ours.contains(name)) said += "dropped " + name + "; ";
+                  return said;
+              }), "");
 }
 
 TEST(Specialize, LeavesOutInputsThatNothingReads) {
@@ -197,10 +245,82 @@ OpReturn
 
 // Each column of a matrix has a location of its own.
 TEST(Specialize, InputsOfMatricesHaveALocationAColumn) {
-    const ShaderModule& module = plainModule(Shader::surface_vert);
-    const std::set<std::uint32_t> all = inputLocations(module.words);
+    const std::set<std::uint32_t> all = inputLocations(shaderModule(Shader::surface_vert).words);
     for (std::uint32_t location = 0; location <= 15; ++location)
         EXPECT_TRUE(all.contains(location)) << location;
+}
+
+// Each element of an array, too: the texture coordinates of slots begin at 7.
+TEST(Specialize, InputsOfArraysHaveALocationAnElement) {
+    const std::set<std::uint32_t> all = inputLocations(shaderModule(Shader::gbuffer_frag).words);
+    for (std::uint32_t location = 0; location < 7 + gpu::SLOT_COUNT; ++location)
+        EXPECT_TRUE(all.contains(location)) << location;
+    EXPECT_FALSE(all.contains(7 + gpu::SLOT_COUNT));
+}
+
+// A vertex shader stores what the fragment shader reads, and computes and fetches nothing for the rest.
+TEST(Specialize, StoresNoOutputThatNothingReads) {
+    FeatureValues values(gpu::FEATURE_COUNT);
+    const auto& words = shaderModule(Shader::surface_vert).words;
+    const SpirvWords normals = specializedBy(words, values, std::set<std::uint32_t>{0}),
+                     none = specializedBy(words, values, std::set<std::uint32_t>{}),
+                     all = specializedBy(words, values);
+    EXPECT_EQ(complaint(normals), "");
+    EXPECT_EQ(complaint(none), "");
+    const std::set<std::uint32_t> position{0, 5, 6, 7, 8}, normal{0, 1, 5, 6, 7, 8, 9, 10, 11};
+    EXPECT_EQ(inputLocations(none), position);
+    EXPECT_EQ(inputLocations(normals), normal);
+    EXPECT_GT(inputLocations(all).size(), normal.size());
+    const auto outputs = [](const SpirvWords& of) {
+        int count = 0;
+        for (const auto& [name, found] : interfaceOf(of)) count += name.starts_with("class 3 ") ? found : 0;
+        return count;
+    };
+    EXPECT_EQ(outputs(none), 1);  // gl_Position
+    EXPECT_EQ(outputs(normals), 2);
+    EXPECT_EQ(outputs(all), 5);  // without slots and lights of vertices
+}
+
+// What a device may lack is asked for only where a variant has it.
+TEST(Specialize, LeavesOutCapabilitiesThatNothingDemands) {
+    const auto has = [](Shader shader, std::uint32_t capability, std::map<std::uint32_t, std::uint32_t> on) {
+        FeatureValues values(gpu::FEATURE_COUNT);
+        for (const auto& [feature, value] : on) values.at(feature) = value;
+        const SpirvWords words = specializedBy(shaderModule(shader).words, values);
+        EXPECT_EQ(complaint(words), "");
+        for (std::size_t at = 5; (words[at] & 0xffff) == 17; at += 2)  // OpCapability
+            if (words[at + 1] == capability) return true;
+        return false;
+    };
+    const gpu::uint lights = gpu::FEATURE_point_lights, half = gpu::FEATURE_half_shading;
+    EXPECT_TRUE(has(Shader::forward_shade_frag, 9, {{lights, 1}, {half, 1}}));  // Float16
+    EXPECT_FALSE(has(Shader::forward_shade_frag, 9, {{lights, 1}}));
+    const gpu::uint joints = gpu::FEATURE_posed_joint_sets, parts = gpu::FEATURE_posed_parts;
+    EXPECT_TRUE(has(Shader::pose_comp, 11, {{joints, 1}, {parts, gpu::POSED_PAIRS}}));  // Int64
+    EXPECT_FALSE(has(Shader::pose_comp, 11, {{joints, 1}}));
+    EXPECT_TRUE(has(Shader::deferred_shade_comp, 27, {{gpu::FEATURE_samples, 4}}));  // stored samples
+    EXPECT_FALSE(has(Shader::deferred_shade_comp, 27, {}));
+    EXPECT_TRUE(has(Shader::gbuffer_frag, 52, {{gpu::FEATURE_samples, 4}}));  // interpolation at a place
+    EXPECT_FALSE(has(Shader::gbuffer_frag, 52, {}));
+    EXPECT_TRUE(has(Shader::gbuffer_frag, 5379, {{gpu::FEATURE_alpha_mask, 1}}));  // helper invocations
+    EXPECT_FALSE(has(Shader::gbuffer_frag, 5379, {}));
+}
+
+// A block that loses an edge may come to depend on one that stands below it.
+TEST(Specialize, ABlockStandsBelowThoseThatLeadToIt) {
+    const SpirvWords words = fragmentShader(R"(
+OpSelectionMerge %after None
+OpSwitch %number %late 1 %early 2 %late
+%early = OpLabel
+%sum = OpFAdd %float %y %one
+OpBranch %after
+%late = OpLabel
+OpBranch %after
+%after = OpLabel
+OpReturn
+)");
+    specializedText(words, 1, 0);
+    specializedText(words, 2, 0);
 }
 
 TEST(Specialize, TakesOneSideOfABranch) {

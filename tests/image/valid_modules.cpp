@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Every module that a test's pipelines are made of is valid by SPIRV-Tools, also where no validation layer is
+// on: the linker sends calls of vkCreateShaderModule here.
+#include <gtest/gtest.h>
+#include <spirv-tools/libspirv.hpp>
+#include <vulkan/vulkan_core.h>
+
+#include <string>
+
+extern "C" {
+
+VkResult __real_vkCreateShaderModule(VkDevice, const VkShaderModuleCreateInfo*, const VkAllocationCallbacks*,
+                                     VkShaderModule*);
+
+VkResult __wrap_vkCreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
+                                     const VkAllocationCallbacks* allocation, VkShaderModule* module) {
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
+    std::string said;
+    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                 const char* message) { said += std::string(message) + "\n"; });
+    spvtools::ValidatorOptions options;
+    options.SetScalarBlockLayout(true);
+    if (!tools.Validate(info->pCode, info->codeSize / sizeof *info->pCode, options))
+        ADD_FAILURE() << "a module is not valid SPIR-V: " << said;
+    return __real_vkCreateShaderModule(device, info, allocation, module);
+}
+
+}  // extern "C"
