@@ -33,7 +33,8 @@ static_assert(capture_places.back().place.image + 1 == gpu::CAPTURE_IMAGES);
 
 PlaceInCaptures placeInCaptures(int mode) {
     const auto found = std::ranges::find(capture_places, mode, &Placed::mode);
-    if (found == capture_places.end()) throw std::out_of_range("no capture of debug mode " + std::to_string(mode));
+    if (found == capture_places.end())
+        throw std::out_of_range("no capture of debug mode " + std::to_string(mode));
     return found->place;
 }
 
@@ -49,8 +50,8 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
         const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
         const std::size_t together =
             place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, most) : 1;
-        if (groups.empty() || ((groups.back().images & bit) == 0 &&
-                               groups.back().formats.size() + together > most))
+        if (groups.empty() ||
+            ((groups.back().images & bit) == 0 && groups.back().formats.size() + together > most))
             groups.emplace_back();
         CaptureGroup& group = groups.back();
         group.modes.push_back(mode);
@@ -91,7 +92,8 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
             pass.color(image, Load::clear, background);
         }
         for (const int mode : modes)
-            images.push_back({mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
+            images.push_back(
+                {mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
     }
     return images;
 }

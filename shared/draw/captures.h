@@ -33,9 +33,9 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
 // Groups share their images' memory: each is run, and read back, before the next one runs.
 struct CapturedImage {
     int mode = 0;
-    ImageRef image;        // which other channels may share
-    int component = 0;     // its first one there
-    std::size_t pass = 0;  // the number of its group's
+    ImageRef image;                         // which other channels may share
+    int component = 0;                      // its first one there
+    std::size_t pass = 0;                   // the number of its group's
     std::optional<gpu::uint> surface = {};  // forward+: SURFACE_*, where it is not of the path's own
     bool before_blending = false;           // lit as it is before something is blended over it
 };

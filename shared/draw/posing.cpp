@@ -154,7 +154,8 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
                           morphed});
-        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs)});
+        instances_.push_back(
+            {arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs)});
         vertices_ += i.vertices;
         groups += i.groups;
         if (i.groups > 0) morphed += i.vertices;
@@ -233,8 +234,7 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
         std::vector<Dispatch> dispatches;
         for (const Posed& instance : instances_)
             if (instance.*threads > 0 && (!of_groups || instance.groups > 0))
-                dispatches.push_back(
-                    {&instance, pipelines.compute(shader, instance.variant, layout_)});
+                dispatches.push_back({&instance, pipelines.compute(shader, instance.variant, layout_)});
         return [layout = layout_, threads, dispatches = std::move(dispatches)](VkCommandBuffer commands) {
             VkPipeline bound = VK_NULL_HANDLE;
             for (const auto& [of, pipeline] : dispatches) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/settings.h"
 
+#include "shared/frame/setting_rows.h"
 #include "shared/text/did_you_mean.h"
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"

@@ -2,6 +2,8 @@
 // Which of the Settings a path reads, and what the reference follows.
 #include "shared/frame/settings.h"
 
+#include "shared/frame/setting_rows.h"
+
 #include <algorithm>
 
 namespace diptych {

@@ -46,7 +46,8 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
 std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
                                             const Variant& variant,
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
-    auto words = specialized(module.words, [&](std::uint32_t id) { return variant.get(id); }, outputs);
+    auto words = specialized(
+        module.words, [&](std::uint32_t id) { return variant.get(id); }, outputs);
     if (const auto problem = moduleProblem(site.support, words))
         refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
     return site.flattens_branches ? flattened(words) : words;

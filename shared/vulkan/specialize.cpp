@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sparse conditional constant propagation (Wegman and Zadeck, "Constant propagation with conditional
 // branches", TOPLAS 13(2), 1991) in one walk over the blocks: loops are not iterated, so that what a loop
-// changes counts as unknown. Then what the living code reads is marked from its effects on, and written, and of
-// what stands before the code what it still names.
+// changes counts as unknown. Then what the living code reads is marked from its effects on, and written, and
+// of what stands before the code what it still names.
 #include "shared/vulkan/specialize.h"
 
 #include "shared/vulkan/spirv_ops.h"
@@ -618,8 +618,8 @@ private:
         return std::move(out_);
     }
 
-    // Blocks in the module's order, but each after all that lead to it: a block that is left to fewer may have
-    // come to stand below one that the module has after it.
+    // Blocks in the module's order, but each after all that lead to it: a block that is left to fewer may
+    // have come to stand below one that the module has after it.
     std::vector<std::uint32_t> writtenOrder() const {
         std::vector<std::uint32_t> place(blocks_.size(), none), before(blocks_.size()), written;
         for (std::uint32_t i = 0; i < order_.size(); ++i) place[order_[i]] = i;
@@ -641,8 +641,8 @@ private:
         return written;
     }
 
-    // What the code names, and what that is made of; and what the module says of itself: the size of a workgroup,
-    // and constants that are built in.
+    // What the code names, and what that is made of; and what the module says of itself: the size of a
+    // workgroup, and constants that are built in.
     void findNamed(std::span<const std::uint32_t> code) {
         std::vector<std::uint32_t> made(bound_), named;  // made: the place of its instruction
         const auto name = [&](std::uint32_t id) {
@@ -653,7 +653,8 @@ private:
             if (const std::uint32_t result = resultOf(instruction(at)); result != 0) made[result] = at;
         for (std::size_t at = 0; at < code.size(); at += code[at] >> 16) {
             eachId(instructionAt(code, at), name);
-            interpolates_ |= opOf(instructionAt(code, at)) == OpExtInst && code[at + 4] >= extendedInterpolates;
+            interpolates_ |=
+                opOf(instructionAt(code, at)) == OpExtInst && code[at + 4] >= extendedInterpolates;
             demotes_ |= opOf(instructionAt(code, at)) == OpDemoteToHelperInvocation;
         }
         for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) {
@@ -676,11 +677,13 @@ private:
         }
     }
 
-    // Of an instruction before the function: the id of the type, constant or variable that it makes; 0 of none.
+    // Of an instruction before the function: the id of the type, constant or variable that it makes; 0 of
+    // none.
     static std::uint32_t resultOf(std::span<const std::uint32_t> in) {
         const std::uint32_t op = opOf(in);
         if (op >= OpTypeVoid && op <= OpTypeFunction) return in[1];
-        if ((op >= OpConstantTrue && op <= OpSpecConstantOp) || op == OpVariable || op == OpUndef) return in[2];
+        if ((op >= OpConstantTrue && op <= OpSpecConstantOp) || op == OpVariable || op == OpUndef)
+            return in[2];
         return 0;
     }
 

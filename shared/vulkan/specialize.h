@@ -29,8 +29,8 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
                                        const SpecializationValue& value,
                                        const std::optional<std::set<std::uint32_t>>& outputs = {});
 
-// Locations of the inputs that a module declares: each column of a matrix and each element of an array has its
-// own.
+// Locations of the inputs that a module declares: each column of a matrix and each element of an array has
+// its own.
 std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module);
 
 }  // namespace diptych

@@ -16,7 +16,7 @@ struct ShaderModule {
     std::span<const std::uint32_t> words;
 };
 
-std::span<const ShaderModule> shaderModules();      // in the order of Shader
+std::span<const ShaderModule> shaderModules();    // in the order of Shader
 const ShaderModule& shaderModule(Shader shader);  // of any but Shader::none
 
 }  // namespace diptych

@@ -34,8 +34,7 @@ public:
         const OwnedPipelineLayout layout =
             makePipelineLayout(device_, set_layouts,
                                VkPushConstantRange{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::uint32_t)});
-        const ShaderModule read{
-            "lit_sample.frag", words_};
+        const ShaderModule read{"lit_sample.frag", words_};
         Pipelines reading(device_, layout, [&](const PipelineKey&) {
             return PipelineParts{&shaderModule(Shader::full_screen_vert), &read, {}, {}};
         });

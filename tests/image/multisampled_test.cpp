@@ -45,9 +45,7 @@ public:
           r_(probeWords("multisampled_read.frag")) {}
 
     Sampled draw(const std::vector<Drawn>& drawn) {
-        const ShaderModule vertex{
-            "multisampled.vert", v_},
-            fragment{"multisampled.frag", f_},
+        const ShaderModule vertex{"multisampled.vert", v_}, fragment{"multisampled.frag", f_},
             read{"multisampled_read.frag", r_};
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};

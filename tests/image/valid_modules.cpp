@@ -2,8 +2,8 @@
 // Every module that a test's pipelines are made of is valid by SPIRV-Tools, also where no validation layer is
 // on: the linker sends calls of vkCreateShaderModule here.
 #include <gtest/gtest.h>
-#include <spirv-tools/libspirv.hpp>
 #include <vulkan/vulkan_core.h>
+#include <spirv-tools/libspirv.hpp>
 
 #include <string>
 

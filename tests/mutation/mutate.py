@@ -42,7 +42,7 @@ M = "\0"     # the switch, in Edit.switched
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 # Where Vulkan or what cuts modules down is given one, and what sets the switch there.
 SETTERS = (("vkCreateShaderModule(", "diptychCreateShaderModule("),
-           ("Specializer(module, value)", "Specializer(diptychModule(module), value)"))
+           ("Specializer(module, value, outputs)", "Specializer(diptychModule(module), value, outputs)"))
 
 
 say = functools.partial(print, flush=True)

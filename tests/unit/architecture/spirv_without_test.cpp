@@ -53,10 +53,10 @@ std::vector<Without> withouts() {
            "        Hazed hazed = hazeBeyond(rayOrigin(gl_FragCoord.xy), away);\n"
            "        radiance = radiance * hazed.transmittance + hazed.scattered;\n"
            "    }\n"}},
-         {"background.frag", "deferred_capture.frag", "deferred_channel_terms.frag",
-          "deferred_channels.frag", "deferred_further.frag", "deferred_shade.comp", "deferred_shade.frag", "forward_blended.frag", "forward_blended_list.frag",
-          "forward_blended_moments.frag", "forward_blended_weighted.frag", "forward_capture.frag",
-          "forward_shade.frag"}},
+         {"background.frag", "deferred_capture.frag", "deferred_channel_terms.frag", "deferred_channels.frag",
+          "deferred_further.frag", "deferred_shade.comp", "deferred_shade.frag", "forward_blended.frag",
+          "forward_blended_list.frag", "forward_blended_moments.frag", "forward_blended_weighted.frag",
+          "forward_capture.frag", "forward_shade.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
          {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},
@@ -108,7 +108,8 @@ void compile(const fs::path& root, std::string_view name, const fs::path& out) {
                     root.string(), name.substr(name.find('.') + 1), (root / "shaders/pass" / name).string(),
                     out.string()));
     run(fmt::format("'{}' '{}'", DIPTYCH_EXACT_SPIRV, out.string()));
-    run(fmt::format("'{0}' -Os --scalar-block-layout '{1}' -o '{1}'", DIPTYCH_SPIRV_OPT, out.string()));
+    run(fmt::format("'{0}' {1} --scalar-block-layout '{2}' -o '{2}'", DIPTYCH_SPIRV_OPT, DIPTYCH_SPIRV_PASSES,
+                    out.string()));
 }
 
 // Freezes every specialization constant, at `values` or else 0, and removes what is dead. Returns what is

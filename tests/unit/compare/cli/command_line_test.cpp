@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
+#include "shared/frame/setting_rows.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The Settings that a sweep draws.
 #include "compare/tradeoff/sweep.h"
+#include "shared/frame/setting_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #include "shared/frame/settings.h"
 
 #include "shared/frame/debug_modes.h"
+#include "shared/frame/setting_rows.h"
 #include "tests/support/errors.h"
 
 #include <fmt/format.h>

@@ -1,0 +1,680 @@
+// SPDX-License-Identifier: MIT
+// The row of every Setting: for what reads, writes and explains them.
+#pragma once
+
+#include "shared/frame/settings.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace diptych {
+
+// What several rows say.
+namespace row {
+
+inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";
+inline constexpr std::string_view needs_evsm4 = "has no meaning without --shadows evsm4";
+inline constexpr std::string_view needs_clipmap = "has no meaning without --shadows clipmap";
+inline constexpr std::string_view exponents =
+    "is 0 to 44.36, in 16 bits to 5.54: the largest whose square the format holds";
+inline constexpr std::string_view needs_shadows = "has no meaning without --shadows";
+inline constexpr std::string_view needs_cascades =
+    "has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4";
+inline constexpr std::string_view needs_reference = "has no meaning without --path reference";
+inline constexpr std::string_view every_light = "the reference evaluates every light";
+inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
+inline constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
+
+inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
+inline constexpr int most_pages = 16384;
+inline constexpr int most_samples = 65536;  // more take a day for a small picture
+
+inline constexpr std::string_view needs_env =
+    "has no meaning without --env (--env scene takes that of the scene's own file)";
+inline constexpr std::string_view needs_haze = "has no meaning without --haze on";
+inline constexpr std::string_view scattering = "components are 0 to 1e6 1/m";
+inline constexpr std::string_view scale_height = "is 0.01 to 1e9 m";
+inline bool isHazy(const Settings& s) {
+    return s.haze;
+}
+constexpr bool isScattering(const Rgb& c) {
+    const auto fits = [](float x) { return x >= 0 && x <= 1e6f; };
+    return fits(c.r) && fits(c.g) && fits(c.b);
+}
+constexpr bool isScaleHeight(float metres) {
+    return metres >= 0.01f && metres <= 1e9f;
+}
+inline constexpr std::string_view integrates_env = "the reference integrates the environment";
+inline bool hasEnv(const Settings& s) {
+    return s.env != Settings().env;
+}
+constexpr bool isSide(int pixels) {
+    return pixels >= 1 && pixels <= largest_side;
+}
+inline bool isFiniteFrom0(double value) {
+    return value >= 0 && std::isfinite(value);
+}
+inline bool isReference(const Settings& s) {
+    return s.path == Path::reference;
+}
+inline constexpr std::string_view needs_msaa = "has no meaning without --msaa 4";
+inline constexpr std::string_view own_samples = "the reference takes as many samples as --spp says";
+inline bool hasMsaa(const Settings& s) {
+    return s.msaa > 1;
+}
+inline bool hasOneSample(const Settings& s) {
+    return !hasMsaa(s);
+}
+inline bool hasReferenceSamples(const Settings& s) {
+    return isReference(s) && s.reference_mode == ReferenceMode::scene && s.spp > 1;
+}
+inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
+inline constexpr std::string_view unfiltered = "the reference takes samples where a roughness is filtered";
+constexpr bool shadesCaptures(const Settings& s) {
+    return s.reference_mode == ReferenceMode::surface;
+}
+inline bool hasSpecAa(const Settings& s) {
+    return s.spec_aa;
+}
+inline bool hasShadows(const Settings& s) {
+    return s.shadows != Shadows::off;
+}
+inline bool hasClipmap(const Settings& s) {
+    return s.shadows == Shadows::clipmap;
+}
+inline bool hasCascades(const Settings& s) {
+    return hasShadows(s) && !hasClipmap(s);
+}
+inline bool isShadowedForwardPlus(const Settings& s) {
+    return s.path == Path::forward_plus && hasShadows(s);  // its surfaces' normals are packed alike
+}
+inline bool hasEvsm4(const Settings& s) {
+    return s.shadows == Shadows::evsm4;
+}
+inline bool hasEvsm(const Settings& s) {
+    return s.shadows == Shadows::evsm || hasEvsm4(s);
+}
+inline bool isExponent(const Settings& s, float exponent) {
+    return exponent >= 0 && exponent <= (s.evsm_precision == EvsmPrecision::fp16 ? 5.54f : 44.36f);
+}
+
+}  // namespace row
+
+template <class Visit>
+void Settings::rows(Visit&& visit) {
+    visit(Field{.option = "path",
+                .help = "deferred, forward_plus or reference",
+                .sweep = "all",
+                .sweep_with = "*",
+                .for_surfaces = "forward_plus"},
+          &Settings::path);
+    visit(Field{.option = "assign",
+                .help = "how lights are chosen for a pixel",
+                .ignored = {.reference = row::every_light},
+                .sweep = "all"},
+          &Settings::assign);
+    visit(Field{.option = "light-kernel",
+                .help = "how lists are filled: by light, or by tile",
+                .ignored = {.reference = row::every_light},
+                .sweep = "scatter,gather"},
+          &Settings::light_kernel);
+    visit(Field{.option = "prepass",
+                .help = "depth pre-pass of the forward+ path",
+                .off = "off",
+                .ignored = {.deferred = "deferred has no depth pre-pass",
+                            .reference = "the reference has no depth pre-pass"},
+                .sweep = "on,off",
+                .for_surfaces = "on"},
+          &Settings::prepass);
+    visit(Field{.option = "cull",
+                .help = "triangles of solid surfaces that cannot show are not drawn: beyond the view, turned "
+                        "away, or "
+                        "between samples; pictures are the same",
+                .off = "off",
+                .ignored = {.reference = "the reference draws no triangles"},
+                .for_surfaces = "on"},
+          &Settings::cull);
+    visit(Field{.option = "gbuffer",
+                .help = "encoding of the deferred path's G-buffer",
+                .ignored = {.forward_plus = "forward_plus has no G-buffer",
+                            .reference = "the reference has no G-buffer",
+                            .unless = row::isShadowedForwardPlus},
+                .sweep = "all",
+                .for_surfaces = "full"},  // the geometric normal is not packed either
+          &Settings::gbuffer);
+    visit(Field{.option = "lighting",
+                .help =
+                    "what shades the deferred path's G-buffer: fragments of a triangle over the picture, or "
+                    "threads of compute shaders; pictures are the same",
+                .ignored = {.forward_plus = "forward_plus shades what it draws",
+                            .reference = "the reference shades on the CPU"},
+                .sweep = "all",
+                .for_surfaces = "fragment"},
+          &Settings::lighting);
+    visit(Field{.option = "depth-format",
+                .help = "what the scene's depth is stored as: reversed floats, floats that grow with the "
+                        "distance, or reversed steps of 24 or 16 bits",
+                .default_only = {"has no meaning with --msaa 4: what several samples are shaded at is "
+                                 "interpolated, not stored",
+                                 row::hasOneSample},
+                .ignored = {.reference = "the reference stores no depth"},
+                .sweep = "all",
+                .for_surfaces = "d32f"},
+          &Settings::depth_format);
+    visit(Field{.option = "lit-format",
+                .help = "what radiance is drawn to: 32-bit floats, 16-bit floats, or 11, 11 and 10 bits",
+                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
+                .ignored = {.reference = "the reference sums in double"},
+                .sweep = "all",
+                .for_surfaces = "fp32"},
+          &Settings::lit_format);
+    visit(Field{.option = "shading-precision",
+                .help =
+                    "floats that the light of points, spots and suns is computed with, where the device has "
+                    "such",
+                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
+                .ignored = {.reference = "the reference shades in double"},
+                .sweep = "all",
+                .for_surfaces = "fp32"},
+          &Settings::shading_precision);
+    visit(Field{.option = "size",
+                .help = "picture size, WxH",
+                .valid = {"width and height are 1 to 16384",
+                          [](const Settings& s) {
+                              return row::isSide(s.size.width) && row::isSide(s.size.height);
+                          }},
+                .sweep = "1/4,1/2,3/4",
+                .sweep_with = "gbuffer"},
+          &Settings::size);
+    visit(
+        Field{.option = "camera", .help = "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\""},
+        &Settings::camera);
+    visit(Field{.option = "time",
+                .help = "animation time, seconds",
+                .valid = {"is finite and at least 0 s",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.time); }}},
+          &Settings::time);
+    visit(Field{.option = "animation", .help = "the one that plays, by index or name; otherwise all do"},
+          &Settings::animation);
+    visit(Field{.option = "skinning",
+                .help = "skinned and morphed vertices are posed once a frame, or at every draw",
+                .ignored = {.reference = "the reference poses in double"},
+                .sweep = "all"},
+          &Settings::skinning);
+    visit(
+        Field{
+            .option = "env",
+            .help =
+                "lat-long environment, .exr or .hdr; scene: that of the scene's file, or an error; none: no "
+                "other than that",
+            .off = "none",
+            .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
+            .for_surfaces = "none"},
+        &Settings::env);
+    visit(Field{.option = "env-rotation",
+                .help = "turns the environment about +Y, counter-clockwise seen from above, degrees",
+                .valid = {"is finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .for_surfaces = "0"},
+          &Settings::env_rotation);
+    visit(Field{.option = "env-sun",
+                .help = "takes the environment's sun out of it as a directional light, which casts shadows",
+                .off = "off",
+                .default_only = {row::needs_env, row::hasEnv},
+                .for_surfaces = "off"},
+          &Settings::env_sun);
+    visit(Field{.option = "ibl-intensity",
+                .help = "factor on the environment's radiance; 0: none of it is drawn",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .sweep = "0",
+                .for_surfaces = "1"},
+          &Settings::ibl_intensity);
+    visit(Field{.option = "ibl",
+                .help = "light of the environment on the specular lobe: filtered and a table, or samples at "
+                        "every pixel",
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "all",
+                .sweep_with = "ibl-samples"},
+          &Settings::ibl);
+    visit(Field{.option = "ibl-diffuse",
+                .help = "irradiance of the environment: spherical harmonics as they are or so that none is "
+                        "negative, or a map",
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "all"},
+          &Settings::ibl_diffuse);
+    visit(Field{.option = "ibl-samples",
+                .help = "directions a texel of the filtered environment, or with --ibl sampled a pixel",
+                .valid = {"is 1 to 4096",
+                          [](const Settings& s) { return s.ibl_samples >= 1 && s.ibl_samples <= 4096; }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "16,32,64,256,1024",
+                .sweep_with = "ibl-bias"},
+          &Settings::ibl_samples);
+    visit(
+        Field{.option = "ibl-bias",
+              .help = "mip levels by which each of these directions is widened",
+              .valid = {"is 0 to 16", [](const Settings& s) { return s.ibl_bias >= 0 && s.ibl_bias <= 16; }},
+              .default_only = {row::needs_env, row::hasEnv},
+              .ignored = {.reference = row::integrates_env},
+              .sweep = "0,1,2"},
+        &Settings::ibl_bias);
+    visit(Field{.option = "ambient",
+                .help = "constant ambient radiance R,G,B",
+                .off = "0,0,0",
+                .valid = {"components are finite and at least 0",
+                          [](const Settings& s) {
+                              return row::isFiniteFrom0(s.ambient.r) && row::isFiniteFrom0(s.ambient.g) &&
+                                     row::isFiniteFrom0(s.ambient.b);
+                          }},
+                .for_surfaces = "0,0,0"},
+          &Settings::ambient);
+    visit(Field{.option = "scene-lights",
+                .help =
+                    "the scene's own lights; off: none of them, nor the sun that a scene without lights gets",
+                .off = "off"},
+          &Settings::scene_lights);
+    visit(Field{.option = "lights",
+                .help = "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights",
+                .off = ""},
+          &Settings::lights);
+    visit(Field{.option = "seed", .help = "seed of the light rig"}, &Settings::seed);
+    visit(Field{.option = "light-cutoff",
+                .help = "luminance of a white surface where a light without a range ends; 0: nowhere",
+                .off = "0",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
+                .ignored = {.reference = "the reference lets every light go on as far as its range"},
+                .sweep = "0,1e-4,1e-3,1e-2",
+                .sweep_with = "assign"},
+          &Settings::light_cutoff);
+    visit(Field{.option = "pixel-lights",
+                .help = "lights shaded per pixel with --assign per_object",
+                .valid = {"is at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
+                .default_only = {"has no meaning without --assign per_object",
+                                 [](const Settings& s) { return s.assign == Assignment::per_object; }},
+                .ignored = {.reference = row::every_light},
+                .sweep = "0,1,2,4,8",
+                .sweep_with = "assign"},
+          &Settings::pixel_lights);
+    visit(Field{.option = "area-lights",
+                .help = "how area lights are evaluated",
+                .ignored = {.reference = "the reference integrates area lights"},
+                .sweep = "all"},
+          &Settings::area_lights);
+    visit(Field{.option = "textures",
+                .help = "texels as the device decodes and filters them; decoded to 16 bits and floats before "
+                        "upload; or metallic and roughness in unused alphas, a sample less",
+                .ignored = {.reference = "the reference decodes and filters in double",
+                            .unless = row::shadesCaptures},
+                .sweep = "all"},
+          &Settings::textures);
+    visit(Field{.option = "specular-albedo",
+                .help = "what the specular lobe reflects of light from everywhere: a table or Karis's fit",
+                .ignored = {.reference = "the reference integrates what the specular lobe reflects"},
+                .sweep = "all"},
+          &Settings::specular_albedo);
+    visit(Field{.option = "multiscatter",
+                .help = "light between microfacets; walk: the reference alone follows it",
+                .off = "off",
+                .sweep = "off,energy,fdez",
+                .for_surfaces = "off"},
+          &Settings::multiscatter);
+    visit(Field{.option = "base-layer",
+                .help = "what a dielectric's base gets: 1 less the largest component of what its layer "
+                        "reflects, or less each",
+                .for_surfaces = "max"},
+          &Settings::base_layer);
+    visit(
+        Field{.option = "spot-cone",
+              .help = "how a spot fades from its inner to its outer angle: as KHR_lights_punctual has it, or "
+                      "by smoothstep",
+              .for_surfaces = "gltf"},
+        &Settings::spot_cone);
+    visit(
+        Field{.option = "range-window",
+              .help = "how a light ends at its range: by 1 - (d / range)^4 as KHR_lights_punctual has it, or "
+                      "by its square",
+              .for_surfaces = "gltf"},
+        &Settings::range_window);
+    visit(Field{.option = "shadows",
+                .help = "shadow technique",
+                .off = "off",
+                .one_for_reference = "pcf",  // it traces them, whatever the technique
+                .sweep = "all",
+                .for_surfaces = "off"},
+          &Settings::shadows);
+    visit(Field{.option = "shadow-lights",
+                .help = "points and spots that cast shadows, the brightest, beside those that ask",
+                .off = "0",
+                .valid = {"is at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .sweep = "0,1,4",
+                .for_surfaces = "0"},
+          &Settings::shadow_lights);
+    visit(
+        Field{.option = "shadow-size",
+              .help = "side of a shadow map, or of a level of the clipmap, texels",
+              .valid = {"is 16 to 16384",
+                        [](const Settings& s) { return s.shadow_size >= 16 && row::isSide(s.shadow_size); }},
+              .default_only = {row::needs_shadows, row::hasShadows},
+              .ignored = {.reference = row::traces_shadows},
+              .sweep = "512,1024,4096"},
+        &Settings::shadow_size);
+    visit(Field{.option = "shadow-cascades",
+                .help = "shadow maps of the sun, from near to far",
+                .valid = {"is 1 to 4",
+                          [](const Settings& s) { return s.shadow_cascades >= 1 && s.shadow_cascades <= 4; }},
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "1,2,4"},
+          &Settings::shadow_cascades);
+    visit(Field{.option = "shadow-kernel",
+                .help = "side of the shadow filter, texels",
+                .valid = {"is 1, 3, 5 or 7",
+                          [](const Settings& s) {
+                              return s.shadow_kernel >= 1 && s.shadow_kernel <= 7 && s.shadow_kernel % 2 == 1;
+                          }},
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "1,3,5,7"},
+          &Settings::shadow_kernel);
+    visit(Field{.option = "shadow-fit",
+                .help = "what shadow maps of the sun cover: the view, or the depths that the picture shows",
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "all"},
+          &Settings::shadow_fit);
+    visit(Field{.option = "shadow-distance",
+                .help = "view depth that gets shadows, m; 0: as far as the scene reaches",
+                .valid = {"is finite and at least 0 m",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_distance}); }},
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows}},
+          &Settings::shadow_distance);
+    visit(Field{.option = "shadow-bias",
+                .help = "how far a surface is moved towards the sun, along its triangle's normal, in texels",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_bias}); }},
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0.25,1"},
+          &Settings::shadow_bias);
+    visit(Field{.option = "shadow-casters",
+                .help = "what is drawn into shadow maps: what the picture needs, or everything that casts; "
+                        "pictures are the same",
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows}},
+          &Settings::shadow_casters);
+    visit(Field{.option = "clipmap-pages",
+                .help = "pages of the sun's clipmap that there is room for; where more are needed a coarser "
+                        "level serves",
+                .valid = {"is 1 to 16384",
+                          [](const Settings& s) {
+                              return s.clipmap_pages >= 1 && s.clipmap_pages <= row::most_pages;
+                          }},
+                .default_only = {row::needs_clipmap, row::hasClipmap},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "64,1024",
+                .sweep_with = "shadows"},
+          &Settings::clipmap_pages);
+    visit(Field{.option = "clipmap-page-size",
+                .help = "side of a page, texels",
+                .valid = {"is 32, 64, 128 or 256",
+                          [](const Settings& s) {
+                              return s.clipmap_page_size == 32 || s.clipmap_page_size == 64 ||
+                                     s.clipmap_page_size == 128 || s.clipmap_page_size == 256;
+                          }},
+                .default_only = {row::needs_clipmap, row::hasClipmap},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "64,256",
+                .sweep_with = "shadows"},
+          &Settings::clipmap_page_size);
+    visit(Field{.option = "evsm-precision",
+                .help = "moments' format",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "fp32,fp16",
+                .sweep_with = "shadows"},
+          &Settings::evsm_precision);
+    visit(Field{.option = "evsm-exponent",
+                .help = "warp exponent; 0: 40, or 5.5 in 16 bits",
+                .valid = {row::exponents,
+                          [](const Settings& s) { return row::isExponent(s, s.evsm_exponent); }},
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "5,20",
+                .sweep_with = "shadows"},
+          &Settings::evsm_exponent);
+    visit(Field{.option = "evsm-negative-exponent",
+                .help = "exponent of the other warp of --shadows evsm4; 0: 5",
+                .valid = {row::exponents,
+                          [](const Settings& s) { return row::isExponent(s, s.evsm_negative_exponent); }},
+                .default_only = {row::needs_evsm4, row::hasEvsm4},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "20",
+                .sweep_with = "shadows"},
+          &Settings::evsm_negative_exponent);
+    visit(Field{.option = "evsm-depth",
+                .help = "depths that are warped: the second halves the leak at one exponent",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "all",
+                .sweep_with = "shadows"},
+          &Settings::evsm_depth);
+    visit(Field{.option = "evsm-bleed",
+                .help = "light-bleeding reduction, 0 to below 1",
+                .off = "0",
+                .valid = {"is 0 to below 1",
+                          [](const Settings& s) { return s.evsm_bleed >= 0 && s.evsm_bleed < 1; }},
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0.2",
+                .sweep_with = "shadows"},
+          &Settings::evsm_bleed);
+    visit(Field{.option = "evsm-min-variance",
+                .help = "least variance of depth, a share of its range squared",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.evsm_min_variance}); }},
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0,1e-4",
+                .sweep_with = "shadows"},
+          &Settings::evsm_min_variance);
+    visit(Field{.option = "msaa",
+                .help = "samples per pixel: 1 or 4, and 8 where the device has them",
+                .off = "1",
+                .valid = {"a pixel has 1, 4 or 8 samples",
+                          [](const Settings& s) { return s.msaa == 1 || s.msaa == 4 || s.msaa == 8; }},
+                .ignored = {.reference = row::own_samples},
+                .sweep = "1,4",
+                .sweep_with = "gbuffer,size"},
+          &Settings::msaa);
+    visit(Field{.option = "msaa-shading",
+                .help = "what is shaded: each triangle of a pixel once, or each sample",
+                .default_only = {row::needs_msaa, row::hasMsaa},
+                .ignored = {.reference = row::own_samples},
+                .sweep = "sample",
+                .sweep_with = "msaa"},
+          &Settings::msaa_shading);
+    visit(Field{.option = "msaa-edges",
+                .help = "samples that deferred lighting shades each for itself: all, those that differ in a "
+                        "bit of the G-buffer, visibly, or where a triangle covers a part of the pixel",
+                .default_only = {row::needs_msaa, row::hasMsaa},
+                .ignored = {.forward_plus = "forward_plus shades each triangle as it is drawn",
+                            .reference = row::own_samples},
+                .sweep = "all,similar,coverage",
+                .sweep_with = "msaa"},
+          &Settings::msaa_edges);
+    visit(Field{.option = "resolve",
+                .help = "mean of a pixel's samples: of their radiance, or weighted by 1 / (1 + the largest "
+                        "component)",
+                .default_only = {"has no meaning without --msaa 4 or --path reference",
+                                 [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
+                .ignored = {.reference = "the reference takes one sample of a pixel",
+                            .unless = row::hasReferenceSamples},
+                .sweep = "tonemapped",
+                .sweep_with = "msaa",
+                .for_surfaces = "linear"},
+          &Settings::resolve);
+    visit(Field{.option = "alpha-to-coverage",
+                .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the "
+                        "cutoff",
+                .default_only = {"has no meaning but with --msaa 4 and --msaa-shading pixel: one sample is "
+                                 "covered or not",
+                                 [](const Settings& s) {
+                                     return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel;
+                                 }},
+                .ignored = {.reference = row::own_samples},
+                .sweep = "on",
+                .sweep_with = "msaa"},
+          &Settings::alpha_to_coverage);
+    visit(Field{.option = "spec-aa",
+                .help = "specular anti-aliasing: roughness that grows with what the normal does in a pixel",
+                .off = "off",
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
+                .sweep = "on"},
+          &Settings::spec_aa);
+    visit(Field{.option = "spec-aa-variance",
+                .help = "variance of the pixel's filter, square pixels",
+                .valid = {"is 0 to 100",
+                          [](const Settings& s) {
+                              return s.spec_aa_variance >= 0 && s.spec_aa_variance <= 100;
+                          }},
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
+                .sweep = "0.05,0.5",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_variance);
+    visit(Field{.option = "spec-aa-limit",
+                .help = "the most that the square of the GGX width grows",
+                .valid = {"is 0 to 1",
+                          [](const Settings& s) { return s.spec_aa_limit >= 0 && s.spec_aa_limit <= 1; }},
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
+                .sweep = "0.5",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_limit);
+    visit(Field{.option = "spec-aa-normals",
+                .help = "whose changes are filtered: the interpolated normal, or the normal map's too",
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
+                .sweep = "mapped",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_normals);
+    visit(Field{.option = "spec-aa-kernel",
+                .help = "how roughness grows with these changes: by their variance, or by the largest itself",
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures}},
+          &Settings::spec_aa_kernel);
+    visit(Field{.option = "transparency",
+                .help =
+                    "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",
+                .ignored = {.reference = "the reference blends by depth",
+                            .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
+                .sweep = "sorted,unsorted,triangles,weighted,moments,list",
+                .for_surfaces = "sorted"},
+          &Settings::transparency);
+    visit(Field{.option = "transparency-layers",
+                .help = "fragments of a pixel that --transparency list puts in order; the rest is blended as "
+                        "one layer behind them",
+                .valid = {"is 1 to 256",
+                          [](const Settings& s) {
+                              return s.transparency_layers >= 1 && s.transparency_layers <= 256;
+                          }},
+                .default_only = {"has no meaning without --transparency list",
+                                 [](const Settings& s) { return s.transparency == Transparency::list; }},
+                .ignored = {.reference = "the reference blends by depth"},
+                .sweep = "4,8,16",
+                .sweep_with = "transparency"},
+          &Settings::transparency_layers);
+    visit(Field{.option = "haze",
+                .help = "aerial perspective: air that scatters the brightest sun's light and ambient light",
+                .off = "off",
+                .for_surfaces = "off"},
+          &Settings::haze);
+    visit(Field{.option = "haze-density",
+                .help = "factor on what the air scatters and absorbs",
+                .valid = {"is 0 to 1e6",
+                          [](const Settings& s) { return s.haze_density >= 0 && s.haze_density <= 1e6f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "1"},
+          &Settings::haze_density);
+    visit(Field{.option = "haze-rayleigh",
+                .help = "what molecules scatter at height 0, R,G,B, 1/m",
+                .valid = {row::scattering,
+                          [](const Settings& s) { return row::isScattering(s.haze_rayleigh); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "5.8e-6,13.5e-6,33.1e-6"},
+          &Settings::haze_rayleigh);
+    visit(Field{.option = "haze-rayleigh-height",
+                .help = "height over which molecules thin out to 1/e, m",
+                .valid = {row::scale_height,
+                          [](const Settings& s) { return row::isScaleHeight(s.haze_rayleigh_height); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "8000"},
+          &Settings::haze_rayleigh_height);
+    visit(Field{.option = "haze-mie",
+                .help = "what aerosols scatter at height 0, R,G,B, 1/m",
+                .valid = {row::scattering, [](const Settings& s) { return row::isScattering(s.haze_mie); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "2e-5,2e-5,2e-5"},
+          &Settings::haze_mie);
+    visit(Field{.option = "haze-mie-height",
+                .help = "height over which aerosols thin out to 1/e, m",
+                .valid = {row::scale_height,
+                          [](const Settings& s) { return row::isScaleHeight(s.haze_mie_height); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "1200"},
+          &Settings::haze_mie_height);
+    visit(Field{.option = "haze-g",
+                .help = "mean cosine of what aerosols scatter; above 0: forward",
+                .valid = {"is -0.99 to 0.99",
+                          [](const Settings& s) { return s.haze_g >= -0.99f && s.haze_g <= 0.99f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "0.76"},
+          &Settings::haze_g);
+    visit(Field{.option = "haze-ground",
+                .help = "world y of height 0, m",
+                .valid = {"is -1e9 to 1e9 m",
+                          [](const Settings& s) { return s.haze_ground >= -1e9f && s.haze_ground <= 1e9f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "0"},
+          &Settings::haze_ground);
+    visit(
+        Field{
+            .option = "haze-march-steps",
+            .help = "steps along each ray, with two heights and a sun that the air dims; 0: closed form, one "
+                    "height and one sun",
+            .off = "0",
+            .valid = {"is 0 to 256",
+                      [](const Settings& s) { return s.haze_march_steps >= 0 && s.haze_march_steps <= 256; }},
+            .default_only = {row::needs_haze, row::isHazy},
+            .one_for_reference = "32",  // it integrates
+            .sweep = "0,8,32",
+            .for_surfaces = "0"},
+        &Settings::haze_march_steps);
+    visit(Field{.option = "spp",
+                .help = "samples per pixel of the reference",
+                .valid = {"1 to 65536",
+                          [](const Settings& s) { return s.spp >= 1 && s.spp <= row::most_samples; }},
+                .default_only = {row::needs_reference, row::isReference},
+                .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
+          &Settings::spp);
+    visit(Field{.option = "reference-mode",
+                .help = "what the reference shades",
+                .default_only = {row::needs_reference, row::isReference},
+                .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
+          &Settings::reference_mode);
+}
+
+template <class Self, class Visit>
+void Settings::fields(Self& self, Visit&& visit) {
+    rows([&](const Field& field, auto member) { visit(field, self.*member); });
+}
+
+}  // namespace diptych

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/captures.h"
+
+#include "shared/frame/debug_modes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr int lit_alone = static_cast<int>(gpu::DEBUG_lit);
+constexpr VkFormat of_lit = VK_FORMAT_B10G11R11_UFLOAT_PACK32, of_others = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+std::vector<int> everyMode() {
+    std::vector<int> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+    return modes;
+}
+
+// No two channels share a component, none is cut off, and what light changes is in the last images.
+TEST(Captures, EachChannelHasComponentsOfItsOwn) {
+    std::map<std::pair<gpu::uint, gpu::uint>, int> taken;
+    for (const DebugMode& mode : debugModes()) {
+        const auto [image, component] = placeInCaptures(mode.number);
+        ASSERT_LT(image, gpu::CAPTURE_IMAGES) << mode.name;
+        EXPECT_LE(component + static_cast<gpu::uint>(mode.width), 4u) << mode.name;
+        EXPECT_EQ(image >= gpu::FIRST_LIT_IMAGE, isShaded(mode.number)) << mode.name;
+        for (gpu::uint c = component; c < component + static_cast<gpu::uint>(mode.width); ++c)
+            EXPECT_EQ(taken.emplace(std::pair{image, c}, mode.number).first->second, mode.number)
+                << mode.name;
+    }
+    for (const int mode : {lit_alone, static_cast<int>(gpu::DEBUG_shaded_samples)})
+        for (const int other : everyMode())
+            if (other != mode) EXPECT_NE(placeInCaptures(other).image, placeInCaptures(mode).image) << other;
+    EXPECT_THROW(placeInCaptures(19), std::out_of_range);
+}
+
+// All that is asked for, once, images in their order; light in as few passes as hold it.
+TEST(Captures, PassesHoldWhatIsAskedFor) {
+    for (const std::size_t most : {std::size_t{8}, std::size_t{4}}) {
+        const auto groups = captureGroups(everyMode(), of_lit, most);
+        EXPECT_EQ(groups.size(), most == 8 ? 3u : 5u);
+        std::vector<int> modes;
+        gpu::uint all = 0;
+        for (const CaptureGroup& group : groups) {
+            EXPECT_LE(group.formats.size(), most);
+            EXPECT_EQ(group.formats.size(), static_cast<std::size_t>(std::popcount(group.images)));
+            EXPECT_GT(group.images, all) << "in the order of images";
+            EXPECT_EQ(group.images & all, 0u) << "an image is drawn twice";
+            all |= group.images;
+            modes.insert(modes.end(), group.modes.begin(), group.modes.end());
+        }
+        std::ranges::sort(modes);
+        EXPECT_EQ(modes, everyMode());
+        EXPECT_EQ(all, (1u << gpu::CAPTURE_IMAGES) - 1);
+        const auto shading = std::ranges::count_if(
+            groups, [](const CaptureGroup& group) { return group.images >> gpu::FIRST_LIT_IMAGE != 0; });
+        EXPECT_EQ(shading, most == 8 ? 1 : 2);
+    }
+}
+
+TEST(Captures, LightIsBesideSurfacesWhereItFits) {
+    const int albedo = static_cast<int>(gpu::DEBUG_albedo), metallic = static_cast<int>(gpu::DEBUG_metallic);
+    const auto groups = captureGroups(std::vector{lit_alone, metallic, albedo}, of_lit);
+    ASSERT_EQ(groups.size(), 1u);
+    EXPECT_EQ(groups[0].modes, (std::vector{albedo, metallic, lit_alone}));
+    EXPECT_EQ(groups[0].formats, (std::vector{of_others, of_lit}));
+    EXPECT_TRUE(captureGroups({}, of_lit).empty());
+}
+
+}  // namespace
+}  // namespace diptych
