@@ -253,16 +253,7 @@ void showWhole(const Options& options, const WholeReport& whole, const Report& s
                const fs::path& folder, const Trends* since, bool all) {
     if (options.json) {
         InputFile report(folder / "report.json");
-        std::string piece(1 << 16, '\0'), lines;
-        for (std::uint64_t left = report.size(); left > 0; left -= piece.size()) {
-            piece.resize(std::min<std::uint64_t>(left, piece.size()));
-            report.read(std::as_writable_bytes(std::span(piece)));
-            lines += piece;
-            const std::size_t end = lines.rfind('\n') + 1;  // no character is cut in two
-            printText(lines.substr(0, end));
-            lines.erase(0, end);
-        }
-        printText(lines);
+        printFile(report);
     } else if (!options.quiet) {
         const std::string exposures = wholeExposureLine(whole);
         printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/run/print.h"
 
+#include "shared/text/input_file.h"
 #include "shared/text/one_line.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <span>
 #include <string>
 
 namespace diptych {
@@ -12,6 +16,19 @@ void printText(std::string_view text, ColorChoice color) {
     const std::string shown = shownText(text);
     const std::string out = hasColor(color, stdout) ? colored(shown) : shown;
     std::fwrite(out.data(), 1, out.size(), stdout);
+}
+
+void printFile(InputFile& file) {
+    std::string piece(1 << 16, '\0'), lines;
+    for (std::uint64_t left = file.size(); left > 0; left -= piece.size()) {
+        piece.resize(std::min<std::uint64_t>(left, piece.size()));
+        file.read(std::as_writable_bytes(std::span(piece)));
+        lines += piece;
+        const std::size_t end = lines.rfind('\n') + 1;  // no character is cut in two
+        printText(lines.substr(0, end));
+        lines.erase(0, end);
+    }
+    printText(lines);
 }
 
 void printMessage(std::string_view message) {

@@ -13,8 +13,13 @@
 
 namespace diptych {
 
+class InputFile;
+
 // On stdout; lines end where the text says so.
 void printText(std::string_view text, ColorChoice color = ColorChoice::off);
+
+// The whole of a file, in pieces of about 64 KiB.
+void printFile(InputFile& file);
 
 template <typename... Values>
 void printOut(fmt::format_string<Values...> format, Values&&... values) {

@@ -127,8 +127,8 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
         comparison.failures.push_back(std::move(fault));
     else
         comparison.notes.push_back(surfaces.inWords());
-    for (std::size_t i = 0; i < surfaces.others.size(); ++i)
-        if (surfaces.others[i] != 0) comparison.coverage.covered[i] = 0;
+    std::ranges::transform(comparison.coverage.covered, surfaces.others, comparison.coverage.covered.begin(),
+                           [](auto covered, auto other) { return other != 0 ? 0 : covered; });
     comparison.coverage.count -= surfaces.count();
 }
 

@@ -5,6 +5,8 @@
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/environment.h"
+#include "shared/environment/environment_maps.h"
+#include "shared/environment/octahedral_map.h"
 #include "tests/image/square.h"
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <set>
 
 namespace diptych::tests {
@@ -139,6 +142,77 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
             for (const int x : {0, 4, 8})
                 EXPECT_NEAR(colorAt(frame, skySpecular, x, 8).x, colorAt(frame, skyAmbient, x, 8).x, 3e-3f)
                     << frame.name << " " << roughness << " " << x;
+    }
+}
+
+// What shaders/lib/environment.glsl takes by samples of a mirror-like or rough white metal in z = 0, in
+// double: each reads the level whose texels are as large as its share of the solid angle.
+double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dvec3& v, int count,
+                    double bias) {
+    const double alpha = roughness * roughness, pi = std::numbers::pi;
+    const auto lambda = [&](double cosine) {
+        return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1);
+    };
+    const glm::dvec3 up = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
+    const glm::dvec3 t1 = glm::normalize(glm::dvec3(-up.y, up.x, 0)), t2 = glm::cross(up, t1);
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+        double reversed = 0;
+        for (int bit = 0; bit < 32; ++bit) reversed += (i >> bit & 1) * std::exp2(-bit - 1);
+        const double turn = (reversed + 0.5 / count) * 2 * pi, radius = std::sqrt((i + 0.5) / count);
+        const double p1 = radius * std::cos(turn), s = 0.5 * (1 + up.z);
+        const double p2 = (1 - s) * std::sqrt(1 - p1 * p1) + s * radius * std::sin(turn);
+        glm::dvec3 h = t1 * p1 + t2 * p2 + up * std::sqrt(std::max(1 - p1 * p1 - p2 * p2, 0.0));
+        h = glm::normalize(glm::dvec3(alpha * h.x, alpha * h.y, h.z));
+        const glm::dvec3 l = 2 * glm::dot(v, h) * h - v;
+        if (l.z <= 0) continue;
+        const double t = h.z * h.z * (alpha * alpha - 1) + 1;
+        const double density = alpha * alpha / (pi * t * t * 4 * v.z * (1 + lambda(v.z)));
+        // The map has 4 / side^2 of [-1, 1]^2 a texel, of |d|_1^3 as much in sr (octahedral_map.h).
+        const double l1 = std::abs(l.x) + std::abs(l.y) + std::abs(l.z), side = maps.levels[0].side;
+        const double texel = 4 / (side * side) * l1 * l1 * l1;
+        const double last = static_cast<double>(maps.levels.size()) - 1;
+        const double mip = std::clamp(0.5 * std::log2(1 / (count * density) / texel) + bias, 0.0, last);
+        const auto lower = static_cast<std::size_t>(std::min(mip, last - 1));
+        const glm::vec2 place = octahedralPlace(glm::vec3(l));
+        sum +=
+            glm::mix(double{maps.levels[lower].interpolated(place).x},
+                     double{maps.levels[lower + 1].interpolated(place).x}, mip - static_cast<double>(lower)) *
+            (1 + lambda(v.z)) / (1 + lambda(v.z) + lambda(l.z));
+    }
+    return sum / count;
+}
+
+// Under a sky of noise, each level of which is another picture.
+TEST(EnvironmentLight, ASampleReadsTheLevelOfItsSolidAngle) {
+    Scene scene = square();
+    Image noise(64, 32, 3);
+    std::mt19937 random(4);
+    for (std::size_t i = 0; i < noise.pixels(); ++i)
+        std::fill_n(noise.pixel(i), 3, static_cast<float>(random() % 1000) / 500);
+    scene.environment = Environment{"noise", noise};
+    scene.materials[0].metallic = 1;
+    scene.materials[0].base_color = {1, 1, 1, 1};
+    Settings settings = underSky({17, 17});
+    settings.ibl = Ibl::sampled;
+    settings.ibl_samples = 16;
+    settings.ambient = {1, 1, 1};
+    const EnvironmentMaps maps = makeEnvironmentMaps(*scene.environment, {.quality = {}, .prefilter = false});
+    for (const auto& [roughness, bias] :
+         {std::pair(0.3f, 0.0f), std::pair(0.6f, 0.0f), std::pair(0.4f, 0.5f)}) {
+        scene.materials[0].roughness = roughness;
+        settings.ibl_bias = bias;
+        Renderer renderer(device(), scene, pipelines());
+        const Frame frame = drawnBy(Path::forward_plus, renderer, settings, shown);
+        for (int y = 0; y < 17; y += 4)
+            for (int x = 0; x < 17; x += 4) {
+                if (x == 8 && y == 8) continue;  // where every axis across the view is right
+                const glm::dvec3 p((x + 0.5) / 8.5 - 1, 1 - (y + 0.5) / 8.5, 0);
+                const double expected = sampledWhite(
+                    maps, double{roughness}, glm::normalize(glm::dvec3(0, 0, 1) - p), 16, double{bias});
+                EXPECT_NEAR(colorAt(frame, skySpecular, x, y).x, expected, 1e-3 * expected)
+                    << roughness << " " << bias << " " << x << "," << y;
+            }
     }
 }
 

@@ -368,6 +368,29 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
+// A shadow that is missing is the sun's whose shadow it is, though that sun lights nothing there where
+// shadows are drawn.
+TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
+    const Scene scene = loadScene("builtin:suns");
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = explained({64, 36});
+    settings.shadows = Shadows::pcf;
+    const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
+    Settings without = settings;
+    without.shadows = Shadows::off;
+    Frame test = drawnBy(Path::forward_plus, renderer, without, withTerms());
+    test.settings = right.settings;
+    for (const auto& [baseline, other] :
+         {std::pair<const Frame*, const Frame*>(&right, &test), {&test, &right}}) {
+        const Explanation e = explain(device(), renderer, scene, *baseline, *other);
+        ASSERT_FALSE(e.causes.empty());
+        EXPECT_EQ(e.causes.front().name, "shadow_visibility");
+        ASSERT_EQ(e.causes.front().lights.size(), 1u);
+        EXPECT_EQ(e.causes.front().lights[0].light, 0u) << "the first sun alone casts";
+        EXPECT_NEAR(e.causes.front().lights[0].share, e.causes.front().share, 1e-3 * e.causes.front().share);
+    }
+}
+
 // Without terms the same difference is what no cause explains.
 TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
     Planted planted("builtin:points", {32, 18});

@@ -268,6 +268,44 @@ TEST(TransparencyModes, AListWithoutRoomKeepsTheNearest) {
     EXPECT_LT(worst, 2e-6);
 }
 
+// Lists that no buffer holds for the whole picture are made a part of its rows at a time; what found no room
+// in any part is counted.
+TEST(TransparencyModes, WhatFindsNoRoomIsCountedInEveryPart) {
+    constexpr int listed_layers = 256, blended_layers = listed_layers + 3;
+    Builder b;
+    Camera& camera = b.camera("front", {0, 0, 2}, {0, 0, 0}, 20, 0.5, 10);
+    camera.orthographic = true;
+    camera.ymag = 1;
+    const int blended = b.material("layers", {glm::vec3(1), 0, 0.5f});
+    b.scene.materials.back().unlit = true;
+    b.scene.materials.back().alpha_mode = AlphaMode::blend;
+    b.scene.materials.back().base_color.a = 0.5f;
+    // A few pixels at the top of the picture and a few at its bottom.
+    for (int layer = 0; layer < blended_layers; ++layer)
+        for (const double y : {-0.95, 0.9})
+            b.add("layer", quad({0, y, layer * 1e-3}, {0.05, 0, 0}, {0, 0.05, 0}), blended, glm::dvec3(0.0));
+    Settings settings = pictureOf(Transparency::list);
+    settings.size = {256, 192};
+    settings.transparency_layers = listed_layers;
+    FragmentLists::Overflow overflow;
+    std::uint32_t rows = 0;
+    const Image made = litWith(b.scene, settings, nothing, [&](PreparedView& view) {
+        overflow = view.fragments.overflow();
+        rows = view.fragments.rows();
+    });
+    if (rows >= 192) GTEST_SKIP() << "this device's buffers hold the whole picture";
+    std::size_t pixels = 0, above = 0;
+    for (std::size_t i = 0; i < made.pixels(); ++i) {
+        const bool shows = made.pixel(i)[0] > 0.5f;
+        pixels += shows;
+        above += shows && i < std::size_t{256} * rows;
+    }
+    EXPECT_GT(above, 0u);
+    EXPECT_GT(pixels, above) << "the parts have some each";
+    EXPECT_EQ(overflow.pixels, pixels);
+    EXPECT_EQ(overflow.fragments, pixels * (blended_layers - listed_layers));
+}
+
 TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
     const auto shuffledBy = [](unsigned seed) {
         return [seed](PreparedView& view) {

@@ -255,5 +255,39 @@ TEST(Air, AMarchComesToTheIntegral) {
     }
 }
 
+// A ray that goes down ever so little has no end, and its steps end where nothing comes through any more: a
+// fifth of a scale height to one lower, wherever it begins.
+TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
+    const Light sun = sunTowards({0.3, -0.6, -1}, modestSun);
+    for (const Medium& medium : {media[0], media[2]}) {
+        Settings settings = settingsOf(medium);
+        settings.ambient = {0.1f, 0.1f, 0.1f};
+        settings.haze_march_steps = 64;
+        const reference::Air air = airOfSettings(settings, &sun);
+        // Air, in metres of that at height 0, of which a ray meets no more.
+        const HazeNumbers numbers = hazeNumbers(settings, &sun, {0, 0, 0});
+        const double most = double{gpu::HAZE_ENDLESS_DEPTH} / double{numbers.haze.extinction.x},
+                     scale = 1 / double{numbers.haze.inverse_height};
+        AirProbe probe;
+        std::vector<reference::Hazed> truth;
+        for (const double height : {0.0, 1.0, 2.0, 4.0})
+            for (const double fall : {0.2, 0.5, 1.0, 1.5}) {
+                // What has met `most` on its way down to a density e^fall times that where it began.
+                const double up = -std::exp(-height) * std::expm1(fall) * scale / most;
+                const glm::dvec3 away(glm::vec3(std::sqrt(1 - up * up), up, 0));
+                const Ray ray{double{static_cast<float>(height * scale)}, away, endless};
+                probe.add(settings, &sun, ray);
+                truth.push_back(reference::Haze(air, {0, ray.height, 0}).along({}, ray.away, ray.reach));
+            }
+        const std::vector<reference::Hazed> hazed = probe.run();
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const double light = std::max({truth[i].scattered.x, truth[i].scattered.y, truth[i].scattered.z});
+            EXPECT_GT(light, 0.05) << medium.name << i;
+            // Measured: at most 1.7e-5 W/(sr m^2).
+            EXPECT_LT(apart(hazed[i].scattered, truth[i].scattered), 3e-5) << medium.name << i;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace diptych

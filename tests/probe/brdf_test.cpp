@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shipped BRDF against closed forms and tables.
 #include "compare/reference/brdf.h"
+#include "shared/contract/features.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -241,6 +242,23 @@ TEST(Brdf, IsTheReferences) {
     }
     EXPECT_GT(below, 20) << "no microfacet that faces down is tried";
     EXPECT_GT(sharp, 20) << "no highlight of the least roughness is tried";
+}
+
+// A quarter of what enters the base passes it: the other three are diffuse light, and the layer reflects as
+// before.
+TEST(Brdf, WhatPassesTheSurfaceIsNotDiffuse) {
+    Probes probes;
+    std::vector<float> input;
+    for (const double metallic : {0.0, 0.5})
+        for (const double mu : {0.2, 0.9})
+            push(input, direction(mu, 0), direction(0.6, 2), {.roughness = 0.4, .metallic = metallic});
+    const std::vector<float> opaque = probes.run("brdf", input, 11, 2),
+                             glass = probes.run("brdf", input, 11, 2, {gpu::FEATURE_transmission, 1});
+    for (std::size_t i = 0; i < opaque.size(); i += 2) {
+        EXPECT_GT(opaque[i], 0.01) << i;
+        EXPECT_FLOAT_EQ(glass[i], 0.75f * opaque[i]) << i;
+        EXPECT_EQ(glass[i + 1], opaque[i + 1]) << i;
+    }
 }
 
 // A mirror's alpha is kept at the smallest roughness: finite, and the same as that roughness gives.

@@ -525,6 +525,7 @@ TEST(Command, SeveralScenesAndCamerasMakeOneReport) {
     const Json report = parsed(ran);
     EXPECT_EQ(report["frames"].size(), 8u);
     EXPECT_EQ(report["comparisons"].size(), 4u);
+    EXPECT_TRUE(ran.out == contentsOf(folder / "diptych-report/report.json")) << "byte for byte";
 }
 
 TEST(Command, SeveralFramesGetAFolderEach) {

@@ -15,6 +15,7 @@ void main() {
     s.albedo = vec3(IN(11, 8));
     s.dielectric_f0 = vec3(IN(11, 9));
     s.dielectric_f90 = IN(11, 10);
+    s.transmission = 0.25;  // which feature_transmission alone minds
     vec3 v = IN3(11, 0), l = IN3(11, 3);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     addLight(makeBrdf(s, v), s.normal, v, l, vec3(1.0), diffuse, specular);

@@ -164,6 +164,24 @@ TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
     EXPECT_EQ(all.result.left_out, 1u) << "compact; full was not drawn: it is slower";
 }
 
+// Nothing is within the budget: a scene proposes its path's first candidate and its most accurate one.
+TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
+    Choice own;
+    for (const auto& [settings, error] :
+         {std::pair(compactOne, 0.5), std::pair(fullOne, 0.03), std::pair(standardOne, 0.03)})
+        own.candidates.push_back({.settings = settings, .judged = Judged{error, 1000}});
+    KnownLab lab({});
+    const Choice* const pointer = &own;
+    CommonOptions options;
+    options.budget = {.error = 0.02, .ms = {}, .bytes = {}};
+    const CommonChoice all = chooseForAll(
+        std::span(&pointer, 1), [&](std::size_t) -> Lab& { return lab; }, options);
+    ASSERT_EQ(all.candidates.size(), 2u);
+    EXPECT_EQ(all.candidates[0].settings, compactOne);
+    EXPECT_EQ(all.candidates[1].settings, fullOne);
+    EXPECT_EQ(lab.judged, 0u) << "both are known";
+}
+
 TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {
     const Budget budget{.error = 0.1, .ms = 10, .bytes = 100};
     EXPECT_EQ(missOf({0.1, 100}, 10, budget), 0);

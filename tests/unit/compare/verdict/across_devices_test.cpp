@@ -4,6 +4,7 @@
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/device_bounds.h"
+#include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"
@@ -153,6 +154,25 @@ TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
     EXPECT_EQ(faults(), "");
     across_.surface_at = [](int material, const float*, double, bool) { return material == 0; };
     EXPECT_NE(faults().find("show another triangle"), std::string::npos);
+}
+
+// A surface of the same depth is sought as far away as both devices' steps of 1/16 of a pixel reach at the
+// pixel's depth, and by as much more as a depth rounds.
+TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthIsSoughtWithinAStepAndRounding) {
+    constexpr int at_x = 5, at_y = 9;
+    *there(gpu::DEBUG_material_id, at_x, at_y) = 1;
+    std::vector<double> reaches;
+    across_.surface_at = [&](int, const float*, double reach, bool) {
+        reaches.push_back(reach);
+        return true;
+    };
+    EXPECT_EQ(faults(), "");
+    const double pixel = 2 * std::tan(30 * 3.14159265358979 / 180) / across_side,
+                 depth = double{*at(0, gpu::DEBUG_depth).pixel(index(at_x, at_y))};
+    ASSERT_EQ(reaches.size(), 2u) << "in both pictures";
+    ASSERT_GT(relativeRounding(), 0);
+    for (const double reach : reaches)
+        EXPECT_NEAR(reach, depth * (pixel / 16 + relativeRounding()), 1e-3 * depth * relativeRounding());
 }
 
 TEST_F(AcrossDevicesPair, DepthMayMoveByTheStepsOfBothDevicesAndNotFurther) {

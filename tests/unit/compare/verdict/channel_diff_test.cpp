@@ -75,6 +75,30 @@ TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
     EXPECT_EQ(verdict({"a GPU", "1.0", "discrete"}), Verdict::fail) << "20 ULP of a half";
 }
 
+// What is wrong with the numbers is said before the figure; of a black baseline, whose relative error has no
+// number either, behind it.
+TEST(ChannelDiff, SaysWhyAnErrorIsInfinite) {
+    std::vector<Frame> frames = framesOf(gpu::DEBUG_metallic);
+    float &here = frames[0].channels.at(gpu::DEBUG_metallic).at(1, 2),
+          &there = frames[1].channels.at(gpu::DEBUG_metallic).at(1, 2);
+    const auto reason = [&](gpu::uint mode) { return channelIn(comparedPair(frames), mode).reason; };
+    there = 0.75f;
+    EXPECT_TRUE(reason(gpu::DEBUG_metallic).starts_with("max 0.25 exceeds")) << reason(gpu::DEBUG_metallic);
+    here = std::nanf("");
+    there = HUGE_VALF;
+    EXPECT_TRUE(
+        reason(gpu::DEBUG_metallic)
+            .starts_with("NaN or infinity at 1 pixel(s) of deferred and 1 pixel(s) of forward_plus; max "
+                         "inf exceeds"))
+        << reason(gpu::DEBUG_metallic);
+
+    frames = framesOf(gpu::DEBUG_lit);
+    std::ranges::fill(frames[0].channels.at(gpu::DEBUG_lit).data, 0.0f);
+    EXPECT_TRUE(
+        reason(gpu::DEBUG_lit).ends_with("; 1 pixel(s) have an infinite error: the baseline is 0 everywhere"))
+        << reason(gpu::DEBUG_lit);
+}
+
 // What two runs of a path differ by is granted of both paths together, and no more.
 TEST(ChannelDiff, TheNoiseOfBothPathsIsGranted) {
     std::vector<Frame> frames = framesOf(gpu::DEBUG_roughness);

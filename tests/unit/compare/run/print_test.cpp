@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A file is printed as it is, though it is read in pieces.
+#include "compare/run/print.h"
+#include "shared/text/input_file.h"
+#include "tests/support/files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+namespace diptych {
+namespace {
+
+// What stdout gets of a file that holds this.
+std::string printedOf(const std::string& text) {
+    const std::filesystem::path file = folder() / "report.json";
+    std::ofstream(file, std::ios::binary) << text;
+    InputFile opened(file);
+    testing::internal::CaptureStdout();
+    printFile(opened);
+    return testing::internal::GetCapturedStdout();
+}
+
+TEST(PrintFile, NoCharacterIsCutBetweenTwoPieces) {
+    constexpr std::size_t piece = std::size_t{1} << 16;
+    // A line end shortly before the end of the first piece, and a character of three bytes across it, which
+    // has one or two of them before it.
+    for (const std::size_t before : {piece - 1, piece - 2}) {
+        std::string text(before - 10, 'a');
+        text += "\nbbbbbbbbb\u20ac\n";
+        ASSERT_GT(text.size(), piece);
+        EXPECT_TRUE(printedOf(text) == text) << before;
+        // A line longer than a piece, without an end.
+        text = std::string(before, 'a') + "\u20ac" + std::string(2 * piece, 'b');
+        EXPECT_TRUE(printedOf(text) == text) << before;
+    }
+    for (const std::size_t size : {std::size_t{0}, piece, 2 * piece})
+        EXPECT_TRUE(printedOf(std::string(size, '\n')).size() == size) << size;
+}
+
+}  // namespace
+}  // namespace diptych
