@@ -22,7 +22,8 @@ vec3 normalizedOfAnySize(vec3 v) {
 // Of any length that float32 holds; 0 where it has none.
 vec3 unitVector(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    return largest > 0.0 ? normalized(v / largest) : vec3(0.0);
+    // A selection, not a branch: then a variant that does not read it does not read v either.
+    return mix(vec3(0.0), normalized(v / largest), bvec3(largest > 0.0));
 }
 
 // From a to b, exact at both ends.

@@ -108,7 +108,7 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
     const char* const name = "mark shadow pages";
     Variant variant;
     variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
-        .set(gpu::FEATURE_samples, inputs.variant.get(gpu::FEATURE_samples))
+        .set(gpu::FEATURE_samples, static_cast<gpu::uint>(inputs.samples))
         .set(gpu::FEATURE_depth_format, inputs.depth.kind);
     sets_.image(set, gpu::BINDING_CLIPMAP_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
