@@ -17,17 +17,18 @@ layout(location = 7) out vec4 out_7;
 
 bool isCaptured(uint image) { return (feature_captures >> image & 1u) != 0u; }
 
-void write(uint image, vec4 texel) {
+// Writes an image that the pass draws to the first location that is free.
+void write(uint image, vec4 texel, inout uint free) {
     if (!isCaptured(image)) return;
-    uint before = bitCount(feature_captures & ((1u << image) - 1u));
-    if (before == 0u) out_0 = texel;
-    if (before == 1u) out_1 = texel;
-    if (before == 2u) out_2 = texel;
-    if (before == 3u) out_3 = texel;
-    if (before == 4u) out_4 = texel;
-    if (before == 5u) out_5 = texel;
-    if (before == 6u) out_6 = texel;
-    if (before == 7u) out_7 = texel;
+    if (free == 0u) out_0 = texel;
+    if (free == 1u) out_1 = texel;
+    if (free == 2u) out_2 = texel;
+    if (free == 3u) out_3 = texel;
+    if (free == 4u) out_4 = texel;
+    if (free == 5u) out_5 = texel;
+    if (free == 6u) out_6 = texel;
+    if (free == 7u) out_7 = texel;
+    ++free;
 }
 
 // shaded: Surfaces that are shaded at the pixel, where it has several samples.
@@ -50,7 +51,8 @@ void capture(Surface s, float z, uint shaded) {
     }
     CAPTURES(CAPTURE)
 #undef CAPTURE
-    for (uint i = 0; i < CAPTURE_IMAGES; ++i) write(i, images[i]);
+    uint free = 0u;
+    for (uint i = 0; i < CAPTURE_IMAGES; ++i) write(i, images[i], free);
 }
 
 #endif
