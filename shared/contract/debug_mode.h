@@ -52,8 +52,8 @@
     X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer alone")
 // clang-format on
 
-// name  image  component: where a channel stands in the images of four components that captures draw, its first
-// component there. Images below FIRST_LIT_IMAGE hold what no light changes, so that drawing them shades
+// name  image  component: where a channel stands in the images of four components that captures draw, its
+// first component there. Images below FIRST_LIT_IMAGE hold what no light changes, so that drawing them shades
 // nothing. Of each image the channel at component 0 comes first. lit is alone, since it is blended into, and
 // shaded_samples, of which not the first sample counts but the most.
 // clang-format off

@@ -188,8 +188,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled) {
         Pass& pass = passes.compute("assign depth bounds");
-        const VkPipeline bounds =
-            kernel(Shader::light_depths_comp);
+        const VkPipeline bounds = kernel(Shader::light_depths_comp);
         pass.samples(depth, inCompute).uses(depths, write).record([=, this](VkCommandBuffer commands) {
             bind(commands);
             dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});

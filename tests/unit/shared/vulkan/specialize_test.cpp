@@ -352,21 +352,27 @@ TEST(Specialize, LeavesOutCapabilitiesThatNothingDemands) {
     EXPECT_FALSE(has(Shader::gbuffer_frag, 5379, {}));
 }
 
-// A block that loses an edge may come to depend on one that stands below it.
+// A block that loses an edge may come to depend on one that stands below it: %second then follows %first
+// alone.
 TEST(Specialize, ABlockStandsBelowThoseThatLeadToIt) {
     const SpirvWords words = fragmentShader(R"(
 OpSelectionMerge %after None
-OpSwitch %number %late 1 %early 2 %late
-%early = OpLabel
-%sum = OpFAdd %float %y %one
+OpSwitch %number %other 1 %first 2 %second
+%second = OpLabel
+%either = OpPhi %float %y %entry %sum %first
+OpStore %out %either
 OpBranch %after
-%late = OpLabel
+%first = OpLabel
+%sum = OpFAdd %float %x %one
+OpBranch %second
+%other = OpLabel
 OpBranch %after
 %after = OpLabel
 OpReturn
 )");
-    specializedText(words, 1, 0);
-    specializedText(words, 2, 0);
+    EXPECT_EQ(countOf(specializedText(words, 1, 0), "OpFAdd"), 1u);
+    EXPECT_EQ(countOf(specializedText(words, 2, 0), "OpFAdd"), 0u);
+    EXPECT_EQ(madeBelow(specializedBy(words, {1, 0})), 0u);
 }
 
 TEST(Specialize, TakesOneSideOfABranch) {
