@@ -86,8 +86,7 @@ ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, L
 }
 
 std::size_t mostCaptured(const FrameInputs& inputs) {
-    return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::CAPTURE_ATTACHMENTS
-                                                   : inputs.device.profile().sampled_captures;
+    return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::CAPTURE_ATTACHMENTS : gpu::CAPTURE_ATTACHMENTS / 2;
 }
 
 void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<CapturedImage> images) {

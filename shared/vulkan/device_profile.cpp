@@ -35,7 +35,6 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             // Measured: a loop with 16 two-sided branches takes 0.02 s, one with 32 does not end in 10 s.
             .flattens_branches =
                 info.driver.starts_with("SwiftShader") || choices == ProfileChoices::flattening_branches,
-            .sampled_captures = info.driver.starts_with("SwiftShader") ? 3u : 4u,
             .packets_per_draw = asSoftware ? 65'000u : 1u << 20,
             .fetches_depth = !asSoftware,
             .shades_failed_samples = asSoftware,

@@ -50,9 +50,6 @@ struct DeviceProfile {
     // The driver's compiler takes twice as long for every branch inside a loop: pipelines are made of modules
     // whose branches are selections (flattened() of flatten.h).
     bool flattens_branches = false;
-    // Images of a capture pass with several samples a pixel. SwiftShader takes derivatives at edges of
-    // triangles wrongly where a pass draws to four of 128 bits.
-    std::uint32_t sampled_captures = 4;
     // Light packets that one draw may walk at a pixel; longer lists are walked by several draws. Mesa
     // lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together, of which
     // some are left for other loops.
