@@ -94,10 +94,10 @@ struct Reflected {
     vec3 lobe;      // 1/sr
 };
 
-// The specular lobe in floats of 16 bits, which a device may lack, as renderers for phones have it: what a surface reflects, while
-// light and its sums stay in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 / pi of a half vector of
-// unit length, so that nothing small is squared, and is cut at what 16 bits hold; the visibility term is cut
-// where it would be infinite.
+// The specular lobe in floats of 16 bits, which a device may lack, as renderers for phones have it: what a
+// surface reflects, while light and its sums stay in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 /
+// pi of a half vector of unit length, so that nothing small is squared, and is cut at what 16 bits hold; the
+// visibility term is cut where it would be infinite.
 float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
     f16vec3 n_cross_h = n.yzx * h.zxy - n.zxy * h.yzx;
     float16_t alpha = float16_t(b.alpha), alpha2 = float16_t(b.alpha2), n_dot_v = float16_t(b.n_dot_v);

@@ -9,8 +9,8 @@
 
 #include "shaders/lib/contract.glsl"
 
-// Whether two numbers of 32 bits are loaded as one of 64, where they lie so, which a device may lack. lavapipe
-// takes a quarter of the time.
+// Whether two numbers of 32 bits are loaded as one of 64, where they lie so, which a device may lack.
+// lavapipe takes a quarter of the time.
 #ifdef STAGE_comp
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 bool loadsPairs() { return (feature_posed_parts & POSED_PAIRS) != 0; }

@@ -48,11 +48,12 @@ void main() {
             // Beyond the picture's edge the last pixel is repeated.
             if (multisampled()) {
                 ivec2 last = size() - 1;
+                ivec2 right = min(p + ivec2(1, 0), last), below = min(p + ivec2(0, 1), last);
                 int s = 0;
                 do {
                     add(reversedDepth(texelFetch(depth_samples, p, s).r), near, deep);
-                    add(reversedDepth(texelFetch(depth_samples, min(p + ivec2(1, 0), last), s).r), near, deep);
-                    add(reversedDepth(texelFetch(depth_samples, min(p + ivec2(0, 1), last), s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, right, s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, below, s).r), near, deep);
                     add(reversedDepth(texelFetch(depth_samples, min(p + 1, last), s).r), near, deep);
                 } while (++s < int(feature_samples));
             } else {
