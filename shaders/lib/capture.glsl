@@ -37,7 +37,7 @@ void capture(Surface s, float z, uint shaded) {
     Radiance radiance = noRadiance();
     if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
         radiance = shade(s, lights);
-        // Which an earlier batch has shaded with.
+        // An earlier batch has shaded with it.
         if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
     }
     vec4 images[CAPTURE_IMAGES];

@@ -5,7 +5,7 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-// As many as the scene needs; those that it lacks leave no gap.
+// A scene has as many attachments as it needs; those that it lacks leave no gap.
 layout(location = 0) out uvec4 out_albedo;
 layout(location = 1) out uvec4 out_normals;
 layout(location = 2) out uvec4 out_params;

@@ -9,7 +9,7 @@
 
 namespace diptych {
 
-// What several rows say.
+// Several rows share these words and checks.
 namespace row {
 
 inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";

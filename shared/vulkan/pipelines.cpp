@@ -42,7 +42,7 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
         refuse(site, name, "it lacks depth clamping; choose another device with --device");
 }
 
-// The module without what the variant switches off. `outputs`: those that the next stage reads.
+// Cuts the module down to the variant. `outputs`: locations that the next stage reads.
 std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
                                             const Variant& variant,
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
