@@ -2,7 +2,7 @@
 #include "compare/probe/device_rows.h"
 
 #include "compare/probe/modules.h"
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/pipelines.h"
 #include "shared/vulkan/resources.h"
 
 #include <algorithm>
@@ -17,19 +17,20 @@ constexpr std::uint32_t row_group = 64;            // local_size_x of rows.glsl
 constexpr std::uint32_t function_constant = 1000;  // of rows.glsl
 constexpr std::array row_bindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-OwnedShaderModule moduleOf(Device& device, const std::string& name) {
-    for (const ShaderModule& module : probe::shaderModules()) {
-        if (module.name != name) continue;
-        const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                            .pNext = nullptr,
-                                            .flags = 0,
-                                            .codeSize = module.words.size_bytes(),
-                                            .pCode = module.words.data()};
-        VkShaderModule made = VK_NULL_HANDLE;
-        checkResult(vkCreateShaderModule(device.handle(), &info, nullptr, &made), "vkCreateShaderModule");
-        return {device.handle(), made};
-    }
+const ShaderModule& moduleOf(const std::string& name) {
+    for (const ShaderModule& module : probe::shaderModules())
+        if (module.name == name) return module;
     throw std::logic_error("no shader of probes is called " + name);
+}
+
+// The value of a specialization constant that is not among the probe's is 0.
+SpecializationValue valueOf(const Probe& probe) {
+    return [&probe](std::uint32_t id) {
+        if (id == function_constant) return probe.function;
+        const auto found =
+            std::ranges::find(probe.features, id, &std::pair<std::uint32_t, std::uint32_t>::first);
+        return found == probe.features.end() ? 0u : found->second;
+    };
 }
 
 }  // namespace
@@ -40,33 +41,6 @@ DeviceRows::DeviceRows(Device& device) : device_(device), set_(makeSetLayout(dev
         device, sets, VkPushConstantRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, 3 * sizeof(std::uint32_t)});
 }
 
-OwnedPipeline DeviceRows::pipelineOf(const Probe& probe) {
-    const OwnedShaderModule module = moduleOf(device_, probe.shader);
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
-    const auto specialise = [&](std::uint32_t id, std::uint32_t value) {
-        entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof(value)), sizeof(value)});
-        values.push_back(value);
-    };
-    specialise(function_constant, probe.function);
-    for (const auto& [id, value] : probe.features) specialise(id, value);
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              values.size() * sizeof values[0], values.data()};
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module;
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &specialization;
-    info.layout = layout_;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(
-        vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
-        "vkCreateComputePipelines");
-    return {device_.handle(), pipeline};
-}
-
 std::vector<float> DeviceRows::run(const Probe& probe, const std::vector<float>& in) {
     const std::size_t rows = in.size() / probe.ins;
     std::vector<float> out(rows * probe.outs);
@@ -74,7 +48,8 @@ std::vector<float> DeviceRows::run(const Probe& probe, const std::vector<float>&
         for (std::size_t i = 0; i < rows; ++i) probe.host(&in[i * probe.ins], &out[i * probe.outs]);
         return out;
     }
-    const OwnedPipeline pipeline = pipelineOf(probe);
+    const OwnedPipeline pipeline =
+        makePipeline(siteOf(device_, layout_), moduleOf(probe.shader), valueOf(probe));
     const GpuBuffer from(device_, "probe inputs", in.size() * sizeof(float),
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::upload);
     const GpuBuffer to(device_, "probe outputs", out.size() * sizeof(float),

@@ -17,8 +17,6 @@ public:
     std::vector<float> run(const Probe& probe, const std::vector<float>& in);
 
 private:
-    OwnedPipeline pipelineOf(const Probe& probe);
-
     Device& device_;
     OwnedDescriptorSetLayout set_;
     OwnedPipelineLayout layout_;

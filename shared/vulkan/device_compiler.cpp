@@ -120,7 +120,7 @@ void DeviceCompiler::State::tryPipelines() const {
                            .fragment = Shader::probe_rounding_frag,
                            .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
     makePipeline(site, draw, plainParts(draw));
-    makePipeline(site, shaderModule(Shader::cull_clusters_comp), {});
+    makePipeline(site, shaderModule(Shader::cull_clusters_comp), valueOf({}));
 }
 
 DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
@@ -277,15 +277,15 @@ CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) 
     try {
         if (request.kernel != nullptr) {
             // RADV divides by zero where not one workgroup fits.
-            const std::uint64_t shared = sharedBytes(specialized(
-                request.kernel->words, [&](std::uint32_t id) { return request.kernel_variant.get(id); }));
+            const SpecializationValue value = valueOf(request.kernel_variant);
+            const std::uint64_t shared = sharedBytes(specialized(request.kernel->words, value));
             if (shared > support.limits().maxComputeSharedMemorySize) {
                 compiled.error = fmt::format("asks for {} bytes of shared memory; there are {}", shared,
                                              support.limits().maxComputeSharedMemorySize);
                 return compiled;
             }
-            compiled.shaders = shadersOf(makePipeline(site, *request.kernel, request.kernel_variant),
-                                         std::array{request.kernel});
+            compiled.shaders =
+                shadersOf(makePipeline(site, *request.kernel, value), std::array{request.kernel});
         } else {
             if (compiled.error = lackedFormats(request.key); !compiled.error.empty()) return compiled;
             const PipelineParts parts = request.choose(request.key);

@@ -44,10 +44,9 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
 
 // Cuts the module down to the variant. `outputs`: locations that the next stage reads.
 std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
-                                            const Variant& variant,
+                                            const SpecializationValue& value,
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
-    auto words = specialized(
-        module.words, [&](std::uint32_t id) { return variant.get(id); }, outputs);
+    auto words = specialized(module.words, value, outputs);
     if (const auto problem = moduleProblem(site.support, words))
         refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
     return site.flattens_branches ? flattened(words) : words;
@@ -113,6 +112,19 @@ PipelineParts plainParts(const PipelineKey& key) {
             {}};
 }
 
+PipelineSite siteOf(Device& device, VkPipelineLayout layout) {
+    return {.device = device.handle(),
+            .support = device.support(),
+            .info = device.info(),
+            .layout = layout,
+            .cache = device.pipelineCache(),
+            .flattens_branches = device.profile().flattens_branches};
+}
+
+SpecializationValue valueOf(const Variant& variant) {
+    return [variant](std::uint32_t id) { return variant.get(id); };
+}
+
 OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
     checkPipeline(site, key, parts);
     std::vector<OwnedShaderModule> code;
@@ -121,10 +133,11 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
         code.push_back(makeModule(site, words));
         stages.push_back(stageOf(stage, code.back()));
     };
+    const SpecializationValue value = valueOf(key.variant);
     std::vector<std::uint32_t> fragment;
-    if (parts.fragment != nullptr) fragment = specializedWords(site, *parts.fragment, key.variant);
+    if (parts.fragment != nullptr) fragment = specializedWords(site, *parts.fragment, value);
     const std::vector<std::uint32_t> vertex =
-        specializedWords(site, *parts.vertex, key.variant, inputLocations(fragment));
+        specializedWords(site, *parts.vertex, value, inputLocations(fragment));
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
     // Attributes that this variant does not read are not fetched.
@@ -220,8 +233,9 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
     return {site.device, pipeline};
 }
 
-OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant) {
-    const OwnedShaderModule code = makeModule(site, specializedWords(site, module, variant));
+OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
+                           const SpecializationValue& value) {
+    const OwnedShaderModule code = makeModule(site, specializedWords(site, module, value));
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = site.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
@@ -232,19 +246,6 @@ OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
                 "vkCreateComputePipelines");
     return {site.device, pipeline};
 }
-
-namespace {
-
-PipelineSite siteOf(Device& device, VkPipelineLayout layout) {
-    return {.device = device.handle(),
-            .support = device.support(),
-            .info = device.info(),
-            .layout = layout,
-            .cache = device.pipelineCache(),
-            .flattens_branches = device.profile().flattens_branches};
-}
-
-}  // namespace
 
 std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     struct Missing {
@@ -279,7 +280,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
 VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
     if (PipelineCompiler* const compiler = device_.compiler()) compiler->ask(layout, module, variant);
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
-    if (isNew) entry->second = makePipeline(siteOf(device_, layout), module, variant);
+    if (isNew) entry->second = makePipeline(siteOf(device_, layout), module, valueOf(variant));
     return entry->second;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/vulkan/device.h"
+#include "shared/vulkan/specialize.h"
 #include "shared/vulkan/spirv.h"
 #include "shared/vulkan/variant.h"
 
@@ -72,11 +73,14 @@ struct PipelineSite {
     VkPipelineCreateFlags flags = 0;
     bool flattens_branches = false;  // DeviceProfile
 };
+PipelineSite siteOf(Device& device, VkPipelineLayout layout);
+SpecializationValue valueOf(const Variant& variant);
 // Throws std::runtime_error that names what the device lacks. Triangles; viewport, scissor, cull mode and
 // front face are dynamic.
 OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts);
 // A compute shader whose dispatches may begin at any workgroup.
-OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module, const Variant& variant);
+OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
+                           const SpecializationValue& value);
 
 class Pipelines {
 public:
