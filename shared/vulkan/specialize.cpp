@@ -653,8 +653,6 @@ private:
             if (const std::uint32_t result = resultOf(instruction(at)); result != 0) made[result] = at;
         for (std::size_t at = 0; at < code.size(); at += code[at] >> 16) {
             eachId(instructionAt(code, at), name);
-            interpolates_ |=
-                opOf(instructionAt(code, at)) == OpExtInst && code[at + 4] >= extendedInterpolates;
             demotes_ |= opOf(instructionAt(code, at)) == OpDemoteToHelperInvocation;
         }
         for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16) {
@@ -687,7 +685,8 @@ private:
         return 0;
     }
 
-    // Whether what demands a capability is left; of others nobody asks.
+    // Whether a capability is still needed. InterpolationFunction always stays: without it SwiftShader takes
+    // the inputs of a partly covered pixel away from its middle, so that derivatives are wrong at edges.
     bool isDemanded(std::uint32_t capability) const {
         switch (capability) {
             case capabilityFloat16:
@@ -696,8 +695,6 @@ private:
                 return needs64_;
             case capabilityStorageImageMultisample:
                 return stores_samples_;
-            case capabilityInterpolationFunction:
-                return interpolates_;
             case capabilityDemoteToHelperInvocation:
                 return demotes_;
             default:
@@ -821,7 +818,7 @@ private:
     std::vector<std::uint32_t> pending_, constants_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> undefined_;  // of such a loop's phi
     std::vector<std::uint32_t> out_;
-    bool needs16_ = false, needs64_ = false, stores_samples_ = false, interpolates_ = false, demotes_ = false;
+    bool needs16_ = false, needs64_ = false, stores_samples_ = false, demotes_ = false;
 };
 
 }  // namespace

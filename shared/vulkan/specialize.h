@@ -22,7 +22,7 @@ using SpecializationValue = std::function<std::uint32_t(std::uint32_t id)>;
 // by instruction, so that what is computed does not change by a bit. Code that no constant lets run is left
 // out, as are results that nothing reads, and every input, output, binding, type and name that the code which
 // is left does not name, with the capabilities that they alone demanded: floats of 16 bits, integers of 64,
-// stored samples, interpolation at a place, helper invocations. `outputs`: the locations that the next stage
+// stored samples, helper invocations. `outputs`: the locations that the next stage
 // reads; nothing is stored at others. In time linear in its length. Throws std::logic_error where the module
 // is no such one.
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,

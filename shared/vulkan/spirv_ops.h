@@ -115,7 +115,7 @@ inline constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51, extendedIn
 
 // Capabilities that something demands which a variant may lack.
 inline constexpr std::uint32_t capabilityFloat16 = 9, capabilityInt64 = 11,
-                               capabilityStorageImageMultisample = 27, capabilityInterpolationFunction = 52,
+                               capabilityStorageImageMultisample = 27,
                                capabilityDemoteToHelperInvocation = 5379;
 
 inline constexpr std::uint32_t magicNumber = 0x07230203, headerWords = 5;
