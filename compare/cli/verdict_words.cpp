@@ -14,7 +14,7 @@ namespace diptych::cli {
 namespace {
 
 // Collects "--option value" for options that differ from their defaults; numbers keep all their digits.
-class Words {
+class WordList {
 public:
     template <class T>
     void add(const char* option, const T& value, const T& usual) {
@@ -37,7 +37,7 @@ private:
     }
 };
 
-void addSelection(Words& words, const SelectionOptions& selection) {
+void addSelection(WordList& words, const SelectionOptions& selection) {
     words.add("--mask", selection.mask, std::string());
     if (!selection.ids.empty())
         words.words.insert(words.words.end(), {"--ids", fmt::format("{}", fmt::join(selection.ids, ","))});
@@ -48,7 +48,7 @@ void addSelection(Words& words, const SelectionOptions& selection) {
                                                   selection.crop->width, selection.crop->height)});
 }
 
-void addFlags(Words& words, const Options& options) {
+void addFlags(WordList& words, const Options& options) {
     if (options.strict) words.words.emplace_back("--strict");
     if (options.allow_empty) words.words.emplace_back("--allow-empty");
 }
@@ -56,7 +56,7 @@ void addFlags(Words& words, const Options& options) {
 }  // namespace
 
 std::vector<std::string> wordsOfWhatCounts(const Options& options) {
-    Words words;
+    WordList words;
     words.add("--tolerances", options.tolerances.string(), std::string());
     if (options.command == "diff") {
         const PictureDiffOptions &diff = options.diff, usual;

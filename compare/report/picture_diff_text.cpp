@@ -183,14 +183,14 @@ Json jsonOf(const PictureDiff& diff) {
     return json;
 }
 
-std::string textOf(const Json& json) {
+std::string linesOf(const Json& json) {
     return jsonText(json) + "\n";
 }
 
 }  // namespace
 
 std::string pictureDiffJson(const PictureDiff& diff) {
-    return textOf(jsonOf(diff));
+    return linesOf(jsonOf(diff));
 }
 
 bool FolderDiff::passed() const {
@@ -240,7 +240,7 @@ std::string folderDiffJson(const FolderDiff& diff) {
     }
     for (const SceneError& error : diff.errors)
         errors.push_back({{"name", error.scene}, {"message", error.message}});
-    return textOf({{"schema", 1},
+    return linesOf({{"schema", 1},
                    {"software", softwareName},
                    {"verdict", diff.passed() && diff.errors.empty() ? "pass" : "fail"},
                    {"reference", diff.reference},

@@ -31,7 +31,7 @@ GpuImage uploaded(Device& device, Uploader& uploader, const std::string& name, i
     return image;
 }
 
-EnvironmentRequest requestOf(const Settings& settings) {
+EnvironmentRequest environmentRequest(const Settings& settings) {
     EnvironmentRequest request{{settings.ibl_samples, settings.ibl_bias}, settings.ibl == Ibl::split};
     if (!request.prefilter) request.quality = {};  // decides nothing there
     return request;
@@ -102,7 +102,7 @@ EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, Environme
                                    DescriptorSets& frame, const Settings& settings)
     : nearest_(makeNearestSampler(device)) {
     if (!isLit(environment, settings)) return;
-    const EnvironmentImages& images = store.at(uploader, *environment, *background, requestOf(settings));
+    const EnvironmentImages& images = store.at(uploader, *environment, *background, environmentRequest(settings));
     feature_ = gpu::ENVIRONMENT_LIT;
     if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
     if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;

@@ -96,7 +96,7 @@ void takeCgroups(const fs::path& root, Least& least) {
     for (const std::string& line : linesOf(root / "proc/self/cgroup")) {
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
         if (first == line.npos || second == line.npos) continue;
-        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
         const std::string path = line.substr(second + 1);
         if (controllers == ",,") {
             const CgroupFiles files{

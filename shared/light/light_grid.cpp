@@ -15,7 +15,7 @@ namespace {
 
 // What float32 may lose between a light's bound and the pixels that it lights: positions are rounded a dozen
 // times on either side, 6e-8 of the distance from the camera each time.
-constexpr double rounding = 4e-6;
+constexpr double radius_rounding = 4e-6;
 
 // Slices in an octave of depth + offset, log2, the coarsest that is tried: four, so that one is an eighth to
 // a quarter as deep.
@@ -152,7 +152,7 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
                 radius = cosCone > std::sqrt(0.5) ? along : radius * sinCone;
             }
         }
-        radius += rounding * (radius + glm::length(apex));
+        radius += radius_rounding * (radius + glm::length(apex));
         if (radius >= static_cast<double>(gpu::MAX_BOUND_RADIUS)) centre = glm::dvec3(0);
         bounds.push_back(
             {.centre = gpu::vec3(centre),

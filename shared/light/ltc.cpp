@@ -18,7 +18,7 @@ extern const std::size_t ltcFileSize;
 
 namespace {
 
-constexpr double last = gpu::LTC_CELLS - 1;
+constexpr double last_cell = gpu::LTC_CELLS - 1;
 
 LtcTable readTable() {
     const PictureFile file =
@@ -53,9 +53,9 @@ LtcLobe LtcCell::lobe(double f0, double f90) const {
 
 LtcCell LtcTable::at(double roughness, double n_dot_v) const {
     constexpr double least{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    const double x = std::clamp((roughness - least) / (1 - least), 0.0, 1.0) * last;
-    const double y = (1 - std::sqrt(std::clamp(n_dot_v, 0.0, 1.0))) * last;
-    const double i = std::min(std::floor(x), last - 1), j = std::min(std::floor(y), last - 1);
+    const double x = std::clamp((roughness - least) / (1 - least), 0.0, 1.0) * last_cell;
+    const double y = (1 - std::sqrt(std::clamp(n_dot_v, 0.0, 1.0))) * last_cell;
+    const double i = std::min(std::floor(x), last_cell - 1), j = std::min(std::floor(y), last_cell - 1);
     const auto u = static_cast<float>(x - i), v = static_cast<float>(y - j);
     LtcCell result;
     for (const LtcLayer& layer : ltcLayers) {

@@ -23,7 +23,7 @@ namespace diptych {
 
 namespace {
 
-CascadeRequest requestOf(const Settings& settings) {
+CascadeRequest cascadeRequest(const Settings& settings) {
     return {.size = settings.shadow_size,
             .count = settings.shadow_cascades,
             .kernel = settings.shadow_kernel,
@@ -134,7 +134,7 @@ VkRect2D rectangleOf(const ReceiverMask::Texels& texels) {
 SunShadow::SunShadow(Device& device, DescriptorSets& frame, const Settings& settings)
     : frame_(frame),
       settings_(settings),
-      request_(requestOf(settings)),
+      request_(cascadeRequest(settings)),
       filter_(featureOf(settings.shadows)),
       nearest_(makeNearestSampler(device)),
       linear_(makeLinearSampler(device)) {}

@@ -38,12 +38,12 @@ glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
 }
 
 // The two keys around a time, and the position between them: 0 at the first, 1 at the second.
-struct Between {
+struct KeyPair {
     std::size_t first, second;
     double u, interval;  // s
 };
 
-Between keysAround(const std::vector<float>& times, double seconds) {
+KeyPair keysAround(const std::vector<float>& times, double seconds) {
     const auto after = static_cast<std::size_t>(
         std::ranges::upper_bound(times, seconds, {}, [](float t) { return double{t}; }) - times.begin());
     if (after == 0) return {0, 0, 0, 0};
@@ -70,7 +70,7 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
         const std::size_t first = cubic ? (3 * key + which) * width : key * width;
         return std::span(keyframes.values).subspan(first, width);
     };
-    const Between keys = keysAround(keyframes.times, seconds);
+    const KeyPair keys = keysAround(keyframes.times, seconds);
     const bool rotation = part == AnimatedPart::rotation;
     std::vector<double> result(at(keys.first).begin(), at(keys.first).end());
     if (keys.first != keys.second && keyframes.interpolation != Interpolation::step) {

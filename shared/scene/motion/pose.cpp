@@ -113,8 +113,8 @@ glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>&
 }
 
 const std::vector<Primitive>& primitivesOf(const Scene& scene, const Node& node) {
-    static const std::vector<Primitive> none;
-    return node.mesh < 0 ? none : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+    static const std::vector<Primitive> no_primitives;
+    return node.mesh < 0 ? no_primitives : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
 }
 
 // Node from mesh, for each time that the node draws its mesh.

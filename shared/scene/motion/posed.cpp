@@ -105,7 +105,7 @@ glm::dvec3 placed(const glm::dvec4& p) {
 
 // Normalised without squaring the components directly: the square of a very long or short vector may leave
 // double's range.
-glm::dvec3 unitOrZero(const glm::dvec3& v) {
+glm::dvec3 safeUnit(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0);
 }
@@ -120,7 +120,7 @@ void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::u
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::dvec3 &a = positions[indices[i]], &b = positions[indices[i + 1]],
                          &c = positions[indices[i + 2]];
-        const glm::dvec3 normal = handedness * unitOrZero(glm::cross(b - a, c - a));
+        const glm::dvec3 normal = handedness * safeUnit(glm::cross(b - a, c - a));
         for (std::size_t corner = 0; corner < 3; ++corner) normals[indices[i + corner]] = normal;
     }
 }
@@ -139,7 +139,7 @@ std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map,
     std::vector<glm::dvec2> texcoords(count);
     for (std::size_t v = 0; v < count; ++v) {
         positions[v] = posing.position(v);
-        normals[v] = unitOrZero(posing.normal(v));
+        normals[v] = safeUnit(posing.normal(v));
         texcoords[v] = posing.texcoord(map.texcoord, v);
     }
     if (primitive.flat) makeFlat(positions, primitive.indices, 1, normals);
@@ -172,8 +172,8 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
         const glm::dmat4 world = posing.worldFrom(v);
         const glm::dmat3 axes(world);
         result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));
-        result.normals[v] = handedness * unitOrZero(cofactors(axes) * posing.normal(v));
-        result.tangents[v] = unitOrZero(axes * result.tangents[v]);
+        result.normals[v] = handedness * safeUnit(cofactors(axes) * posing.normal(v));
+        result.tangents[v] = safeUnit(axes * result.tangents[v]);
     }
     if (primitive.flat) makeFlat(result.positions, primitive.indices, handedness, result.normals);
     for (int set = 0; set < 2; ++set)
