@@ -241,14 +241,14 @@ std::string folderDiffJson(const FolderDiff& diff) {
     for (const SceneError& error : diff.errors)
         errors.push_back({{"name", error.scene}, {"message", error.message}});
     return linesOf({{"schema", 1},
-                   {"software", softwareName},
-                   {"verdict", diff.passed() && diff.errors.empty() ? "pass" : "fail"},
-                   {"reference", diff.reference},
-                   {"test", diff.test},
-                   {"pictures", pictures},
-                   {"reference_alone", diff.reference_alone},
-                   {"test_alone", diff.test_alone},
-                   {"errors", errors}});
+                    {"software", softwareName},
+                    {"verdict", diff.passed() && diff.errors.empty() ? "pass" : "fail"},
+                    {"reference", diff.reference},
+                    {"test", diff.test},
+                    {"pictures", pictures},
+                    {"reference_alone", diff.reference_alone},
+                    {"test_alone", diff.test_alone},
+                    {"errors", errors}});
 }
 
 }  // namespace diptych

@@ -102,7 +102,8 @@ EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, Environme
                                    DescriptorSets& frame, const Settings& settings)
     : nearest_(makeNearestSampler(device)) {
     if (!isLit(environment, settings)) return;
-    const EnvironmentImages& images = store.at(uploader, *environment, *background, environmentRequest(settings));
+    const EnvironmentImages& images =
+        store.at(uploader, *environment, *background, environmentRequest(settings));
     feature_ = gpu::ENVIRONMENT_LIT;
     if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
     if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;
