@@ -75,7 +75,7 @@ int runCompare(const Options& given) {
     say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     KeptReferences kept(folder, true);
     RenderOptions render = judgedOptions(renderOptions(options), options.settings,
-                                         isTraced(settings, baseline), other != nullptr);
+                                         isTraced(settings, baseline), other != nullptr, options.twice);
     render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
         return kept.open(key, floats);
     };

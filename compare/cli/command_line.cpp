@@ -256,6 +256,13 @@ Keep keepOf(const std::string& word) {
     throw std::runtime_error(fmt::format("--keep {}: takes all, failing or none", word));
 }
 
+Twice twiceOf(const std::string& word) {
+    for (const auto& [twice, name] :
+         {std::pair{Twice::all, "all"}, {Twice::lit, "lit"}, {Twice::none, "none"}})
+        if (word == name) return twice;
+    throw std::runtime_error(fmt::format("--twice {}: takes all, lit or none", word));
+}
+
 // "X,Y", from the top left.
 Options::Pixel pixelOf(const std::string& words) {
     Options::Pixel pixel;
@@ -291,6 +298,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     for (const std::string& scene : options.scenes) refuseLineBreak(scene);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
+    options.runs = parsed.runs.value_or(usualRuns(options.command));
     if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: 0 or more", options.runs));
     if (options.picture.exposure &&
         !(*options.picture.exposure > 0 && std::isfinite(*options.picture.exposure)))
@@ -299,6 +307,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
         throw std::runtime_error(fmt::format("--ev100 {}: finite", *options.picture.ev100));
     resolveTimes(options, parsed);
     options.keep = keepOf(parsed.keep);
+    options.twice = twiceOf(parsed.twice);
     resolveBaseline(options, parsed);
     resolveTest(options, parsed);
     resolveRenderers(options, parsed);

@@ -491,7 +491,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     addSettings(app, parsed, command == "bench" ? "assign" : "");
     addPicture(app, options, parsed);
     addDevice(app, options);
-    app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
+    app.add_option("--runs", parsed.runs,
+                   fmt::format("timed frames; 0 measures no time ({})", usualRuns(command)))
+        ->type_name("N");
 
     if (command == "compare" || command == "explain")
         app.add_option("--against-device", options.against_device,
@@ -522,6 +524,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
         addSelection(app, options.selection, parsed);
         addTolerances(app, options);
+        app.add_option("--twice", parsed.twice,
+                       "which channels are drawn a second time: two runs that differ are a race (lit)")
+            ->type_name("all|lit|none");
         app.add_flag("--allow-noise", options.allow_noise,
                      "GPU: grant what two runs of one path differ by on top of a tolerance");
         app.add_flag("--explain", options.explain,

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,11 +36,17 @@ struct ParsedOptions {
     std::optional<double> fps;
     std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, bench_lightings, light_counts;
     std::string bench_axes;
-    std::string bench_table = "modes", kernels = "on", keep = "all";
+    std::string bench_table = "modes", kernels = "on", keep = "all", twice = "lit";
+    std::optional<int> runs;
     double max_ms = 2000;
     std::string max_bytes;
     std::vector<std::string> require;  // audit: NAME=MAGNITUDE
 };
+
+// Timed frames where --runs does not say otherwise: few where times only stand beside a picture or a verdict.
+constexpr int usualRuns(std::string_view command) {
+    return command == "bench" || command == "tradeoff" ? 5 : 2;
+}
 
 // Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.
 void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed);

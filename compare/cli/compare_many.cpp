@@ -54,7 +54,7 @@ public:
           items_(itemsOf(options, settings)),
           kept_(folder, "scenes", resumeKey(options, settings)),
           render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}),
-                                !options.against_device.empty())),
+                                !options.against_device.empty(), options.twice)),
           progress_(progressOutput(options)),
           device_(deviceOptions(options)),
           pipelines_(makePipelineSet(device_)),

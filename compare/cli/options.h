@@ -5,6 +5,7 @@
 #include "compare/bench/cases.h"
 #include "compare/external/renderer_file.h"
 #include "compare/picture/picture.h"
+#include "compare/render/render_options.h"
 #include "compare/report/report_options.h"
 #include "compare/run/color.h"
 #include "compare/verdict/picture_diff.h"
@@ -77,7 +78,8 @@ struct Options {
     bool debug_given = false;                        // --debug stood on the command line
     bool heat = false;          // --heat: shown is the light count, whatever --debug says
     std::vector<int> channels;  // debug modes, ascending; empty: all that can be made
-    int runs = 5;               // timed frames
+    int runs = 5;               // timed frames; usualRuns() of the command
+    Twice twice = Twice::lit;   // compare
     PictureChoice picture;
     std::filesystem::path match_exposure;  // a picture whose exposure is taken over; empty: none
     std::string device;                    // index or part of a name

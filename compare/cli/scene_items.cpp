@@ -45,6 +45,7 @@ Json askedOf(const Options& options, const std::vector<Settings>& settings) {
     asked["baseline"] = nameOf(options.baseline);
     asked["channels"] = options.channels;
     asked["runs"] = options.runs;
+    asked["twice"] = static_cast<int>(options.twice);
     asked["what counts"] = wordsOfWhatCounts(options);
     asked["explain"] = options.explain;
     asked["keep"] = static_cast<int>(options.keep);

@@ -95,6 +95,7 @@ Json jsonOf(const Frame& frame) {
           {"unreproduced_pixels", counters.unreproduced_pixels},
           {"energy_cut", counters.energy_cut}}},
         {"noise", noise},
+        {"changed_buffers", frame.changed_buffers},
         {"repaired", repaired},
         {"origin",
          {{"file", frame.origin.file},

@@ -60,7 +60,9 @@ double captureBytes(const Settings& settings, const RenderOptions& options, bool
     const auto channels = static_cast<double>(options.channels.size());
     const double others = std::max(channels - 2, 0.0);
     double bytes = one_picture + channel * others;
-    if (options.twice || options.through_gbuffer) bytes += once_more + channel_once_more * others;
+    const bool again = options.twice == Twice::all || options.through_gbuffer;
+    if (again || options.twice == Twice::lit) bytes += once_more;
+    if (again) bytes += channel_once_more * others;
     if (software && settings.msaa > 1) bytes += target * settings.msaa * std::clamp(channels / 2, 1.0, 3.0);
     return bytes;
 }

@@ -11,9 +11,13 @@ namespace diptych {
 
 namespace {
 
+// Width and height of a planned picture: so large that what an image has beside its pixels, such as the rest
+// of a row, is nothing of a pixel's bytes, and small, since its images get memory.
+constexpr std::uint32_t plannedSize = 256;
+
 SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings) {
     const PreparedView view(device, shared, views.at(viewRequest(settings)), settings);
-    PassList passes(device, 1, 1);
+    PassList passes(device, plannedSize, plannedSize);
     const PixelBytes bytes = pixelBytes(passes, functionsOf(settings.path).add(passes, view.inputs));
     return {settings.msaa, bytes.geometry, bytes.all};
 }
@@ -41,7 +45,7 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
         shared.pipelines.clear();
         const PreparedView view(device, shared, views.at(viewRequest(s)), s);
         const PathFunctions& path = functionsOf(s.path);
-        PassList passes(device, 1, 1);
+        PassList passes(device, plannedSize, plannedSize);
         const PixelBytes bytes = pixelBytes(passes, path.add(passes, view.inputs));
         passes.allocate();
         PathPlan plan{std::string(nameOf(s.path)),

@@ -17,12 +17,15 @@ namespace reference {
 class Checkpoint;
 }
 
+// Which channels are drawn a second time to find races, for Frame::noise.
+enum class Twice : std::uint8_t { none, lit, all };
+
 struct RenderOptions {
     // Debug modes to draw; a forward-only one is left out of a deferred Frame. Empty: the frame is timed and
     // nothing else.
     std::vector<int> channels;
     std::vector<int> requested;  // of these, Frame::requested; empty: all
-    int runs = 5;                // timed frames; 0: no times, no profile
+    int runs = 5;                // timed frames, beside which passes are timed; 0: no times
     // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding, and what its
     // bits may change of them.
     bool through_gbuffer = false;
@@ -32,8 +35,8 @@ struct RenderOptions {
     // reference: also what is seen of suns, points and spots, and Frame::shadow_edge and local_shadow_edge.
     // That takes about half of the rays of a picture with a sun.
     bool shadow_edges = true;
-    bool twice = false;  // draw every channel twice, for Frame::noise
-    // Whether what makes the other channels draws lit, too, and counts where it is not the timed frame's.
+    Twice twice = Twice::none;
+    // Whether what makes other channels than lit draws lit, too, and counts where it is not the timed frame's.
     bool recheck = true;
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()

@@ -33,7 +33,11 @@ namespace diptych {
 namespace {
 
 constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
-constexpr int mostProfiled = 3;      // frames whose passes are timed one by one
+
+// Frames whose passes are timed one by one, beside `runs` timed ones.
+int profiledOf(int runs) {
+    return runs < 3 ? std::min(runs, 1) : 3;
+}
 
 class FrameMaker {
 public:
@@ -50,6 +54,8 @@ public:
         const auto start = std::chrono::steady_clock::now();
         frame_ = describedFrame(prepared_, scene_, settings_);
         drawLit();
+        if (options_.twice != Twice::none)
+            kernels_ = prepared_.passes.kernelResults(0, prepared_.passes.size());
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);
         if (auto cut = overflowInWords(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
@@ -58,7 +64,7 @@ public:
             if (isRequested(lit)) frame_.repaired[lit] = std::move(repaired);
         }
         if (!options_.channels.empty()) capture();
-        if (!options_.recheck && isRequested(lit)) frame_.channels[lit] = std::move(lit_);
+        if (!rechecks() && isRequested(lit)) frame_.channels[lit] = std::move(lit_);
         frame_.requested = options_.requested;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -79,6 +85,12 @@ private:
     void goOn() {
         options_.progress.at(std::min(1.0, framesDone_ / framesIn(options_)), frame_.name + ": " + doing_);
     }
+    // Whether the capture draws lit, too: where it draws nothing else there is nothing to vouch for.
+    bool rechecks() const {
+        const auto isOther = [](int mode) { return mode != lit; };
+        return options_.recheck && (std::ranges::any_of(options_.channels, isOther) ||
+                                    options_.through_gbuffer || options_.twice != Twice::none);
+    }
     bool isRequested(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
@@ -95,7 +107,7 @@ private:
     // that this path can make.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
-        if (options_.recheck) request.modes = {lit};
+        if (rechecks()) request.modes = {lit};
         for (const int mode : options_.channels)
             if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
                 request.modes.push_back(mode);
@@ -161,13 +173,17 @@ private:
             letGo(std::as_const(frame_).channels.at(mode).data);
         }
         bounds_.clear();
-        if (options_.twice) {
+        if (options_.twice != Twice::none) {
             announce("once more");
-            step("draw once more", 2);
+            step("draw once more", 1);
             passes.run(0, first);
+            for (const auto& [buffer, hash] : passes.kernelResults(0, first))
+                if (hash != kernels_.at(buffer)) frame_.changed_buffers.push_back(buffer);
             Image again = readLit(prepared_);
             repairNonfinite(again);
             addNoise(lit, again);
+        }
+        if (options_.twice == Twice::all) {
             step("capture once more", captureFrames);
             // What the encoding makes comes last, and is drawn once.
             std::erase_if(captured, [](const CapturedImage& read) { return read.surface.has_value(); });
@@ -233,14 +249,18 @@ private:
     PreparedFrame prepared_;
     Frame frame_;
     Image lit_;
-    std::map<int, EncodingBound> bounds_;  // by debug mode, while they are gathered
+    std::map<std::string, std::size_t> kernels_;  // what they left, by buffer, if all is drawn twice
+    std::map<int, EncodingBound> bounds_;         // by debug mode, while they are gathered
 };
 
 }  // namespace
 
 double framesIn(const RenderOptions& options) {
-    const double timed = options.runs > 0 ? 1 + options.runs + std::min(options.runs, mostProfiled) : 0;
-    return timed + 1 + (options.twice ? 2 + 2 * captureFrames : captureFrames);
+    const double timed = options.runs > 0 ? 1 + options.runs + profiledOf(options.runs) : 0;
+    const double again = options.twice == Twice::none  ? 0
+                         : options.twice == Twice::lit ? 1
+                                                       : 1 + captureFrames;
+    return timed + 1 + captureFrames + again;
 }
 
 struct Renderer::State {
@@ -351,7 +371,7 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
         drawn.push_back(settings[i]);
         places.push_back(i);
     }
-    const int profiled = std::min(options.runs, mostProfiled);
+    const int profiled = profiledOf(options.runs);
     const double steps = static_cast<double>(drawn.size()) * (1 + options.runs + profiled);
     double done = 0;
     const auto step = [&](std::size_t i, const std::string& what) {

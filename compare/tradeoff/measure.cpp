@@ -39,7 +39,8 @@ RenderOptions drawingOptions(const RenderOptions& options, bool shadows) {
     drawing.channels = {LIT, IDS};
     if (shadows) drawing.channels.insert(drawing.channels.end(), {SEEN, DEPTH, LEVEL, COARSER});
     drawing.requested = drawing.channels;
-    drawing.twice = drawing.through_gbuffer = false;
+    drawing.twice = Twice::none;
+    drawing.through_gbuffer = false;
     return drawing;
 }
 

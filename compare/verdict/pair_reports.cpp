@@ -19,9 +19,10 @@
 
 namespace diptych {
 
-RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across) {
+RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across,
+                            Twice twice) {
     render.through_gbuffer = true;
-    render.twice = true;
+    render.twice = twice;
     render.environment_errors = true;
     // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
     // which light is judged.

@@ -618,8 +618,8 @@ struct DrawingThread::State {
         const Settings& settings = order.subject.settings;
         RenderOptions render = channelOptions(everyChannel());
         render.requested = everyChannel();
-        render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene);
-        render.twice = false;
+        render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene,
+                               false, Twice::none);
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
             if (judged_of == both && drawn == both && has(everyChannel())) {

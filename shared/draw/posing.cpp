@@ -168,9 +168,10 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         throw std::runtime_error("the pose has over 2^31 vertices: more than one buffer holds");
     makes_tangents_ = groups > 0;
     pose_ = arena.makeBuffer(device, "pose");
-    constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+    constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                  drawn = addressed | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (makes_tangents_) {
         tangents_ = GpuBuffer(device, "tangents of groups", groups * sizeof(glm::vec3), addressed);
         morphed_ = GpuBuffer(device, "morphed vertices", morphed * sizeof(gpu::MorphedVertex), addressed);

@@ -126,7 +126,9 @@ struct Frame {
     // forward+ only, the same of through_gbuffer. Else empty.
     Image unblended, unblended_through_gbuffer;
     std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
-    std::map<int, ChannelNoise> noise;  // of every channel, if the frame was drawn twice
+    std::map<int, ChannelNoise> noise;  // of the channels that were drawn twice
+    // What compute kernels left otherwise when the frame was drawn again: names of buffers.
+    std::vector<std::string> changed_buffers;
     // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr
     // m^2); and the same relative to lit (as lit's metric is), at 99.9 % of the covered pixels.
     Image uncertainty;

@@ -7,7 +7,9 @@
 #include "shared/vulkan/pass.h"
 #include "shared/vulkan/resources.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <span>
@@ -118,6 +120,10 @@ public:
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
     // The same into memory of the caller's, as many floats each.
     void readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
+
+    // Of each buffer that compute passes of [first, last) write, by name: a hash of its bytes as the last run
+    // left them.
+    std::map<std::string, std::size_t> kernelResults(std::size_t first, std::size_t last);
 
     // One name for passes of the same name that follow each other.
     std::vector<std::string> names() const;

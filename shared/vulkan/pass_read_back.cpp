@@ -10,11 +10,17 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace diptych {
 
 namespace {
+
+constexpr std::size_t stagingBytes = std::size_t{64} << 20;
 
 std::size_t texelsOf(const GpuImageInfo& image, const Slice& slice) {
     const VkExtent2D extent = extentOf(image, slice);
@@ -57,7 +63,6 @@ std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> req
 }
 
 void PassList::readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {
-    constexpr std::size_t stagingBytes = std::size_t{64} << 20;
     const auto bytesOf = [&](const ReadBack& request) {
         const GpuImageInfo& image = resource(request.image).image->info();
         return texelsOf(image, request.slice) * bytesPerTexel(image.format);
@@ -69,6 +74,34 @@ void PassList::readBack(std::span<const ReadBack> requests, std::span<const std:
         copyToHost(requests.subspan(i, end - i), into.subspan(i, end - i));
         i = end;
     }
+}
+
+std::map<std::string, std::size_t> PassList::kernelResults(std::size_t first, std::size_t last) {
+    std::set<std::size_t> written;
+    for (std::size_t pass = first; pass < last; ++pass)
+        if (passes_[pass]->kind_ == Pass::Kind::compute)
+            for (const auto& [buffer, access] : passes_[pass]->buffers_)
+                if (writes(access)) written.insert(buffer.index);
+    std::map<std::string, std::size_t> results;
+    for (const std::size_t index : written) {
+        const GpuBuffer& buffer = *resources_[index]->buffer;
+        std::size_t& hash = results[tracker_.name(index)];
+        for (VkDeviceSize begin = 0; begin < buffer.size(); begin += stagingBytes) {
+            const VkDeviceSize bytes = std::min<VkDeviceSize>(buffer.size() - begin, stagingBytes);
+            const GpuBuffer read(device_, "read back", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                 MemoryUse::readback);
+            device_.submit([&](VkCommandBuffer commands) {
+                barriersBefore(RecordedBarrier::no_pass, {{index, {}, access::transferRead}}, commands);
+                const VkBufferCopy copy{begin, 0, bytes};
+                vkCmdCopyBuffer(commands, buffer.handle(), read.handle(), 1, &copy);
+                memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                              VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+            });
+            const std::string_view all(static_cast<const char*>(read.mapped()), bytes);
+            hash = hash * 31 + std::hash<std::string_view>()(all);
+        }
+    }
+    return results;
 }
 
 void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {

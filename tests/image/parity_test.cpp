@@ -4,6 +4,9 @@
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
+#include <set>
+#include <utility>
+
 namespace diptych::tests {
 namespace {
 
@@ -71,6 +74,42 @@ TEST_P(AssetParity, FullIsBitEqualAndPackedIsExplained) {
 INSTANTIATE_TEST_SUITE_P(Asset, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& scene) {
     return testName(std::filesystem::path(scene.param).stem().string());
 });
+
+TEST(DrawnTwice, NothingOrLitOrEveryChannel) {
+    const int lit = static_cast<int>(gpu::DEBUG_lit), albedo = static_cast<int>(gpu::DEBUG_albedo),
+              depth = static_cast<int>(gpu::DEBUG_depth);
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    RenderOptions options;
+    options.channels = {lit, albedo, depth};
+    options.runs = 0;
+    const std::pair<Twice, std::set<int>> cases[] = {
+        {Twice::none, {}}, {Twice::lit, {lit}}, {Twice::all, {lit, albedo, depth}}};
+    for (const auto& [twice, channels] : cases) {
+        options.twice = twice;
+        std::set<int> drawn;
+        for (const auto& [mode, noise] : uploaded("builtin:gallery").renderer.draw(settings, options).noise) {
+            EXPECT_EQ(noise.pixels, 0u) << debugMode(mode).name;
+            drawn.insert(mode);
+        }
+        EXPECT_EQ(drawn, channels);
+    }
+}
+
+// Where no other channel is asked for, nothing is captured, and lit is the same.
+TEST(DrawnTwice, LitAloneIsDrawnOnce) {
+    const Scene scene = loadScene("builtin:spheres");
+    Renderer renderer(device(), scene);
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    const int lit = static_cast<int>(gpu::DEBUG_lit);
+    RenderOptions options;
+    options.channels = {lit};
+    options.runs = 0;
+    const Image alone = renderer.draw(settings, options).channels.at(lit);
+    const std::size_t pipelines = renderer.pipelines();
+    options.channels.push_back(static_cast<int>(gpu::DEBUG_albedo));
+    EXPECT_EQ(differingPixels(alone, renderer.draw(settings, options).channels.at(lit)), 0u);
+    EXPECT_GT(renderer.pipelines(), pipelines);
+}
 
 // With a light that both paths shade by one table, of `encodings`.
 void expectParity(const char* name, const Settings& given, std::initializer_list<GBufferEncoding> encodings) {

@@ -32,8 +32,7 @@ RenderOptions drawnOptions() {
     RenderOptions options;
     for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
     options.runs = 0;
-    options = judgedOptions(options, {}, false, true);
-    options.twice = false;
+    options = judgedOptions(options, {}, false, true, Twice::none);
     return options;
 }
 

@@ -333,7 +333,9 @@ def blamed(said, edits, tree):
     places = {(e.file, line + 1): e.number for e in edits for line in range(e.lines[0], e.lines[1] + 1)}
     bad, unexplained = set(), False
     for path, line, text in re.findall(r"^(?:ERROR: )?([^\s:]+):(\d+):(.*)$", said, re.M):
-        edit, error = places.get((os.path.relpath(tree / "build" / path, tree), int(line))), "error: " in text or "' : " in text
+        file, error = os.path.relpath(tree / "build" / path, tree), "error: " in text or "' : " in text
+        below = range(int(line), int(line) + (12 if "declared here" in text else 1))  # in the function that is declared there
+        edit = next((places[file, at] for at in below if (file, at) in places), None)
         if error or "note: " in text and unexplained:
             bad |= {edit} - {None}
         if "note: " not in text or edit:

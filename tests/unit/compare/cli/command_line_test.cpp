@@ -466,6 +466,7 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--settings", "/"}, "folder"},
         {{"compare", "-q", "-v"}, "--verbose"},
         {{"compare", "--keep", "some"}, "--keep some: takes all, failing or none"},
+        {{"compare", "--twice", "some"}, "--twice some: takes all, lit or none"},
         {{"diff", "a.exr"}, "images"},
         {{"devices", "scene.glb"}, "scene.glb"},
     };
