@@ -51,7 +51,7 @@ int runCommand(const Options& options) {
 
 std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,
                                    const char* manifest) {
-    const Output output = outputOf(options.out.empty() ? name : options.out);
+    const Output output = outputOf(options.out.empty() ? name : options.out, true);
     if (output.kind != OutputKind::folder)
         throw std::runtime_error(
             fmt::format("-o {}: a {} is a folder; give a name without ending", output.path.string(), what));

@@ -213,6 +213,31 @@ void tellApart(const PictureChannel& a, PictureChannel& b) {
             b.image.data[i] = std::nextafter(b.image.data[i], 0.0f);
 }
 
+// A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR, "A" of the reserved channel names):
+// where `has` has the alpha of a colour of which `lacks` has the colour alone, `lacks` gets one of 1. Their
+// names.
+Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChannel>& lacks) {
+    const auto find = [](const std::vector<PictureChannel>& channels, const std::string& name) {
+        return std::ranges::find(channels, name, &PictureChannel::name);
+    };
+    Names added;
+    for (const PictureChannel& alpha : has) {
+        if (suffix(alpha.name) != "A" || find(lacks, alpha.name) != lacks.end()) continue;
+        const std::string color = alpha.name == "A" ? "lit" : alpha.name.substr(0, alpha.name.size() - 2);
+        if (find(has, color) == has.end() || find(lacks, color) == lacks.end()) continue;
+        PictureChannel opaque{alpha.name, alpha.channels, alpha.type, alpha.kind, {}};
+        if (alpha.image.empty())
+            opaque.coded = {alpha.coded.width, alpha.coded.height, 1,
+                            std::vector<std::uint8_t>(alpha.coded.data.size(), 255)};
+        else
+            opaque.image = Image(alpha.image.width, alpha.image.height, 1);
+        std::ranges::fill(opaque.image.data, 1.0f);
+        lacks.push_back(std::move(opaque));
+        added.push_back(alpha.name);
+    }
+    return added;
+}
+
 Metric metricOf(const std::string& name, const PictureChannel& channel) {
     const DebugMode* mode = modeOf(name, channel.channels.size());
     if (mode && (mode->metric == Metric::angular || mode->metric == Metric::exact)) return mode->metric;
@@ -271,6 +296,10 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         return wanted.empty() || std::ranges::any_of(wanted, [&](const auto& w) { return matches(w, name); });
     };
     const std::string inReference = list(reference), inTest = list(test);
+    for (const bool lacking : {false, true})
+        for (const std::string& name : lacking ? addOpaque(reference, test) : addOpaque(test, reference))
+            matched.notes.push_back(fmt::format("{}: {} has none and is opaque: 1 everywhere", name,
+                                                lacking ? "the test" : "the reference"));
     std::vector<std::string> inBoth;
     for (const PictureChannel& a : reference)
         if (std::ranges::count(test, a.name, &PictureChannel::name) > 0) inBoth.push_back(a.name);

@@ -69,8 +69,9 @@ struct MatchedChannels {
     std::vector<OneSidedChannel> one_sided;
 };
 
-// `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing
-// that both have, where one name is of different widths, or where nothing is in both.
+// `wanted`: patterns of names (* and ?), empty: all. Where one picture alone has the alpha of a colour that
+// both have, the other's is 1. Throws std::runtime_error where a pattern names nothing that both have, where
+// one name is of different widths, or where nothing is in both.
 MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
                               const std::vector<std::string>& wanted);
 

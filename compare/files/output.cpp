@@ -28,7 +28,7 @@ bool isEmpty(const fs::path& folder) {
 
 }  // namespace
 
-Output outputOf(const fs::path& out) {
+Output outputOf(const fs::path& out, bool folders_alone) {
     std::string ending = out.extension().string();
     std::ranges::transform(ending, ending.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -37,6 +37,7 @@ Output outputOf(const fs::path& out) {
         return {OutputKind::folder, out};
     if (ending == ".exr") return {OutputKind::exr, linkedFile(out)};
     if (ending == ".png") return {OutputKind::png, linkedFile(out)};
+    if (folders_alone) return {OutputKind::folder, out};
     throw std::runtime_error(
         fmt::format("-o {}: {} cannot be written; use .exr, .png, or a name without ending for a folder",
                     out.string(), out.extension().string()));

@@ -16,8 +16,9 @@ struct Output {
 };
 
 // By the ending of `out`: .exr, .png, or none for a folder; an existing folder or a name that ends in a slash
-// is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
-Output outputOf(const std::filesystem::path& out);
+// is one whatever its ending. Throws std::runtime_error naming -o for any other ending, unless the command
+// writes nothing but folders.
+Output outputOf(const std::filesystem::path& out, bool folders_alone = false);
 
 // The file that `out` itself is a link to, else `out`: the link that a user names is kept, while those that
 // are found in a folder are replaced (AtomicFile).

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace diptych {
@@ -26,11 +27,42 @@ float linearFromSrgb(float v) {
     return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
+void decode(PictureLayer& layer) {
+    if (layer.image.empty())
+        layer.image =
+            StoredPicture{{}, std::move(layer.coded), static_cast<int>(layer.channels.size())}.takeImage();
+}
+
+// The place of a layer's alpha, behind its colours; none where it has no alpha or nothing else.
+std::optional<std::size_t> alphaOf(const PictureLayer& layer) {
+    const auto found = std::ranges::find(layer.channels, "A");
+    if (found == layer.channels.end() || layer.channels.size() == 1) return {};
+    return static_cast<std::size_t>(found - layer.channels.begin());
+}
+
+bool hasAlpha(const PictureFile& file) {
+    return std::ranges::any_of(file.layers,
+                               [](const PictureLayer& layer) { return alphaOf(layer).has_value(); });
+}
+
+// Multiplies straight colours by their alpha.
+void associate(PictureFile& file) {
+    for (PictureLayer& layer : file.layers) {
+        const std::optional<std::size_t> alpha = alphaOf(layer);
+        if (!alpha) continue;
+        decode(layer);
+        for (std::size_t i = 0; i < layer.image.pixels(); ++i) {
+            float* const pixel = layer.image.pixel(i);
+            for (std::size_t c = 0; c < layer.channels.size(); ++c)
+                if (c != *alpha) pixel[c] *= pixel[*alpha];
+        }
+    }
+    file.straight_alpha = false;
+}
+
 void makeLinear(PictureFile& file) {
     for (PictureLayer& layer : file.layers) {
-        if (layer.image.empty())
-            layer.image = StoredPicture{{}, std::move(layer.coded), static_cast<int>(layer.channels.size())}
-                              .takeImage();
+        decode(layer);
         for (std::size_t i = 0; i < layer.image.data.size(); ++i) {
             const std::string& channel = layer.channels[i % static_cast<std::size_t>(layer.image.components)];
             if (!channel.ends_with('A')) layer.image.data[i] = linearFromSrgb(layer.image.data[i]);
@@ -52,7 +84,8 @@ double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const Pictu
         largest = std::max(largest, decoded);
     }
     // A layer that is split into channels is copied. Each colour keeps FLIP's errors.
-    const double split = kept ? largest : std::max(largest, color);
+    constexpr double alpha = sizeof(float);  // of a picture without
+    const double split = alpha + (kept ? largest : std::max(largest, color));
     const double flip = error * (kept ? 1 : std::ceil(largest / color));
     const double holes = options.selection.any() ? 2 * color : 0;
     const double filters = (options.blur > 0 ? 4 * color : 0) + (options.shift > 0 ? color : 0);
@@ -119,6 +152,12 @@ void bringTogether(PictureFile& a, PictureFile& b, PictureDiff& diff) {
                                          a.display_referred ? a.format : b.format));
         makeLinear(a.display_referred ? a : b);
     }
+    if (a.straight_alpha != b.straight_alpha && hasAlpha(a) && hasAlpha(b)) {
+        diff.notes.push_back(
+            fmt::format("{}: its colours were multiplied by its alpha, as those of the other are",
+                        a.straight_alpha ? diff.reference : diff.test));
+        associate(a.straight_alpha ? a : b);
+    }
     for (const PictureFile* file : {&a, &b})
         for (const std::string& note : file->notes)
             diff.notes.push_back(fmt::format("{}: {}", file == &a ? diff.reference : diff.test, note));
@@ -170,6 +209,25 @@ void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
     const Rule* rule = ruleFor(options.rules, channel.pair.name);
     channel.rule = rule ? *rule : ruleOf(options, channel);
     channel.decision = decide(channel.rule, *channel.measurement);
+}
+
+// A colour that fails at pixels alone that both pictures hide behind an alpha of 0.
+void sayHidden(const PictureDiff& diff, PictureChannelDiff& color) {
+    if (color.pair.kind != ChannelKind::color || color.decision.level == Level::pass) return;
+    const std::string name = color.pair.name == "lit" ? "A" : color.pair.name + ".A";
+    const auto found = std::ranges::find(diff.channels, name, [](const auto& c) { return c->pair.name; });
+    if (found == diff.channels.end()) return;
+    const PictureRows colors[2] = {color.pair.reference.rows(), color.pair.test.rows()},
+                      alphas[2] = {(*found)->pair.reference.rows(), (*found)->pair.test.rows()};
+    std::vector<float> buffers[4];
+    for (int y = 0; y < diff.height; ++y) {
+        const float *a = colors[0].row(y, buffers[0]), *b = colors[1].row(y, buffers[1]),
+                    *alpha_a = alphas[0].row(y, buffers[2]), *alpha_b = alphas[1].row(y, buffers[3]);
+        for (int x = 0; x < diff.width; ++x)
+            if ((alpha_a[x] != 0 || alpha_b[x] != 0) && !std::equal(a + 3 * x, a + 3 * x + 3, b + 3 * x))
+                return;
+    }
+    color.decision.reason += fmt::format("; {} is 0 in both wherever they differ, which hides that", name);
 }
 
 void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
@@ -307,6 +365,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         }))
         throw std::runtime_error(
             fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
+    for (auto& channel : diff.channels) sayHidden(diff, *channel);
     addNotes(diff, options);
     judgeIdleRules(diff, options.rules, names);
     const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {

@@ -103,6 +103,9 @@ PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, st
         const std::int64_t pixel = std::int64_t{sizeof(float)} * header.components;
         checkImageSize(header.width, header.height, pixel, most);
         const auto size = static_cast<std::size_t>(pixel * header.width * header.height);
+        // One blank ends the header, and CR LF is one where the file has room for both; else LF is a pixel's
+        // byte.
+        if (rest.size() == size + 1 && rest.data()[-1] == '\r' && rest.front() == '\n') rest.remove_prefix(1);
         if (rest.size() < size)
             fail(fmt::format("is cut short: {} x {} pixels are {} bytes, {} of them are there", header.width,
                              header.height, size, rest.size()));

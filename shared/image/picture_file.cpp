@@ -5,6 +5,7 @@
 #include "shared/image/exr_header.h"
 #include "shared/image/file_bytes.h"
 #include "shared/image/jpeg_decoder.h"
+#include "shared/image/orientation.h"
 #include "shared/image/pfm.h"
 #include "shared/image/picture_rows.h"
 #include "shared/image/png.h"
@@ -34,12 +35,22 @@ PictureFile ofOneLayer(std::string format, std::string sample, Image image, Imag
     return file;
 }
 
+// As its file says that it is to be shown.
+void turn(PictureFile& file, int orientation) {
+    PictureLayer& layer = file.layers.front();
+    layer.image = turned(std::move(layer.image), orientation);
+    layer.coded = turned(std::move(layer.coded), orientation);
+    if (orientation >= 5) std::swap(file.width, file.height);
+}
+
 PictureFile pictureOfPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
                          EightBits eight) {
     PngPicture png = readPngPicture(bytes, name, most, eight);
     PictureFile file =
         ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image), std::move(png.coded));
+    turn(file, orientationOfPng(bytes));
     file.display_referred = !png.linear;
+    file.straight_alpha = true;
     file.notes = std::move(png.notes);
     return file;
 }
@@ -48,6 +59,7 @@ PictureFile pictureOfTiff(std::span<const std::byte> bytes, const std::string& n
     TiffPicture tiff = readTiff(bytes, name, most);
     PictureFile file = ofOneLayer("TIFF", tiff.sample, std::move(tiff.image));
     file.display_referred = !tiff.linear;
+    file.straight_alpha = !tiff.associated;
     file.notes = std::move(tiff.notes);
     return file;
 }
@@ -85,6 +97,7 @@ PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& n
         StoredPicture stored{{}, std::move(coded), static_cast<int>(components)};
         PictureFile file = eight == EightBits::kept ? ofOneLayer("JPEG", "8 bit", {}, std::move(stored.coded))
                                                     : ofOneLayer("JPEG", "8 bit", stored.takeImage());
+        turn(file, orientationOfJpeg(bytes));
         file.display_referred = true;
         return file;
     });
@@ -156,14 +169,18 @@ PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& nam
                         EightBits eight) {
     const Format format = formatOf(bytes, name, part);
     return named(name, [&] {
-        const PictureSize size = format == Format::exr   ? sizeOfExr(bytes, part)
-                                 : format == Format::png ? pngSize(bytes, eight)
-                                 : format == Format::jpeg
-                                     ? sizeOfJpeg(readJpegSize(encodedJpeg(bytes)), eight)
-                                 : format == Format::tiff ? tiffSize(bytes)
-                                 : format == Format::hdr  ? hdrSize(bytes)
-                                                          : pfmSize(bytes);
+        PictureSize size = format == Format::exr    ? sizeOfExr(bytes, part)
+                           : format == Format::png  ? pngSize(bytes, eight)
+                           : format == Format::jpeg ? sizeOfJpeg(readJpegSize(encodedJpeg(bytes)), eight)
+                           : format == Format::tiff ? tiffSize(bytes)
+                           : format == Format::hdr  ? hdrSize(bytes)
+                                                    : pfmSize(bytes);
         checkImageSize(size.width, size.height, size.bytes_per_pixel, limits::imageBytes());
+        const int orientation = format == Format::png    ? orientationOfPng(bytes)
+                                : format == Format::jpeg ? orientationOfJpeg(bytes)
+                                                         : 1;
+        if (orientation != 1) size.bytes_per_pixel *= 2;  // it is turned into a copy
+        if (orientation >= 5) std::swap(size.width, size.height);
         return size;
     });
 }

@@ -47,6 +47,7 @@ struct PictureFile {
     // shown). In files of this program they describe settings, scene and device.
     std::map<std::string, std::string> attributes{};
     std::vector<std::string> notes{};  // what was left out or assumed, one line each, without the file's name
+    bool straight_alpha = false;       // colours are not multiplied by alpha: PNG's are not, OpenEXR's are
 };
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/tiff.h"
 
+#include "shared/image/orientation.h"
 #include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
@@ -152,9 +153,8 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
             "is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 bits "
             "and floats (3) of 16 and 32 are read",
             layout.bits, layout.format));
-    if (layout.orientation < ORIENTATION_TOPLEFT || layout.orientation > ORIENTATION_BOTLEFT)
-        fail(fmt::format("is a TIFF of orientation {}: 1 to 4 are read, whose rows are horizontal",
-                         layout.orientation));
+    if (layout.orientation < ORIENTATION_TOPLEFT || layout.orientation > ORIENTATION_LEFTBOT)
+        fail(fmt::format("is a TIFF of orientation {}: there are 1 to 8", layout.orientation));
     const std::uint64_t ratio = ratioOf(layout.compression);
     if (ratio == 0)
         fail(
@@ -225,10 +225,6 @@ public:
 
 private:
     void put(const unsigned char* from, std::uint32_t x0, std::uint32_t y0, int plane) {
-        const bool right =
-            layout_.orientation == ORIENTATION_TOPRIGHT || layout_.orientation == ORIENTATION_BOTRIGHT;
-        const bool bottom =
-            layout_.orientation == ORIENTATION_BOTRIGHT || layout_.orientation == ORIENTATION_BOTLEFT;
         const bool inverted = layout_.colours == PHOTOMETRIC_MINISWHITE && !isFloat(layout_);
         const std::size_t step = layout_.bytesPerSample();
         for (std::uint32_t y = y0; y < std::min(y0 + height_, layout_.height); ++y)
@@ -237,8 +233,7 @@ private:
                     const std::size_t pixel = std::size_t{y - y0} * width_ + (x - x0);
                     const int component = layout_.planes ? plane : static_cast<int>(s);
                     const float value = valueOf(layout_, from + (pixel * samples_ + s) * step);
-                    image_.at(static_cast<int>(right ? layout_.width - 1 - x : x),
-                              static_cast<int>(bottom ? layout_.height - 1 - y : y), component) =
+                    image_.at(static_cast<int>(x), static_cast<int>(y), component) =
                         inverted && component == 0 ? 1 - value : value;
                 }
     }
@@ -271,7 +266,11 @@ PictureSize tiffSize(std::span<const std::byte> bytes) {
     const OpenTiff tiff = openTiff(file, limits::imageBytes());
     if (!tiff) failToDecode(file);
     const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), limits::imageBytes());
-    return {layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components};
+    PictureSize size{layout.width, layout.height,
+                     static_cast<std::int64_t>(sizeof(float)) * layout.components};
+    if (layout.orientation != ORIENTATION_TOPLEFT) size.bytes_per_pixel *= 2;  // it is turned into a copy
+    if (layout.orientation >= ORIENTATION_LEFTTOP) std::swap(size.width, size.height);
+    return size;
 }
 
 TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
@@ -285,7 +284,12 @@ TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, 
             Image(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.components);
         picture.sample = sampleOf(layout);
         picture.linear = isFloat(layout);
+        std::uint16_t extra = 0;
+        const std::uint16_t* kinds = nullptr;
+        picture.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 &&
+                             extra > 0 && kinds[0] == EXTRASAMPLE_ASSOCALPHA;
         if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode(file);
+        picture.image = turned(std::move(picture.image), layout.orientation);
         std::uint32_t size = 0;
         void* profile = nullptr;
         if (TIFFGetField(tiff.get(), TIFFTAG_ICCPROFILE, &size, &profile) == 1)

@@ -14,9 +14,10 @@
 namespace diptych {
 
 struct TiffPicture {
-    Image image;          // Y, YA, RGB or RGBA, row 0 on top
-    std::string sample;   // "8 bit", "16 bit", "32 bit", "half" or "float"
-    bool linear = false;  // floats; integers are divided by their largest and count as sRGB-encoded
+    Image image;              // Y, YA, RGB or RGBA, row 0 on top
+    std::string sample;       // "8 bit", "16 bit", "32 bit", "half" or "float"
+    bool linear = false;      // floats; integers are divided by their largest and count as sRGB-encoded
+    bool associated = false;  // colours are multiplied by alpha (EXTRASAMPLES 1)
     std::vector<std::string> notes{};  // pages and colour profiles that are not read, one line each
 };
 

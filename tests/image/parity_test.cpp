@@ -87,7 +87,9 @@ TEST(DrawnTwice, NothingOrLitOrEveryChannel) {
     for (const auto& [twice, channels] : cases) {
         options.twice = twice;
         std::set<int> drawn;
-        for (const auto& [mode, noise] : uploaded("builtin:gallery").renderer.draw(settings, options).noise) {
+        const Frame frame = uploaded("builtin:gallery").renderer.draw(settings, options);
+        EXPECT_EQ(frame.changed_buffers, std::vector<std::string>());
+        for (const auto& [mode, noise] : frame.noise) {
             EXPECT_EQ(noise.pixels, 0u) << debugMode(mode).name;
             drawn.insert(mode);
         }

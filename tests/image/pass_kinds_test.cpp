@@ -370,5 +370,35 @@ TEST(PassKinds, TwoFramesAreInFlight) {
         EXPECT_EQ(rows[i], static_cast<float>(i / width + 1)) << i;
 }
 
+// Of buffers that compute passes write alone, and of every byte of them.
+TEST(PassKinds, WhatKernelsLeaveIsHashed) {
+    PassList passes(device(), 1, 1);
+    constexpr VkDeviceSize bytes = 1024;
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const GpuBuffer stays(device(), "stays", bytes, usage), moves(device(), "moves", bytes, usage),
+        copied(device(), "copied", bytes, usage);
+    const BufferRef copiedRef = passes.buffer("copied", copied);
+    std::uint32_t run = 0;
+    passes.copy("copy").uses(copiedRef, access::transferWrite).record([&](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, copied.handle(), 0, bytes, ++run);
+    });
+    passes.compute("kernel")
+        .uses(copiedRef, access::transferRead)
+        .uses(passes.buffer("stays", stays), access::transferWrite)
+        .uses(passes.buffer("moves", moves), access::transferWrite)
+        .record([&](VkCommandBuffer commands) {
+            vkCmdFillBuffer(commands, stays.handle(), 0, bytes, 7);
+            vkCmdFillBuffer(commands, moves.handle(), 0, bytes - 4, 7);
+            vkCmdFillBuffer(commands, moves.handle(), bytes - 4, 4, run);
+        });
+    passes.run();
+    const auto first = passes.kernelResults(0, passes.size());
+    passes.run();
+    const auto again = passes.kernelResults(0, passes.size());
+    ASSERT_EQ(first.size(), 2u);
+    EXPECT_EQ(first.at("stays"), again.at("stays"));
+    EXPECT_NE(first.at("moves"), again.at("moves"));
+}
+
 }  // namespace
 }  // namespace diptych::tests

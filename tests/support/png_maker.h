@@ -21,6 +21,7 @@ struct MadePng {
     double gamma = 0;           // 0: none
     bool srgb = false;
     bool profile = false;
+    std::string exif{};  // behind the pixels
 };
 
 // libpng terminates the program on an error, which would be a fault of the test.
@@ -58,6 +59,7 @@ inline std::string pngOf(const MadePng& made) {
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; ++pass)
         for (const std::vector<std::uint8_t>& row : made.rows) png_write_row(png, row.data());
+    if (!made.exif.empty()) chunk("eXIf", {made.exif.begin(), made.exif.end()});
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
     return bytes;

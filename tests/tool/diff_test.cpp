@@ -105,6 +105,43 @@ TEST(DiffCommand, TiffsMeetPngs) {
     EXPECT_TRUE(runTool(folder, "diff cut.tif same.png").failedOver("cut.tif"));
 }
 
+// 3 x 1: A is 255, 0, 0; a picture without alpha is opaque.
+TEST(DiffCommand, AlphaOfOneSideIsComparedAndHiddenColoursAreSaid) {
+    const Folder folder;
+    writePng(folder / "a.png", {3, 1, 4, {9, 9, 9, 255, 9, 9, 9, 0, 9, 9, 9, 0}});
+    writePng(folder / "hidden.png", {3, 1, 4, {9, 9, 9, 255, 9, 9, 9, 0, 7, 9, 9, 0}});
+    writePng(folder / "shown.png", {3, 1, 4, {7, 9, 9, 255, 9, 9, 9, 0, 7, 9, 9, 0}});
+    writePng(folder / "colour.png", {3, 1, 3, {9, 9, 9, 9, 9, 9, 9, 9, 9}});
+    writePng(folder / "opaque.png", {3, 1, 4, {9, 9, 9, 255, 9, 9, 9, 255, 9, 9, 9, 255}});
+    EXPECT_EQ(runTool(folder, "diff colour.png opaque.png --metric max").code, 0);
+    const Ran alpha = runTool(folder, "diff colour.png a.png --metric max");
+    EXPECT_EQ(alpha.code, 1) << "the background shows through";
+    EXPECT_NE(alpha.out.find("A: the reference has none and is opaque: 1 everywhere"), std::string::npos);
+    const char* const said = "A is 0 in both wherever they differ, which hides that";
+    const Ran hidden = runTool(folder, "diff a.png hidden.png --metric max");
+    EXPECT_EQ(hidden.code, 1);
+    EXPECT_NE(hidden.out.find(said), std::string::npos) << hidden.out;
+    EXPECT_EQ(runTool(folder, "diff a.png shown.png --metric max").out.find(said), std::string::npos);
+}
+
+// PNG's colours are straight, OpenEXR's are multiplied by alpha.
+TEST(DiffCommand, ColoursMeetMultipliedByTheirAlpha) {
+    const Folder folder;
+    writePng(folder / "straight.png", {1, 1, 4, {255, 255, 0, 51}});
+    Image multiplied(1, 1, 4);
+    multiplied.data = {0.2f, 0.2f, 0, 0.2f};
+    writeExr(folder / "multiplied.exr", {{{"R", "G", "B", "A"}, &multiplied}});
+    multiplied.data = {1, 1, 0, 0.2f};
+    writeExr(folder / "straight.exr", {{{"R", "G", "B", "A"}, &multiplied}});
+    const Ran same = runTool(folder, "diff straight.png multiplied.exr --metric max --tolerance 1e-6");
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_NE(
+        same.out.find("straight.png: its colours were multiplied by its alpha, as those of the other are"),
+        std::string::npos)
+        << same.out;
+    EXPECT_EQ(runTool(folder, "diff straight.exr straight.png --metric max --tolerance 1e-6").code, 1);
+}
+
 TEST(DiffCommand, NanAgainstANumberIsADifference) {
     const Folder folder;
     Image a = noise(3), b = a;

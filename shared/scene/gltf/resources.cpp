@@ -75,6 +75,10 @@ Bytes readData(std::string_view uri, std::vector<std::string>& notes) {
     const std::size_t comma = uri.find(',');
     if (comma == uri.npos) fail("its data URI has no comma before the data");
     const std::string_view head = uri.substr(0, comma), data = uri.substr(comma + 1);
+    // Quotes are no characters of a URI (RFC 3986, 2), so that nothing says whether this comma begins the
+    // data.
+    if (std::ranges::count(head, '"') % 2 != 0)
+        fail("its data URI has a comma in quotes before the data; write it as %2C");
     const bool encoded =
         head.size() >= base64.size() && equalInAnyCase(head.substr(head.size() - base64.size()), base64);
     if (encoded && data.find('%') == data.npos) return decodeBase64(data, notes);

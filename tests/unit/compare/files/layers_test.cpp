@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -51,6 +53,40 @@ TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
     EXPECT_EQ(channels[2].image.pixel(1)[0], 41);
     EXPECT_EQ(channels[3].kind, ChannelKind::vector);
     EXPECT_EQ(channels[5].kind, ChannelKind::id);
+}
+
+// Of either side, of layers with a name and in 8 bits, too.
+TEST(Layers, AColourWithoutAlphaIsOpaque) {
+    const auto with = [] {
+        return channelsOf(file({layer("", {"R", "G", "B", "A"}), layer("b", {"b.R", "b.G", "b.B", "b.A"}),
+                                layer("c", {"c.A"})}),
+                          {});
+    };
+    const auto without = [] {
+        return channelsOf(file({layer("", {"R", "G", "B"}), layer("b", {"b.R", "b.G", "b.B"})}), {});
+    };
+    for (const bool lacking : {false, true}) {
+        const MatchedChannels matched =
+            lacking ? matchChannels(with(), without(), {}) : matchChannels(without(), with(), {});
+        ASSERT_EQ(matched.channels.size(), 4u);
+        for (const MatchedChannel& channel : matched.channels) {
+            if (channel.name != "A" && channel.name != "b.A") continue;
+            EXPECT_EQ((lacking ? channel.test : channel.reference).image.data, (PixelData{1, 1}));
+            EXPECT_EQ((lacking ? channel.reference : channel.test).image.data, (PixelData{30, 31}));
+        }
+        EXPECT_EQ(matched.notes.at(0), fmt::format("A: {} has none and is opaque: 1 everywhere",
+                                                   lacking ? "the test" : "the reference"));
+        ASSERT_EQ(matched.one_sided.size(), 1u) << "an alpha of nothing";
+    }
+    const auto eight = [](const std::vector<std::string>& channels) {
+        PictureLayer l{"", channels, "8 bit", {}};
+        l.coded = {2, 1, static_cast<int>(channels.size()),
+                   std::vector<std::uint8_t>(2 * channels.size(), 7)};
+        return channelsOf(file({std::move(l)}), {});
+    };
+    const MatchedChannels coded = matchChannels(eight({"R", "G", "B", "A"}), eight({"R", "G", "B"}), {});
+    ASSERT_EQ(coded.channels.size(), 2u);
+    EXPECT_EQ(coded.channels[1].test.coded.data, (std::vector<std::uint8_t>{255, 255}));
 }
 
 TEST(Layers, NamesOfOthersAreGivenOurs) {

@@ -88,6 +88,13 @@ TEST(CompareOptions, NoiseIsARaceOnACpu) {
     EXPECT_EQ(litOf(report).verdict, Verdict::fail) << "nothing is granted for a race";
 }
 
+TEST(CompareOptions, WhatKernelsLeaveMayNotChange) {
+    std::vector<Frame> frames = framesApart();
+    frames[1].changed_buffers = {"light lists", "posed positions"};
+    EXPECT_TRUE(says(compared(frames, {}, "discrete").comparisons[0].failures,
+                     "compute kernels left other light lists, posed positions in a second run: a race"));
+}
+
 TEST(CompareOptions, NoiseOfAGpuIsSaidAndGrantedOnlyWhereAsked) {
     Report report = compared(noisyFrames(), {}, "discrete");
     EXPECT_TRUE(says(report.comparisons[0].notes, "--allow-noise adds that to the tolerance"));

@@ -62,6 +62,14 @@ TEST(Pfm, OneBlankEndsTheHeader) {
     EXPECT_EQ(pfmOf("Pf\r\n1\t1\n\n-1\n" + little({value})).image.data, Values{value});
 }
 
+TEST(Pfm, ALineMayEndInCrLf) {
+    const float value = std::bit_cast<float>(0x3f80000au);
+    const PfmPicture picture = pfmOf("Pf\r\n1 1\r\n-1\r\n" + little({value}));
+    EXPECT_EQ(picture.image.data, Values{value});
+    EXPECT_EQ(picture.behind, 0u);
+    EXPECT_EQ(pfmOf("Pf\r\n1 1\r\n-1\r" + little({value})).image.data, Values{value});
+}
+
 TEST(Pfm, BytesBehindThePixelsAreCounted) {
     EXPECT_EQ(pfmOf("Pf\n1 1\n-1\n" + little({1})).behind, 0u);
     EXPECT_EQ(pfmOf("Pf\n1 1\n-1\n" + little({1}) + "\nx").behind, 2u);

@@ -96,13 +96,16 @@ TEST(Tiff, EverySampleIsReadAsItIs) {
 }
 
 TEST(Tiff, RowsAndColumnsStandWhereTheOrientationSays) {
-    const std::vector<float> values{1, 2, 3, 4};
+    const std::vector<float> values{1, 2, 3, 4, 5, 6};  // 3 x 2
     const std::map<std::uint32_t, PixelData> expected{
-        {1, {1, 2, 3, 4}}, {2, {2, 1, 4, 3}}, {3, {4, 3, 2, 1}}, {4, {3, 4, 1, 2}}};
+        {1, {1, 2, 3, 4, 5, 6}}, {2, {3, 2, 1, 6, 5, 4}}, {3, {6, 5, 4, 3, 2, 1}}, {4, {4, 5, 6, 1, 2, 3}},
+        {5, {1, 4, 2, 5, 3, 6}}, {6, {4, 1, 5, 2, 6, 3}}, {7, {6, 3, 5, 2, 4, 1}}, {8, {3, 6, 2, 5, 1, 4}}};
     for (const auto& [orientation, data] : expected) {
-        MadeTiff file = made(2, 2, 1, 32, 3, stored(values));
+        MadeTiff file = made(3, 2, 1, 32, 3, stored(values));
         file.tags[274] = orientation;
-        EXPECT_EQ(read(file).image.data, data) << orientation;
+        const Image image = read(file).image;
+        EXPECT_EQ(image.data, data) << orientation;
+        EXPECT_EQ(image.width, orientation < 5 ? 3 : 2) << orientation;
     }
 }
 
@@ -137,7 +140,7 @@ TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
     for (const Case& wrong :
          {Case{259, 7, "compression 7"}, Case{262, 5, "photometric interpretation 5"},
           Case{258, 4, "4 bit samples"}, Case{339, 2, "format 2"}, Case{277, 4, "4 samples"},
-          Case{274, 6, "orientation 6"}, Case{256, 70000, "70000 x 2 pixels"},
+          Case{274, 9, "orientation 9"}, Case{256, 70000, "70000 x 2 pixels"},
           Case{257, 60000, "bytes cannot hold"}, Case{256, 0, "a.tif"}}) {
         MadeTiff file = sound;
         file.tags[wrong.tag] = wrong.value;

@@ -127,6 +127,8 @@ TEST(GltfErrors, BuffersAndImages) {
          buffer("http://example.org/x.bin")},
         {"buffer 0: its data URI has no comma before the data",
          buffer("data:application/octet-stream;base64")},
+        {"buffer 0: its data URI has a comma in quotes before the data; write it as %2C",
+         buffer("data:text/plain;x=\"a,b\";base64,AAAA")},
         {"buffer 0: its data is not base64 at character 3", buffer("data:;base64,AAA*")},
         {"buffer 0: holds 3 bytes of the 36 that its byteLength names", buffer("data:;base64,AAAA")},
         {"buffer 0: has no uri, and the file no binary chunk for it",
