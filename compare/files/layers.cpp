@@ -23,9 +23,18 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+// The component of a channel: what stands behind the last dot, of colours in any case and as a word R, G, B
+// or A.
 std::string suffix(const std::string& channel) {
     const std::size_t dot = channel.rfind('.');
-    return dot == channel.npos ? channel : channel.substr(dot + 1);
+    const std::string component = dot == channel.npos ? channel : channel.substr(dot + 1);
+    std::string lower = component;
+    std::ranges::transform(lower, lower.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    for (const auto& [letter, word] : {std::pair{"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}})
+        if (lower == letter || lower == word) return {static_cast<char>(*letter - 'a' + 'A')};
+    return component;
 }
 
 // Several components of an image, side by side.
@@ -107,7 +116,9 @@ private:
     std::string nameAlone(const std::string& channel, bool alone) const {
         if (channel == "Z") return "depth";
         // "roughness.Y" is the whole of roughness.
-        return alone && !layer_.name.empty() ? layer_.name : channel;
+        if (alone && !layer_.name.empty()) return layer_.name;
+        if (suffix(channel) != "A") return channel;
+        return layer_.name.empty() ? "A" : layer_.name + ".A";
     }
 
     void take(const Names& suffixes, const std::string& name) {
@@ -154,6 +165,29 @@ Renaming renamingOf(const std::string& words) {
                          words));
     renaming.name = words.substr(0, equals);
     return renaming;
+}
+
+std::string alphaOf(const std::string& color) {
+    return color == "lit" ? "A" : color + ".A";
+}
+
+// Where a renaming names a layer with colours alone, "lit=ViewLayer.Combined": their renaming and that of its
+// alpha.
+std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renaming) {
+    for (const PictureLayer& layer : file.layers) {
+        if (renaming.channels != Names{layer.name}) continue;
+        std::vector<Renaming> all{{renaming.name, {}}};
+        for (const char* wanted : {"R", "G", "B", "A"}) {
+            const auto found = std::ranges::find(layer.channels, wanted, suffix);
+            if (found == layer.channels.end()) continue;
+            if (*wanted == 'A')
+                all.push_back({alphaOf(renaming.name), {*found}});
+            else
+                all[0].channels.push_back(*found);
+        }
+        if (all[0].channels.size() == 3) return all;
+    }
+    return {renaming};
 }
 
 // The channels of a renaming as one channel; empty unless the file has them all.
@@ -238,6 +272,47 @@ Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChann
     return added;
 }
 
+// The colours of pictures that share none by name, of each its only one: nullptr where there is another
+// number, or where both have a meaning here.
+std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChannel>& a,
+                                                        std::vector<PictureChannel>& b) {
+    const auto only = [](std::vector<PictureChannel>& channels) -> PictureChannel* {
+        const auto isColour = [](const PictureChannel& c) { return c.kind == ChannelKind::color; };
+        if (std::ranges::count_if(channels, isColour) != 1) return nullptr;
+        return &*std::ranges::find_if(channels, isColour);
+    };
+    PictureChannel *const first = only(a), *const second = only(b);
+    if (!first || !second || first->name == second->name ||
+        (findDebugMode(first->name) && findDebugMode(second->name)))
+        return {};
+    return {first, second};
+}
+
+// Gives the test's only colour, and its alpha, the names of the reference's. Returns a note, or nothing.
+std::string pairColours(std::vector<PictureChannel>& reference, std::vector<PictureChannel>& test) {
+    const auto [a, b] = onlyColours(reference, test);
+    if (!a) return {};
+    const std::string note = fmt::format(
+                          "{} of the reference is compared with {} of the test: each is the only "
+                          "colour there",
+                          a->name, oneLine(b->name, 60)),
+                      alpha = alphaOf(b->name);
+    for (PictureChannel& channel : test)
+        if (channel.name == alpha) channel.name = alphaOf(a->name);
+    b->name = a->name;
+    return note;
+}
+
+// The --map that gives two channels of one width one name.
+std::string mapText(const std::vector<PictureChannel>& reference, const std::vector<PictureChannel>& test) {
+    for (const PictureChannel& a : reference)
+        for (const PictureChannel& b : test)
+            if (a.components() == b.components() && a.channels.size() == b.channels.size())
+                return fmt::format("--map '{}={}' compares these two", oneLine(a.name, 60),
+                                   oneLine(fmt::format("{}", fmt::join(b.channels, ",")), 200));
+    return "--map gives them one name";
+}
+
 Metric metricOf(const std::string& name, const PictureChannel& channel) {
     const DebugMode* mode = modeOf(name, channel.channels.size());
     if (mode && (mode->metric == Metric::angular || mode->metric == Metric::exact)) return mode->metric;
@@ -250,11 +325,11 @@ std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::
     std::vector<PictureChannel> channels;
     Names used;
     for (const std::string& words : names) {
-        const Renaming renaming = renamingOf(words);
-        if (auto channel = renamed(file, renaming)) {
-            used.insert(used.end(), renaming.channels.begin(), renaming.channels.end());
-            channels.push_back(std::move(*channel));
-        }
+        for (const Renaming& renaming : spelledOut(file, renamingOf(words)))
+            if (auto channel = renamed(file, renaming)) {
+                used.insert(used.end(), renaming.channels.begin(), renaming.channels.end());
+                channels.push_back(std::move(*channel));
+            }
     }
     remove(file, used);
     takeUncertainty(file);
@@ -283,7 +358,8 @@ void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std
     };
     for (const std::string& words : names) {
         const Renaming renaming = renamingOf(words);
-        if (!renamed(reference, renaming) && !renamed(test, renaming))
+        if (!renamed(reference, spelledOut(reference, renaming)[0]) &&
+            !renamed(test, spelledOut(test, renaming)[0]))
             fail(fmt::format("--map {}: neither file has these channels; the reference has {}, the test {}",
                              words, channelsIn(reference), channelsIn(test)));
     }
@@ -296,6 +372,8 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         return wanted.empty() || std::ranges::any_of(wanted, [&](const auto& w) { return matches(w, name); });
     };
     const std::string inReference = list(reference), inTest = list(test);
+    if (std::string note = pairColours(reference, test); !note.empty())
+        matched.notes.push_back(std::move(note));
     for (const bool lacking : {false, true})
         for (const std::string& name : lacking ? addOpaque(reference, test) : addOpaque(test, reference))
             matched.notes.push_back(fmt::format("{}: {} has none and is opaque: 1 everywhere", name,
@@ -342,7 +420,7 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             fail(fmt::format("--channels {}: not in both{}", w, meant.empty() ? "; " + both : meant));
         }
     if (matched.channels.empty())
-        fail(fmt::format("no layer is in both: {}; --map gives them one name", both));
+        fail(fmt::format("no layer is in both: {}; {}", both, mapText(reference, test)));
     return matched;
 }
 

@@ -95,17 +95,23 @@ std::string sampleOf(const std::vector<ExrChannel>& channels) {
     return mixed ? "mixed" : names.at(static_cast<std::size_t>(first));
 }
 
-// Groups channels by the part of their names before the last dot, sorted; pixels are not read yet.
+// Groups channels by the part of their names before the last dot, sorted; pixels are not read yet. A dot at
+// the beginning makes no layer: ".R" is R, where there is no other.
 std::vector<Layer> layersOf(const ExrPart& part) {
     std::map<std::string, std::vector<ExrChannel>> byName;
     for (const ExrChannel& channel : part.channels) {
         const std::size_t dot = channel.name.rfind('.');
         byName[dot == std::string::npos ? "" : channel.name.substr(0, dot)].push_back(channel);
     }
+    const auto isThere = [&](const std::string& name) {
+        return std::ranges::count(part.channels, name, &ExrChannel::name) > 0;
+    };
     std::vector<Layer> layers;
     for (auto& [name, channels] : byName) {
-        const auto component = [](const ExrChannel& channel) {
-            return channel.name.substr(channel.name.rfind('.') + 1);
+        const auto component = [&](const ExrChannel& channel) {
+            const std::size_t dot = channel.name.rfind('.');
+            const std::string behind = channel.name.substr(dot + 1);
+            return dot == 0 && isThere(behind) ? channel.name : behind;
         };
         std::ranges::stable_sort(channels, {},
                                  [&](const ExrChannel& c) { return componentRank(component(c)); });

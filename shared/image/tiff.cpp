@@ -88,7 +88,7 @@ T tagOf(TIFF* tiff, std::uint32_t tag, T otherwise) {
 struct TiffLayout {
     std::uint32_t width = 0, height = 0;
     std::uint16_t components = 1, bits = 1, format = SAMPLEFORMAT_UINT, colours = 0, compression = 0;
-    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;  // libtiff hands out 1 to 8 alone
     bool planes = false, tiled = false;
 
     std::size_t bytesPerSample() const { return bits / 8u; }
@@ -153,8 +153,6 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
             "is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 bits "
             "and floats (3) of 16 and 32 are read",
             layout.bits, layout.format));
-    if (layout.orientation < ORIENTATION_TOPLEFT || layout.orientation > ORIENTATION_LEFTBOT)
-        fail(fmt::format("is a TIFF of orientation {}: there are 1 to 8", layout.orientation));
     const std::uint64_t ratio = ratioOf(layout.compression);
     if (ratio == 0)
         fail(

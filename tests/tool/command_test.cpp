@@ -368,8 +368,8 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     EXPECT_NE(words.find("4 bytes per pixel, 20 with light; 16 and 96 with --msaa 4"), std::string::npos)
         << words;
     // A buffer that is as long as the picture has pixels is divided by these, whatever its rows round up to.
-    for (const Json& of : scene["paths"][0]["samples"])
-        if (of["samples"] == 4) EXPECT_EQ(of["image_bytes_per_pixel"], 252);
+    ASSERT_EQ(scene["paths"][0]["samples"][1]["samples"], 4);
+    EXPECT_EQ(scene["paths"][0]["samples"][1]["image_bytes_per_pixel"], 252);
     // A sample of forward+ has a depth of 4 bytes and light of 16, and a pixel of several light of its own.
     const Json samples = scene["paths"][1]["samples"];
     ASSERT_GE(samples.size(), 2u);

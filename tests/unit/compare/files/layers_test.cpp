@@ -89,6 +89,46 @@ TEST(Layers, AColourWithoutAlphaIsOpaque) {
     EXPECT_EQ(coded.channels[1].test.coded.data, (std::vector<std::uint8_t>{255, 255}));
 }
 
+TEST(Layers, ColoursHaveNamesOfTheirOwn) {
+    const auto channels = channelsOf(
+        file({layer("", {"r", "g", "b", "a"}), layer("beauty", {"beauty.red", "beauty.Green", "beauty.BLUE"}),
+              layer("c", {"c.X", "c.Y", "c.Z", "c.alpha"})}),
+        {});
+    EXPECT_EQ(namesOf(channels), (std::vector<std::string>{"lit", "A", "beauty", "c", "c.A"}));
+    EXPECT_EQ(channels[2].kind, ChannelKind::color);
+}
+
+// Each picture's only colour, with its alpha; not where both have a meaning of their own.
+TEST(Layers, OnlyColoursAreAPair) {
+    const auto named = [](const std::string& name) {
+        return channelsOf(file({layer(name, {name + ".R", name + ".G", name + ".B", name + ".A"})}), {});
+    };
+    const auto plain = [] { return channelsOf(file({layer("", {"R", "G", "B", "A"})}), {}); };
+    const MatchedChannels matched = matchChannels(plain(), named("ViewLayer.Combined"), {});
+    ASSERT_EQ(matched.channels.size(), 2u);
+    EXPECT_EQ(matched.channels[0].name, "lit");
+    EXPECT_EQ(matched.channels[1].name, "A");
+    EXPECT_EQ(matched.notes, std::vector<std::string>{
+                                 "lit of the reference is compared with ViewLayer.Combined of the test: each "
+                                 "is the only colour there"});
+    EXPECT_EQ(matchChannels(named("a"), named("b"), {}).channels.at(0).name, "a");
+    EXPECT_NE(faultOf([&] {
+                  matchChannels(plain(), named("albedo"), {});
+              }).find("--map 'lit=albedo.R,albedo.G,albedo.B' compares these two"),
+              std::string::npos);
+    const auto two = [&] {
+        return channelsOf(file({layer("a", {"a.R", "a.G", "a.B"}), layer("b", {"b.R", "b.G", "b.B"})}), {});
+    };
+    EXPECT_EQ(faultOf([&] { matchChannels(plain(), two(), {}); }).substr(0, 20), "no layer is in both:");
+}
+
+TEST(Layers, ALayerIsGivenAName) {
+    const auto channels = channelsOf(
+        file({layer("v.Combined", {"v.Combined.R", "v.Combined.G", "v.Combined.B", "v.Combined.A"})}),
+        {"lit=v.Combined"});
+    EXPECT_EQ(namesOf(channels), (std::vector<std::string>{"lit", "A"}));
+}
+
 TEST(Layers, NamesOfOthersAreGivenOurs) {
     const auto channels =
         channelsOf(file({layer("diffuse", {"diffuse.R", "diffuse.G", "diffuse.B"}), layer("", {"ao"})}),
@@ -160,7 +200,7 @@ TEST(Layers, GreyIsAColour) {
     ASSERT_EQ(grey[0].image.components, 3);
     for (const int c : {0, 1, 2}) EXPECT_EQ(grey[0].image.at(1, 0, c), 1);
     EXPECT_EQ(matchChannels(grey, channelsOf(file({layer("", {"R", "G", "B"})}), {}), {}).channels.size(),
-              1u);
+              2u);
 }
 
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
