@@ -101,13 +101,16 @@ PicturePair readPair(const std::string& reference, const std::string& test,
                      const PictureDiffOptions& options) {
     const std::string* const names[2] = {&reference, &test};
     std::vector<unsigned char> files[2];
+    std::string parts[2];
     std::span<const std::byte> bytes[2];
     PictureSize kept[2], decoded[2];
     for (const int i : {0, 1}) {
-        files[i] = bytesOf(*names[i]);
+        const PictureName name = pictureName(*names[i]);
+        parts[i] = name.part;
+        files[i] = bytesOf(name.file);
         bytes[i] = std::as_bytes(std::span<const unsigned char>(files[i]));
-        kept[i] = pictureSize(bytes[i], *names[i], {}, EightBits::kept);
-        decoded[i] = pictureSize(bytes[i], *names[i], {}, EightBits::decoded);
+        kept[i] = pictureSize(bytes[i], *names[i], parts[i], EightBits::kept);
+        decoded[i] = pictureSize(bytes[i], *names[i], parts[i], EightBits::decoded);
     }
     const auto isEight = [&](int i) { return kept[i].bytes_per_pixel < decoded[i].bytes_per_pixel; };
     const EightBits eight =
@@ -129,7 +132,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     std::exception_ptr failures[2];
     const auto read = [&](int i) {
         try {
-            pictures[i] = readPicture(bytes[i], *names[i], {}, limits::imageBytes(), eight);
+            pictures[i] = readPicture(bytes[i], *names[i], parts[i], limits::imageBytes(), eight);
         } catch (...) {
             failures[i] = std::current_exception();
         }

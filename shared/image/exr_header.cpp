@@ -190,7 +190,8 @@ struct Reader {
 void Reader::readPart(const Attributes& attributes, int number) {
     const std::string_view kind = several() ? attributes.textOf("type") : std::string_view();
     const std::string_view name = attributes.textOf("name");
-    const bool deep = isDeep(kind), wanted = asked.empty() || asked == name;
+    const bool deep = isDeep(kind),
+               wanted = asked.empty() || asked == name || asked == std::to_string(number);
     if (several() && !deep && kind != "scanlineimage" && kind != "tiledimage")
         fail(fmt::format("is of type \"{}\"", oneLine(kind)));
     if (wanted && deep) fail("holds deep samples, which are not read");
@@ -216,9 +217,9 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
     if (display != header.display)
         fail(fmt::format(
             "its display window is {} x {} at {}, {}, that of the parts before it {} x {} at {}, "
-            "{}: one of them at a time can be read",
+            "{}: one part at a time is read, as FILE.exr?part={}",
             display.width(), display.height(), display.min_x, display.min_y, header.display.width(),
-            header.display.height(), header.display.min_x, header.display.min_y));
+            header.display.height(), header.display.min_x, header.display.min_y, part.number));
     if (tiles.levels > 0)
         header.notes.push_back(
             fmt::format("{}is {}-mapped: its largest level is read",

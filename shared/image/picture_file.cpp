@@ -185,8 +185,19 @@ PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& nam
     });
 }
 
+PictureName pictureName(const std::filesystem::path& words) {
+    constexpr std::string_view key = "?part=";
+    const std::string text = words.string();
+    const std::size_t at = text.rfind(key);
+    std::error_code ignored;
+    if (at == text.npos || std::filesystem::exists(words, ignored)) return {words};
+    return {text.substr(0, at), text.substr(at + key.size())};
+}
+
 PictureFile readPicture(const std::filesystem::path& file, std::string_view part) {
-    return readPicture(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string(), part);
+    const PictureName name = pictureName(file);
+    return readPicture(std::as_bytes(std::span<const unsigned char>(bytesOf(name.file))), file.string(),
+                       part.empty() ? name.part : part);
 }
 
 }  // namespace diptych

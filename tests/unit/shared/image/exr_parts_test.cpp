@@ -2,6 +2,7 @@
 // EXR files of several parts: the names of their layers, the positions of their pixels, and which files are
 // refused and why.
 #include "shared/image/exr.h"
+#include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/exr_maker.h"
 
@@ -9,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -162,12 +165,25 @@ std::string withLastDisplay(std::string file, std::int32_t right) {
     return file;
 }
 
+TEST(ExrParts, APartIsNamedBehindTheFile) {
+    const std::filesystem::path path = folder() / "a.exr";
+    std::ofstream(path, std::ios::binary) << withLastDisplay(exrOf({colorPart, normalsPart}), 11);
+    EXPECT_EQ(readPicture(path.string() + "?part=beauty").width, 9);
+    EXPECT_EQ(readPicture(path.string() + "?part=1").width, 12);
+    EXPECT_EQ(faultOf([&] { readPicture(path.string() + "?part=fog"); }),
+              path.string() + "?part=fog: has no part \"fog\"");
+    // A file of that name is itself.
+    std::filesystem::copy_file(path, path.string() + "?part=x");
+    EXPECT_EQ(pictureName(path.string() + "?part=x").part, "");
+}
+
 TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
     const std::string file = withLastDisplay(exrOf({colorPart, normalsPart}), 11);
     EXPECT_EQ(
         partFault(file),
         "a.exr: part \"normals\": its display window is 12 x 6 at 0, 0, that of the parts before it 9 x 6 "
-        "at 0, 0: one of them at a time can be read");
+        "at 0, 0: one part at a time is read, as FILE.exr?part=1");
+    EXPECT_EQ(partsOf(file, "1").width, 12);
     EXPECT_EQ(partsOf(file, "beauty").width, 9);
     const PictureFile wide = partsOf(file, "normals");
     EXPECT_EQ(wide.width, 12);
