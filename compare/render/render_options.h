@@ -36,7 +36,8 @@ struct RenderOptions {
     // That takes about half of the rays of a picture with a sun.
     bool shadow_edges = true;
     Twice twice = Twice::none;
-    // Whether what makes other channels than lit draws lit, too, and counts where it is not the timed frame's.
+    // Whether what makes other channels than lit draws lit, too, and counts where it is not the timed
+    // frame's.
     bool recheck = true;
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
