@@ -166,14 +166,15 @@ std::string withLastDisplay(std::string file, std::int32_t right) {
 }
 
 TEST(ExrParts, APartIsNamedBehindTheFile) {
-    const std::filesystem::path path = folder() / "a.exr";
-    std::ofstream(path, std::ios::binary) << withLastDisplay(exrOf({colorPart, normalsPart}), 11);
+    const std::string file = withLastDisplay(exrOf({colorPart, normalsPart}), 11);
+    const std::filesystem::path path = testFolder() / "a.exr";
+    std::ofstream(path, std::ios::binary) << file;
     EXPECT_EQ(readPicture(path.string() + "?part=beauty").width, 9);
     EXPECT_EQ(readPicture(path.string() + "?part=1").width, 12);
     EXPECT_EQ(faultOf([&] { readPicture(path.string() + "?part=fog"); }),
               path.string() + "?part=fog: has no part \"fog\"");
     // A file of that name is itself.
-    std::filesystem::copy_file(path, path.string() + "?part=x");
+    std::ofstream(path.string() + "?part=x", std::ios::binary) << file;
     EXPECT_EQ(pictureName(path.string() + "?part=x").part, "");
 }
 
