@@ -247,9 +247,8 @@ void tellApart(const PictureChannel& a, PictureChannel& b) {
             b.image.data[i] = std::nextafter(b.image.data[i], 0.0f);
 }
 
-// A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR, "A" of the reserved channel names):
-// where `has` has the alpha of a colour of which `lacks` has the colour alone, `lacks` gets one of 1. Their
-// names.
+// A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR: a missing A reads as 1). Adds an alpha
+// of 1 to `lacks` for each colour that has one in `has` alone, and returns their names.
 Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChannel>& lacks) {
     const auto find = [](const std::vector<PictureChannel>& channels, const std::string& name) {
         return std::ranges::find(channels, name, &PictureChannel::name);

@@ -17,7 +17,7 @@ namespace reference {
 class Checkpoint;
 }
 
-// Which channels are drawn a second time to find races, for Frame::noise.
+// The channels that are drawn a second time: a difference is a race (Frame::noise).
 enum class Twice : std::uint8_t { none, lit, all };
 
 struct RenderOptions {

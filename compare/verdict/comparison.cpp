@@ -81,7 +81,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
 }
 
 // Reports two runs of one path that differ: on a CPU device that is a race, on a GPU scheduling may cause it.
-// What kernels write does not depend on scheduling.
+// Compute kernels write the same on every device, whatever the scheduling.
 void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& comparison) {
     if (!frame.changed_buffers.empty())
         comparison.failures.push_back(fmt::format("{}: compute kernels left other {} in a second run: a race",

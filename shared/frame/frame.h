@@ -127,7 +127,7 @@ struct Frame {
     Image unblended, unblended_through_gbuffer;
     std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
     std::map<int, ChannelNoise> noise;  // of the channels that were drawn twice
-    // What compute kernels left otherwise when the frame was drawn again: names of buffers.
+    // Names of the buffers in which compute kernels left other bytes when the frame was drawn again.
     std::vector<std::string> changed_buffers;
     // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr
     // m^2); and the same relative to lit (as lit's metric is), at 99.9 % of the covered pixels.

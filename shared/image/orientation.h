@@ -12,14 +12,14 @@
 
 namespace diptych {
 
-// What an Exif block says (it is a TIFF file; PNG's eXIf, JPEG's APP1 behind "Exif\0\0"); 1 where it says
-// nothing, or what is no orientation.
+// The orientation in an Exif block, which is a TIFF file (PNG's eXIf; JPEG's APP1 behind "Exif\0\0"). 1 where
+// there is none, or a number that is none.
 int orientationOf(std::span<const std::byte> exif);
-// The same of a JPEG's first Exif block, and of a PNG's.
+// The orientation in the first Exif block of a JPEG or PNG file; 1 where there is none.
 int orientationOfJpeg(std::span<const std::byte> file);
 int orientationOfPng(std::span<const std::byte> file);
 
-// `orientation`: 1 to 8.
+// The image as `orientation`, 1 to 8, has it shown: 5 to 8 exchange width and height.
 Image turned(Image image, int orientation);
 Image8 turned(Image8 image, int orientation);
 

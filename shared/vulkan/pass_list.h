@@ -121,8 +121,8 @@ public:
     // The same into memory of the caller's, as many floats each.
     void readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
-    // Of each buffer that compute passes of [first, last) write, by name: a hash of its bytes as the last run
-    // left them.
+    // Hashes every buffer that compute passes of [first, last) write, as the last run left it; by name.
+    // Buffers of one name share a hash.
     std::map<std::string, std::size_t> kernelResults(std::size_t first, std::size_t last);
 
     // One name for passes of the same name that follow each other.

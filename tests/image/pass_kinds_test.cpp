@@ -370,7 +370,7 @@ TEST(PassKinds, TwoFramesAreInFlight) {
         EXPECT_EQ(rows[i], static_cast<float>(i / width + 1)) << i;
 }
 
-// Of buffers that compute passes write alone, and of every byte of them.
+// The hash covers every byte of the buffers that compute passes write, and no other buffer.
 TEST(PassKinds, WhatKernelsLeaveIsHashed) {
     PassList passes(device(), 1, 1);
     constexpr VkDeviceSize bytes = 1024;
