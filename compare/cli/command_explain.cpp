@@ -11,6 +11,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
+#include "shared/image/picture_file.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -161,7 +162,8 @@ int explainScene(const Options& options) {
 }
 
 bool isExr(const std::string& name) {
-    return name.ends_with(".exr") || name.ends_with(".EXR");
+    const auto ending = pictureName(name).file.extension();
+    return ending == ".exr" || ending == ".EXR";
 }
 
 // A picture file. Whatever it does not say of its Settings is as on the command line.

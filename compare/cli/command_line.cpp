@@ -8,6 +8,7 @@
 #include "compare/run/version.h"
 #include "compare/viewer/keys.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/image/picture_file.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/did_you_mean.h"
 #include "shared/text/input_file.h"
@@ -135,13 +136,15 @@ void resolveBaseline(Options& options, const ParsedOptions& parsed) {
         std::ranges::find(enumNames<Path>(), parsed.baseline, &std::pair<Path, std::string_view>::second);
     const bool isPath = path != enumNames<Path>().end();
     if (isPath) options.baseline = path->first;
-    if (!isPath && !parsed.baseline.ends_with(".exr"))
+    const PictureName name = pictureName(parsed.baseline);
+    if (!isPath && name.file.extension() != ".exr")
         throw std::runtime_error(
             fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file{}",
                         parsed.baseline, didYouMean(parsed.baseline, pathNames())));
     if (!isPath) options.baseline_file = parsed.baseline;
-    if (options.update_baseline && isPath)
-        throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
+    if (options.update_baseline && (isPath || !name.part.empty()))
+        throw std::runtime_error(
+            "--update-baseline: --baseline FILE.exr says which file, which is written whole");
 }
 
 void resolveTest(Options& options, const ParsedOptions& parsed) {

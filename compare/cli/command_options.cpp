@@ -153,9 +153,9 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
 
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
-    app.add_flag(
-        "--strict", options.strict,
-        "a channel that only one side has is a failure, not a note, and so is a picture that shows nothing");
+    app.add_flag("--strict", options.strict,
+                 "a failure, not a note: a channel that one side alone has, a colour profile or a pixel's "
+                 "shape that is not applied, a picture that shows nothing");
     app.add_flag("--allow-empty", options.allow_empty,
                  "say nothing of pictures that are black, empty, or show the scene on less than 1 %");
     app.add_option("--tolerances", options.tolerances,

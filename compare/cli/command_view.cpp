@@ -5,6 +5,7 @@
 #include "compare/files/our_files.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/image/picture_file.h"
 #include "shared/scene/load.h"
 #include "shared/text/fail.h"
 #include "shared/text/input_file.h"
@@ -148,7 +149,7 @@ int runView(const Options& given) {
     if (!options.baseline_file.empty()) {
         view.look.against = viewer::Against::file;
         view.look.file = options.baseline_file;
-        if (!std::filesystem::exists(options.baseline_file))
+        if (!std::filesystem::exists(pictureName(options.baseline_file).file))
             throw std::runtime_error(
                 fmt::format("--baseline {}: is not there", options.baseline_file.string()));
     }

@@ -6,7 +6,7 @@
 #include "compare/external/sky.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -7,8 +7,8 @@
 #include "compare/render/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/image/srgb.h"
 #include "shared/image/temporary.h"
-#include "shared/scene/image/srgb.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>

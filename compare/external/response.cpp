@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/external/response.h"
 
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 
 #include <glm/matrix.hpp>
 

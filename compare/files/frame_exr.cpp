@@ -94,6 +94,8 @@ Frame frameFromExr(const std::filesystem::path& path) {
             frame.settings.path = Path::reference;
         if (isReferenceFrame(frame)) readUncertainty(file, frame);
         frame.settings.size = {file.width, file.height};
+        frame.notes.insert(frame.notes.end(), file.notes.lines.begin(), file.notes.lines.end());
+        frame.origin.not_applied = file.notes.not_applied;
         for (PictureChannel& channel : channelsOf(std::move(file), {})) {
             const DebugMode* mode = findDebugMode(channel.name);
             if (mode && mode->name == channel.name && mode->width == channel.image.components)

@@ -68,6 +68,12 @@ ChannelKind kindOf(const std::string& name, const Names& channels, const std::st
     return type == "uint" ? ChannelKind::id : ChannelKind::scalar;
 }
 
+// Another program's primaries mean something for colours alone: normals are written as R, G, B as well.
+void convert(PictureChannel& channel, const PictureLayer& layer) {
+    if (layer.to_rec709 && channel.kind == ChannelKind::color && channel.image.components == 3)
+        convertColors(channel.image, *layer.to_rec709);
+}
+
 // Splits a layer into channels that each have one meaning.
 class Splitter {
 public:
@@ -145,6 +151,7 @@ private:
             channel.coded = coded(components);
         else
             channel.image = isWhole(components) ? std::move(layer_.image) : picked(layer_.image, components);
+        convert(channel, layer_);
         out_.push_back(std::move(channel));
     }
 };
@@ -212,6 +219,7 @@ std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renamin
         for (std::size_t i = 0; i < from.pixels(); ++i)
             channel.image.pixel(i)[c] = from.pixel(i)[places[c].component];
     }
+    convert(channel, *places[0].layer);
     return channel;
 }
 

@@ -254,6 +254,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     ChannelDemands demands{options.rules, {}, options.strict};
     for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
+        for (const std::string& line : frame->origin.not_applied)
+            (options.strict ? comparison.failures : comparison.notes)
+                .push_back(fmt::format("{}: {}", frame->name, line));
+    for (const Frame* frame : {&left, &right})
         if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
             (options.strict ? comparison.failures : comparison.notes)
                 .push_back(fmt::format("{} of {}: none of our channels, not compared",

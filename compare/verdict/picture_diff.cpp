@@ -144,7 +144,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
-void bringTogether(PictureFile& a, PictureFile& b, PictureDiff& diff) {
+void bringTogether(PictureFile& a, PictureFile& b, bool strict, PictureDiff& diff) {
     if (a.width != b.width || a.height != b.height)
         throw std::runtime_error(
             fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", diff.reference,
@@ -161,9 +161,16 @@ void bringTogether(PictureFile& a, PictureFile& b, PictureDiff& diff) {
                         a.straight_alpha ? diff.reference : diff.test));
         associate(a.straight_alpha ? a : b);
     }
-    for (const PictureFile* file : {&a, &b})
-        for (const std::string& note : file->notes)
-            diff.notes.push_back(fmt::format("{}: {}", file == &a ? diff.reference : diff.test, note));
+    for (const PictureFile* file : {&a, &b}) {
+        const std::string& name = file == &a ? diff.reference : diff.test;
+        const auto& others = (file == &a ? b : a).notes.not_applied;
+        for (const std::string& line : file->notes.lines)
+            diff.notes.push_back(fmt::format("{}: {}", name, line));
+        // What both say alike changes nothing between them.
+        for (const std::string& line : file->notes.not_applied)
+            (strict && std::ranges::count(others, line) == 0 ? diff.failures : diff.notes)
+                .push_back(fmt::format("{}: {}", name, line));
+    }
     diff.width = a.width;
     diff.height = a.height;
     diff.display = a.display_referred;
@@ -320,7 +327,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     auto [a, b] = readPair(reference, test, options);
     diff.reference_format = a.format;
     diff.test_format = b.format;
-    bringTogether(a, b, diff);
+    bringTogether(a, b, options.strict, diff);
 
     checkNames(a, b, options.names);
     std::vector<PictureChannel> left = channelsOf(std::move(a), options.names),

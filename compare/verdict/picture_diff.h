@@ -27,7 +27,7 @@ struct PictureDiffOptions {
     std::vector<std::string> names;     // --map
     SelectionOptions selection;
     bool tolerance_given = false;
-    bool strict = false;       // a channel that only one picture has is a failure
+    bool strict = false;       // a channel, or what values mean, that one picture alone has is a failure
     bool allow_empty = false;  // two black pictures are what is wanted
     double blur = 0;           // standard deviation, pixels
     int shift = 0;             // pixels

@@ -70,7 +70,8 @@ struct ChannelNoise {
 struct FrameOrigin {
     std::string file;  // empty: drawn by this program run
     std::string device, driver, commit;
-    std::vector<std::string> left_out = {};  // the file's channels that are none of ours
+    std::vector<std::string> left_out = {};     // the file's channels that are none of ours
+    std::vector<std::string> not_applied = {};  // what the file says of its colours or pixels, FileNotes
     // Drawn now, by a program that is not ours: `file` is the one that names it, and what it is granted
     // stands here, in words.
     bool external = false;

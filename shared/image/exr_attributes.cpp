@@ -23,6 +23,7 @@ struct Kept {
     bool parts_only = false;      // has a meaning only in a file of several parts
     std::string_view value = {};  // written for every part instead of the file's
 };
+constexpr std::array meant{Kept{"chromaticities", "chromaticities", 32}, Kept{"whiteLuminance", "float", 4}};
 constexpr std::string_view no_window("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 16),
     square_pixels("\0\0\x80\x3f", 4);
 constexpr std::array kept{
@@ -85,6 +86,9 @@ Attributes readAttributes(Cursor& in, Bytes from, bool several) {
             fail(
                 fmt::format("attribute {}: {} bytes of {} left in the file", oneLine(name), size, in.left()));
         const Bytes value = in.take(static_cast<std::size_t>(size));
+        const auto meaning = std::ranges::find(meant, name, &Kept::name);
+        if (meaning != meant.end() && type == meaning->type && value.size() == meaning->size)
+            part.meaning.emplace(name, value);
         const auto known = std::ranges::find(kept, name, &Kept::name);
         if (known == kept.end() || (known->parts_only && !several)) {
             if (type == "string") addString(part, name, value);

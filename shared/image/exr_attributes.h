@@ -38,6 +38,8 @@ private:
 struct Attributes {
     // Those needed to read the pixels, with the right type and size.
     std::map<std::string, Bytes, std::less<>> needed;
+    // What its colours mean, which the library is not told: chromaticities (8 floats), whiteLuminance.
+    std::map<std::string, Bytes, std::less<>> meaning;
     std::map<std::string, std::string_view, std::less<>> strings;  // all others of type "string"
     Bytes all;                                                     // with the null character at the end
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -168,6 +169,21 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
                          std::max(claims.data, claims.display) >> 20, allowed >> 20));
 }
 
+// Says what its colours and pixels are.
+std::optional<glm::dmat3> meaningOf(const Attributes& part, FileNotes& notes) {
+    if (part.needed.contains("pixelAspectRatio"))
+        noteAspect(part.valueOf("pixelAspectRatio").number<float>(), notes);
+    if (const auto white = part.meaning.find("whiteLuminance"); white != part.meaning.end())
+        notes.not_applied.push_back(fmt::format("its white is of {:.6g} cd/m2, which is not applied",
+                                                Cursor(white->second).number<float>()));
+    const auto chromaticities = part.meaning.find("chromaticities");
+    if (chromaticities == part.meaning.end()) return {};
+    Cursor in(chromaticities->second);
+    Primaries primaries{};
+    for (double& part_of : primaries) part_of = in.number<float>();
+    return matrixToRec709(primaries, notes);
+}
+
 struct Reader {
     std::span<const std::byte> file;
     std::uint64_t most;
@@ -220,11 +236,15 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
             "{}: one part at a time is read, as FILE.exr?part={}",
             display.width(), display.height(), display.min_x, display.min_y, header.display.width(),
             header.display.height(), header.display.min_x, header.display.min_y, part.number));
+    FileNotes notes;
     if (tiles.levels > 0)
-        header.notes.push_back(
-            fmt::format("{}is {}-mapped: its largest level is read",
-                        part.name.empty() ? "" : fmt::format("part \"{}\" ", oneLine(part.name, 60)),
-                        tiles.levels == 1 ? "mip" : "rip"));
+        notes.lines.push_back(
+            fmt::format("is {}-mapped: its largest level is read", tiles.levels == 1 ? "mip" : "rip"));
+    part.to_rec709 = meaningOf(attributes, notes);
+    const std::string who = part.name.empty() ? "" : fmt::format("part \"{}\": ", oneLine(part.name, 60));
+    for (const auto& [from, to] :
+         {std::pair{&notes.lines, &header.notes.lines}, {&notes.not_applied, &header.notes.not_applied}})
+        for (const std::string& line : *from) to->push_back(who + line);
     for (const auto& [name, value] : attributes.strings) header.attributes.emplace(name, std::string(value));
     header.parts.push_back(std::move(part));
 }

@@ -4,9 +4,12 @@
 // length of every part has been checked.
 #pragma once
 
+#include "shared/image/primaries.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +42,7 @@ struct ExrPart {
     ExrWindow data;
     std::vector<ExrChannel> channels;  // in the order of the file
     std::uint64_t stored_bytes = 0;    // of all pixels, uncompressed
+    std::optional<glm::dmat3> to_rec709{};
 };
 
 // Of the parts that are read.
@@ -46,7 +50,7 @@ struct ExrHeader {
     ExrWindow display;  // common to all parts
     std::vector<ExrPart> parts;
     std::map<std::string, std::string> attributes;  // the string attributes, of the first part
-    std::vector<std::string> notes;                 // what is left out, one line each
+    FileNotes notes;
     // To be read in place of the file's beginning, which has the same length: headers of the same parts with
     // only the needed attributes, and a filler for the space of the others.
     std::vector<std::byte> bytes;

@@ -248,7 +248,7 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
                         std::move(header.notes)};
     for (const ExrPart& part : header.parts) {
         if (part.data != header.display)
-            picture.notes.push_back(fmt::format(
+            picture.notes.lines.push_back(fmt::format(
                 "{}its pixels are {}x{} from {},{} on, the picture is {}x{} from {},{} on: 0 where there are "
                 "none",
                 part.name.empty() ? "" : "part \"" + oneLine(part.name, 60) + "\": ", part.data.width(),
@@ -257,7 +257,10 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
         const auto read = [&] { return readPart(in, part, header.display); };
         std::vector<Layer> layers =
             part.name.empty() ? read() : named("part \"" + oneLine(part.name, 60) + "\"", read);
-        for (Layer& layer : layers) picture.layers.push_back(std::move(layer.picture));
+        for (Layer& layer : layers) {
+            layer.picture.to_rec709 = part.to_rec709;
+            picture.layers.push_back(std::move(layer.picture));
+        }
         in.flushPartCache();  // frees its buffers
     }
     checkNames(picture.layers);

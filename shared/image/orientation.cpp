@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/orientation.h"
 
+#include "shared/image/chunks.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -66,34 +68,25 @@ int orientationOf(std::span<const std::byte> exif) {
 }
 
 int orientationOfJpeg(std::span<const std::byte> file) {
-    constexpr std::uint32_t scan = 0xda, application = 0xe1;
     using namespace std::string_view_literals;
     constexpr std::string_view name = "Exif\0\0"sv;
-    for (std::size_t at = 2; file.size() >= 4 && at <= file.size() - 4;) {
-        if (file[at] != std::byte{0xff}) return 1;
-        const auto marker = std::to_integer<std::uint32_t>(file[at + 1]);
-        if (marker == 0xff) {  // a fill byte
-            ++at;
-            continue;
-        }
-        const std::size_t size = numberAt(file, at + 2, 2, true);  // its own two bytes are in it
-        if (marker == scan || size < 2 || size > file.size() - at - 2) return 1;
-        if (marker == application && size >= 2 + name.size() && textAt(file, at + 4, name.size()) == name)
-            return orientationOf(file.subspan(at + 4 + name.size(), size - 2 - name.size()));
-        at += 2 + size;
-    }
-    return 1;
+    int orientation = 1;
+    visitJpeg(file, [&](const Chunk& segment) {
+        if (segment.name != "\xe1" || !segment.data.starts_with(name)) return true;
+        orientation = orientationOf(std::as_bytes(std::span(segment.data.substr(name.size()))));
+        return false;
+    });
+    return orientation;
 }
 
 int orientationOfPng(std::span<const std::byte> file) {
-    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum around a chunk's data
-    for (std::size_t at = signature; file.size() >= around && at <= file.size() - around;) {
-        const std::size_t size = numberAt(file, at, 4, true);
-        if (size > file.size() - at - around) return 1;
-        if (textAt(file, at + 4, 4) == "eXIf") return orientationOf(file.subspan(at + 8, size));
-        at += around + size;
-    }
-    return 1;
+    int orientation = 1;
+    visitPng(file, [&](const Chunk& chunk) {
+        if (chunk.name != "eXIf") return true;
+        orientation = orientationOf(std::as_bytes(std::span(chunk.data)));
+        return false;
+    });
+    return orientation;
 }
 
 Image turned(Image image, int orientation) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/picture_file.h"
 
+#include "shared/image/chunks.h"
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
 #include "shared/image/file_bytes.h"
@@ -75,6 +76,26 @@ PictureSize sizeOfJpeg(const JpegSize& size, EightBits eight) {
             eight == EightBits::kept ? 4 + components : std::int64_t{sizeof(float)} * components + 4};
 }
 
+// JFIF 1.02's pixel aspect, and the profile (ICC.1:2022, B.4), whose parts stand in several segments.
+FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view jfif = "JFIF\0"sv, icc = "ICC_PROFILE\0"sv;
+    FileNotes notes;
+    std::string profile;
+    visitJpeg(bytes, [&](const Chunk& segment) {
+        if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 10, 2) > 0)
+            noteAspect(static_cast<double>(bigEndian(segment.data, 8, 2)) / bigEndian(segment.data, 10, 2),
+                       notes);
+        constexpr std::size_t numbers = 2;  // which part it is, and of how many
+        if (segment.name == "\xe2" && segment.data.starts_with(icc) &&
+            segment.data.size() > icc.size() + numbers)
+            profile += segment.data.substr(icc.size() + numbers);
+        return true;
+    });
+    if (!profile.empty()) noteProfile(profile, "sRGB's", notes);
+    return notes;
+}
+
 // The values of a JPEG without colour conversion: value / 255. It has no alpha.
 PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
                           EightBits eight) {
@@ -98,18 +119,26 @@ PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& n
         PictureFile file = eight == EightBits::kept ? ofOneLayer("JPEG", "8 bit", {}, std::move(stored.coded))
                                                     : ofOneLayer("JPEG", "8 bit", stored.takeImage());
         turn(file, orientationOfJpeg(bytes));
+        file.notes = notesOfJpeg(bytes);
         file.display_referred = true;
         return file;
     });
+}
+
+PictureFile pictureOfHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+    HdrPicture hdr = readHdr(bytes, name, most);
+    PictureFile file = ofOneLayer("Radiance HDR", "RGBE", std::move(hdr.image));
+    file.notes = std::move(hdr.notes);
+    return file;
 }
 
 PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     PfmPicture pfm = readPfm(bytes, name, most);
     PictureFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
-        file.notes.push_back(fmt::format("{} bytes behind its pixels are not read", pfm.behind));
+        file.notes.lines.push_back(fmt::format("{} bytes behind its pixels are not read", pfm.behind));
     if (pfm.scale != 1)
-        file.notes.push_back(
+        file.notes.lines.push_back(
             fmt::format("its values were multiplied by the {} that its header says", pfm.scale));
     return file;
 }
@@ -158,7 +187,7 @@ PictureFile readPicture(std::span<const std::byte> bytes, const std::string& nam
         case Format::tiff:
             return pictureOfTiff(bytes, name, most);
         case Format::hdr:
-            return ofOneLayer("Radiance HDR", "RGBE", readHdr(bytes, name, most));
+            return pictureOfHdr(bytes, name, most);
         case Format::pfm:
             break;
     }

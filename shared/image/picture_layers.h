@@ -4,10 +4,12 @@
 
 #include "shared/image/image.h"
 #include "shared/image/png.h"
+#include "shared/image/primaries.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,9 @@ struct PictureLayer {
     // empty if the image holds all of them exactly. The outer vector is empty if there is no such channel.
     std::vector<std::vector<std::uint32_t>> exact{};
     Image8 coded{};  // in place of `image`, if the reader was asked to keep 8 bits
+    // Of an EXR's colours that are not Rec. 709's: convertColors() of those channels is the caller's, who
+    // knows which are colours. Other formats' colours are converted.
+    std::optional<glm::dmat3> to_rec709{};
 
     // The value in the file, not rounded: two values are equal only if they are equal in the files. For PNG
     // and for scaled files it is the image's value.
@@ -46,8 +51,8 @@ struct PictureFile {
     // An EXR's string attributes as they are in the file (to be passed through oneLine() before they are
     // shown). In files of this program they describe settings, scene and device.
     std::map<std::string, std::string> attributes{};
-    std::vector<std::string> notes{};  // what was left out or assumed, one line each, without the file's name
-    bool straight_alpha = false;       // colours are not multiplied by alpha: PNG's are not, OpenEXR's are
+    FileNotes notes{};
+    bool straight_alpha = false;  // colours are not multiplied by alpha: PNG's are not, OpenEXR's are
 };
 
 }  // namespace diptych

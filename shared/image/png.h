@@ -3,6 +3,7 @@
 
 #include "shared/image/image.h"
 #include "shared/image/limits.h"
+#include "shared/image/primaries.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,13 +27,14 @@ void writePng(const std::filesystem::path& file, const Image8& image);
 // The bytes that writePng() writes.
 std::string pngBytes(const Image8& image);
 
-// The values of a PNG without colour conversion: value / 255 or value / 65535 for each component.
+// The values of a PNG: value / 255 or value / 65535 for each component; where cHRM has other primaries,
+// converted to Rec. 709's.
 struct PngPicture {
     Image image;          // Y, YA, RGB or RGBA: palettes are expanded, transparent colours become an A
     Image8 coded{};       // in place of `image`, the same components
     int bits = 8;         // 16, or 8 for files of 8 or fewer bits, whose values 8 bits hold exactly
     bool linear = false;  // its gamma is 1 (gAMA, without an sRGB chunk); otherwise it counts as sRGB-encoded
-    std::vector<std::string> notes{};  // gammas and colour profiles that are not applied, one line each
+    FileNotes notes{};
 };
 
 // Whether 8 bits a component become floats, or stay what they are for a quarter of the memory.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Source: PNG specification (ISO/IEC 15948); numbers in comments are its chapters.
+#include "shared/image/chunks.h"
 #include "shared/image/file_bytes.h"
 #include "shared/image/png.h"
 #include "shared/image/png_decoder.h"
+#include "shared/image/primaries.h"
 #include "shared/text/fail.h"
 #include "shared/text/named.h"
 
@@ -10,56 +12,76 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace diptych {
 namespace {
 
 // ---- what stands before the pixels -------------------------------------------------------------------
 
-// 4.3, 11.3.3: the meaning of the values. Profiles are not decompressed; that there is one is noted.
+// 4.3, 11.3.2: what its values mean.
 struct Encoding {
-    std::uint32_t gamma = 0;  // in 1/100000, as the file has it; 0: none
-    bool srgb = false, profile = false;
+    bool linear = false;
+    std::optional<glm::dmat3> to_rec709{};
+    FileNotes notes{};
 };
 
-Encoding encodingOf(std::span<const std::byte> file) {
-    const auto word = [&](std::size_t at) {
-        std::uint32_t value;
-        std::memcpy(&value, file.data() + at, sizeof value);
-        return std::endian::native == std::endian::little ? __builtin_bswap32(value) : value;
-    };
-    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum around a chunk's data
-    Encoding encoding;
-    for (std::size_t at = signature; file.size() - at >= around;) {
-        const std::size_t size = word(at);
-        const std::string_view name(reinterpret_cast<const char*>(file.data()) + at + 4, 4);
-        if (name == "IDAT" || size > file.size() - at - around) break;
-        if (name == "gAMA" && size == 4) encoding.gamma = word(at + 8);
-        if (name == "sRGB") encoding.srgb = true;
-        if (name == "iCCP" || name == "cICP") encoding.profile = true;
-        at += around + size;
-    }
-    return encoding;
+Primaries primariesOf(const Chunk& chunk) {
+    Primaries primaries{};
+    for (std::size_t i = 0; i < primaries.size(); ++i)  // the white comes first
+        primaries[i] = bigEndian(chunk.data, 4 * ((i + 2) % primaries.size())) / 100000.0;
+    return primaries;
 }
 
-// sRGB takes precedence over gAMA (4.3); a gAMA close to 1/2.2 is what writers of sRGB store.
-void describe(PngPicture& picture, const Encoding& encoding) {
-    constexpr std::uint32_t linear = 100000, srgb = 45455, rounding = 100;
-    const bool stated = encoding.gamma != 0 && !encoding.srgb;
-    picture.linear = stated && encoding.gamma == linear;
-    if (stated && !picture.linear && (encoding.gamma + rounding < srgb || encoding.gamma > srgb + rounding))
-        picture.notes.push_back(fmt::format("its gamma of {} is not applied: its values are taken as sRGB's",
-                                            static_cast<double>(encoding.gamma) / linear));
-    if (encoding.profile)
-        picture.notes.push_back(fmt::format("its colour profile is not applied: its values are taken as {}",
-                                            picture.linear ? "linear" : "sRGB's"));
+// 4.3: cICP and iCCP take precedence over sRGB, that over gAMA and cHRM. A gAMA close to 1/2.2 is what
+// writers of sRGB store. cICP (third edition, 11.3.2.6) of 1, 13, 0, 1 is sRGB by another name.
+Encoding encodingOf(std::span<const std::byte> file) {
+    constexpr std::uint32_t one = 100000, srgb = 45455, rounding = 100;
+    std::uint32_t gamma = 0, frames = 1;
+    std::optional<Primaries> primaries;
+    bool is_srgb = false;
+    std::string_view profile, code;
+    Encoding encoding;
+    visitPng(file, [&](const Chunk& chunk) {
+        if (chunk.name == "IDAT") return false;
+        if (chunk.name == "gAMA") gamma = bigEndian(chunk.data, 0);
+        if (chunk.name == "cHRM") primaries = primariesOf(chunk);
+        if (chunk.name == "sRGB") is_srgb = true;
+        if (chunk.name == "iCCP") profile = chunk.data;
+        if (chunk.name == "cICP" && chunk.data.size() == 4) code = chunk.data;
+        if (chunk.name == "acTL") frames = bigEndian(chunk.data, 0);
+        if (chunk.name == "pHYs" && bigEndian(chunk.data, 0) > 0)
+            noteAspect(static_cast<double>(bigEndian(chunk.data, 4)) / bigEndian(chunk.data, 0),
+                       encoding.notes);
+        return true;
+    });
+    const bool stated = gamma != 0 && !is_srgb;
+    encoding.linear = stated && gamma == one;
+    const char* const taken_as = encoding.linear ? "linear" : "sRGB's";
+    auto& not_applied = encoding.notes.not_applied;
+    if (stated && !encoding.linear && (gamma + rounding < srgb || gamma > srgb + rounding))
+        not_applied.push_back(fmt::format("its gamma of {} is not applied: its values are taken as sRGB's",
+                                          static_cast<double>(gamma) / one));
+    using namespace std::string_view_literals;
+    if (!code.empty() && code != "\1\15\0\1"sv)
+        not_applied.push_back(
+            fmt::format("its colours are of code points {} {} {} {} (ITU-T H.273), which are not applied: "
+                        "its values are taken as {}",
+                        bigEndian(code, 0, 1), bigEndian(code, 1, 1), bigEndian(code, 2, 1),
+                        bigEndian(code, 3, 1), taken_as));
+    else if (code.empty() && !profile.empty())
+        noteProfile(profile, taken_as, encoding.notes);
+    else if (code.empty() && !is_srgb && primaries)
+        encoding.to_rec709 = matrixToRec709(*primaries, encoding.notes);
+    if (frames > 1) not_applied.push_back(fmt::format("the first of its {} frames alone is read", frames));
+    return encoding;
 }
 
 // ---- the pixels --------------------------------------------------------------------------------------
@@ -92,20 +114,26 @@ constexpr const char* headerChanges = "its header changes";
 
 constexpr const char* cutShort = "is cut short";
 
-bool isKept(const PngDecoder& decoder, EightBits eight) {
-    return eight == EightBits::kept && decoder.bits() == 8;
+bool isConverted(const PngDecoder& decoder, const Encoding& encoding) {
+    return encoding.to_rec709 && decoder.components() >= 3;
 }
 
-PictureSize sizeOf(const PngDecoder& decoder, EightBits eight) {
-    const int bytes = isKept(decoder, eight) ? 1 : static_cast<int>(sizeof(float));
-    const int rows = decoder.isInterlaced() && !isKept(decoder, eight) ? decoder.bits() / 8 : 0;
+bool isKept(const PngDecoder& decoder, const Encoding& encoding, EightBits eight) {
+    return eight == EightBits::kept && decoder.bits() == 8 && !isConverted(decoder, encoding);
+}
+
+PictureSize sizeOf(const PngDecoder& decoder, bool kept) {
+    const int bytes = kept ? 1 : static_cast<int>(sizeof(float));
+    const int rows = decoder.isInterlaced() && !kept ? decoder.bits() / 8 : 0;
     return {decoder.width(), decoder.height(), std::int64_t{bytes + rows} * decoder.components()};
 }
 
 PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBits eight) {
     PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
-    const auto [width, height, bytesPerPixel] = sizeOf(decoder, eight);
+    Encoding encoding = encodingOf(bytes);
+    const bool kept = isKept(decoder, encoding, eight);
+    const auto [width, height, bytesPerPixel] = sizeOf(decoder, kept);
     checkImageSize(width, height, bytesPerPixel, most);
     const int components = decoder.components(), bits = decoder.bits();
     const bool interlaced = decoder.isInterlaced();
@@ -115,8 +143,9 @@ PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBit
     const auto lines = static_cast<std::size_t>(height);
     PngPicture picture;
     picture.bits = bits;
-    describe(picture, encodingOf(bytes));
-    if (isKept(decoder, eight)) {
+    picture.linear = encoding.linear;
+    picture.notes = std::move(encoding.notes);
+    if (kept) {
         picture.coded = {static_cast<int>(width), static_cast<int>(height), components,
                          std::vector<std::uint8_t>(row * lines)};
         if (interlaced) decoder.readAll(picture.coded.data.data());
@@ -137,6 +166,7 @@ PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBit
         float* to = picture.image.data.data() + row * y;
         bits == 16 ? convert<std::uint16_t>(from, to, row) : convert<std::uint8_t>(from, to, row);
     }
+    if (isConverted(decoder, encoding)) convertColors(picture.image, *encoding.to_rec709, !encoding.linear);
     return picture;
 }
 
@@ -154,7 +184,7 @@ PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& n
 PictureSize pngSize(std::span<const std::byte> bytes, EightBits eight) {
     PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
-    return sizeOf(decoder, eight);
+    return sizeOf(decoder, isKept(decoder, encodingOf(bytes), eight));
 }
 
 void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsigned char* pixels) {

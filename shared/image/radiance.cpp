@@ -2,7 +2,6 @@
 #include "shared/image/radiance.h"
 
 #include "shared/image/atomic_file.h"
-#include "shared/image/file_bytes.h"
 #include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
@@ -15,8 +14,10 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -82,6 +83,8 @@ struct Orientation {
 
 struct RadianceHeader {
     std::array<double, 3> scale{1, 1, 1};  // factor from stored values to radiance
+    double aspect = 1;                     // of a pixel's sides; several PIXASPECTs multiply
+    std::optional<Primaries> primaries{};
     Orientation orientation;
     int width = 0, height = 0;
 };
@@ -98,6 +101,13 @@ void readVariable(std::string_view line, RadianceHeader& header) {
             fail(fmt::format("FORMAT {} is not 32-bit_rle_rgbe", oneLine(value, 60)));
         return;
     }
+    if (name == "PRIMARIES") {
+        Primaries primaries{};
+        if (!std::ranges::all_of(primaries, [&](double& part) { return takeNumber(value, part); }))
+            fail(fmt::format("{} is not eight numbers", oneLine(line, 60)));
+        header.primaries = primaries;
+    }
+    if (double aspect = 0; name == "PIXASPECT" && takeNumber(value, aspect)) header.aspect *= aspect;
     // Each of these lines gives a factor that has been applied to the radiance; their factors multiply.
     const std::size_t count = name == "EXPOSURE" ? 1 : name == "COLORCORR" ? 3 : 0;
     std::string_view rest = value;
@@ -198,7 +208,7 @@ float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
     return static_cast<float>(std::ldexp(mantissa + 0.5, exponent - (128 + 8)) * scale);
 }
 
-Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
+HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     RadianceCursor in(bytes);
     const RadianceHeader header = readHeader(in);
     const Orientation& order = header.orientation;
@@ -233,7 +243,16 @@ Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
             for (std::size_t c = 0; c < 3; ++c) to[c] = decoded(pixel[c], pixel[3], header.scale[c]);
         }
     }
-    return image;
+    HdrPicture picture{std::move(image)};
+    if (header.scale != std::array<double, 3>{1, 1, 1})
+        picture.notes.lines.push_back(
+            fmt::format("its values were multiplied by {:.6g} {:.6g} {:.6g}, by its EXPOSURE and COLORCORR",
+                        header.scale[0], header.scale[1], header.scale[2]));
+    noteAspect(header.aspect, picture.notes);
+    if (header.primaries)
+        if (const auto matrix = matrixToRec709(*header.primaries, picture.notes))
+            convertColors(picture.image, *matrix);
+    return picture;
 }
 
 // ---- writing -----------------------------------------------------------------------------------------
@@ -292,12 +311,8 @@ PictureSize hdrSize(std::span<const std::byte> bytes) {
     return {header.width, header.height, 3 * sizeof(float)};
 }
 
-Image readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+HdrPicture readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] { return readPicture(bytes, most); });
-}
-
-Image readHdr(const std::filesystem::path& file) {
-    return readHdr(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 
 std::size_t writeHdr(const std::filesystem::path& file, const Image& image) {

@@ -6,6 +6,7 @@
 
 #include "shared/image/image.h"
 #include "shared/image/limits.h"
+#include "shared/image/primaries.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +17,16 @@
 namespace diptych {
 
 // RGB, linear, row 0 on top whichever of the eight orientations the file has; divided by the file's
-// EXPOSUREs and COLORCORRs, so that values are the radiance that was measured. Reads flat pixels and both
-// run-length codes. Refuses XYZE (with an error that names it) and what needs more than `most` bytes
-// decoded. Throws std::runtime_error, one line naming file and fault.
-Image readHdr(const std::filesystem::path& file);
-Image readHdr(std::span<const std::byte> bytes, const std::string& name,
-              std::uint64_t most = limits::imageBytes());
+// EXPOSUREs and COLORCORRs, so that values are the radiance that was measured, and converted where PRIMARIES
+// are not Rec. 709's, which are assumed. Reads flat pixels and both run-length codes. Refuses XYZE (with an
+// error that names it) and what needs more than `most` bytes decoded. Throws std::runtime_error, one line
+// naming file and fault.
+struct HdrPicture {
+    Image image;
+    FileNotes notes{};
+};
+HdrPicture readHdr(std::span<const std::byte> bytes, const std::string& name,
+                   std::uint64_t most = limits::imageBytes());
 
 // From its header. Throws std::runtime_error without the file's name.
 PictureSize hdrSize(std::span<const std::byte> bytes);

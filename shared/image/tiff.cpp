@@ -257,6 +257,28 @@ namespace {
     fail("is a TIFF that does not decode: " + (file.error.empty() ? "its pieces have no place" : file.error));
 }
 
+// Profile, primaries (TIFF 6.0, 20), resolution and further pages. Primaries without a white are D65's.
+void describe(TIFF* tiff, TiffPicture& picture) {
+    std::uint32_t size = 0;
+    void* profile = nullptr;
+    const float *primaries = nullptr, *white = nullptr;
+    const bool coloured = picture.image.components >= 3;
+    if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &size, &profile) == 1) {
+        noteProfile({static_cast<const char*>(profile), size}, picture.linear ? "linear" : "sRGB's",
+                    picture.notes);
+    } else if (coloured && TIFFGetField(tiff, TIFFTAG_PRIMARYCHROMATICITIES, &primaries) == 1) {
+        Primaries all{0, 0, 0, 0, 0, 0, 0.3127, 0.3290};
+        std::copy_n(primaries, 6, all.begin());
+        if (TIFFGetField(tiff, TIFFTAG_WHITEPOINT, &white) == 1) std::copy_n(white, 2, all.begin() + 6);
+        if (const auto matrix = matrixToRec709(all, picture.notes))
+            convertColors(picture.image, *matrix, !picture.linear);
+    }
+    const auto across = tagOf<float>(tiff, TIFFTAG_XRESOLUTION, 0),
+               up = tagOf<float>(tiff, TIFFTAG_YRESOLUTION, 0);
+    if (across > 0 && up > 0) noteAspect(double{up} / across, picture.notes);
+    if (TIFFLastDirectory(tiff) == 0) picture.notes.not_applied.emplace_back("its first page alone is read");
+}
+
 }  // namespace
 
 PictureSize tiffSize(std::span<const std::byte> bytes) {
@@ -288,11 +310,7 @@ TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, 
                              extra > 0 && kinds[0] == EXTRASAMPLE_ASSOCALPHA;
         if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode(file);
         picture.image = turned(std::move(picture.image), layout.orientation);
-        std::uint32_t size = 0;
-        void* profile = nullptr;
-        if (TIFFGetField(tiff.get(), TIFFTAG_ICCPROFILE, &size, &profile) == 1)
-            picture.notes.emplace_back("its colour profile is not applied");
-        if (TIFFLastDirectory(tiff.get()) == 0) picture.notes.emplace_back("its first page alone is read");
+        describe(tiff.get(), picture);
         return picture;
     });
 }

@@ -4,6 +4,7 @@
 
 #include "shared/image/image.h"
 #include "shared/image/limits.h"
+#include "shared/image/primaries.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ struct TiffPicture {
     std::string sample;       // "8 bit", "16 bit", "32 bit", "half" or "float"
     bool linear = false;      // floats; integers are divided by their largest and count as sRGB-encoded
     bool associated = false;  // colours are multiplied by alpha (EXTRASAMPLES 1)
-    std::vector<std::string> notes{};  // pages and colour profiles that are not read, one line each
+    FileNotes notes{};
 };
 
 // Whether the bytes begin as a TIFF's do.

@@ -8,12 +8,11 @@ using namespace diptych;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
-        const Image image = readHdr(fuzz::bytesAt(data, size), "fuzz.hdr", fuzz::most_bytes);
+        const Image image = readHdr(fuzz::bytesAt(data, size), "fuzz.hdr", fuzz::most_bytes).image;
         fuzz::require(image.width > 0 && image.height > 0 && image.components == 3,
                       "a picture has RGB pixels");
         fuzz::require(image.data.size() == 3 * image.pixels(), "a number for every component");
-        for (const float value : image.data)
-            fuzz::require(value >= 0 && std::isfinite(value), "radiance is finite and not negative");
+        for (const float value : image.data) fuzz::require(std::isfinite(value), "radiance is finite");
     });
     return 0;
 }

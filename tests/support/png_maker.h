@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -21,7 +22,8 @@ struct MadePng {
     double gamma = 0;           // 0: none
     bool srgb = false;
     bool profile = false;
-    std::string exif{};  // behind the pixels
+    std::vector<std::pair<std::string, std::string>> chunks{};  // before the pixels
+    std::string exif{};                                         // behind the pixels
 };
 
 // libpng terminates the program on an error, which would be a fault of the test.
@@ -55,6 +57,7 @@ inline std::string pngOf(const MadePng& made) {
     if (gamma > 0)
         chunk("gAMA", {png_byte(gamma >> 24), png_byte(gamma >> 16), png_byte(gamma >> 8), png_byte(gamma)});
     if (made.srgb) chunk("sRGB", {0});
+    for (const auto& [name, data] : made.chunks) chunk(name.c_str(), {data.begin(), data.end()});
     if (made.profile) chunk("iCCP", {'a', 0, 0});  // a name, a method, no data: profiles are not decompressed
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; ++pass)

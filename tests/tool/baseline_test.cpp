@@ -93,7 +93,10 @@ TEST(Baseline, FaultsAreOneLine) {
     folder.write("text.exr", "no picture");
     EXPECT_TRUE(runTool(folder, comparePoints + "--baseline text.exr").failedOver("text.exr: "));
     ASSERT_EQ(runTool(folder, "render builtin:points --size 16x9 --runs 0 -q -o b.exr").code, 0);
-    EXPECT_TRUE(runTool(folder, comparePoints + "--baseline b.exr").failedOver("16x9"));
+    for (const char* whole : {"b.exr", "'b.exr?part=0'"})
+        EXPECT_TRUE(runTool(folder, comparePoints + "--baseline " + whole).failedOver("16x9"));
+    EXPECT_TRUE(runTool(folder, comparePoints + "--baseline 'b.exr?part=left'")
+                    .failedOver("b.exr?part=left: has no part \"left\""));
     EXPECT_TRUE(runTool(folder, "compare builtin:points builtin:spheres --size 16x9 --baseline b.exr")
                     .failedOver("--baseline b.exr: is one picture"));
     const std::string before = contentsOf(folder / "b.exr");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/cube_map.h"
 
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/mipmap.h"
 
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

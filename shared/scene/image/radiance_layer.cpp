@@ -48,10 +48,14 @@ struct Repaired {
 Image repairedFrom(const PictureLayer& layer, Repaired& repaired) {
     const Channels channels = *colourOf(layer);
     Image radiance(layer.image.width, layer.image.height, 3);
+    for (std::size_t i = 0; i < radiance.pixels(); ++i)
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            radiance.pixel(i)[c] = layer.image.pixel(i)[channels[c]];
+    if (layer.to_rec709) convertColors(radiance, *layer.to_rec709);
     for (std::size_t i = 0; i < radiance.pixels(); ++i) {
         bool negative = false, notFinite = false;
         for (std::size_t c = 0; c < channels.size(); ++c) {
-            const float value = layer.image.pixel(i)[channels[c]];
+            const float value = radiance.pixel(i)[c];
             notFinite |= !std::isfinite(value);
             negative |= std::isfinite(value) && value < 0;
             radiance.pixel(i)[c] = std::isfinite(value) && value > 0 ? value : 0;
@@ -80,7 +84,8 @@ bool isRadiancePicture(std::span<const std::byte> bytes) {
 Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes) {
     const PictureLayer* layer = layerOf(picture);
     if (!layer) throw std::runtime_error("has no layer with R, G and B");
-    for (const std::string& said : picture.notes) notes.push_back(where + ": " + said);
+    for (const auto* said : {&picture.notes.lines, &picture.notes.not_applied})
+        for (const std::string& line : *said) notes.push_back(where + ": " + line);
     if (!layer->name.empty())
         notes.push_back(
             fmt::format("{}: has no R, G, B without a layer: {} is read", where, oneLine(layer->name)));

@@ -7,7 +7,7 @@
 #include "compare/external/sky.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 #include "shared/scene/load.h"
 #include "tests/support/campaign.h"
 

@@ -271,6 +271,43 @@ TEST(Strict, FailsADiffOfBlackPictures) {
     EXPECT_TRUE(diff(true, true).passed());
 }
 
+// What a file says of its values and nothing applies: another shape of pixels. Where both say it, it is of
+// no account.
+TEST(Strict, FailsADiffOfPixelsOfTwoShapes) {
+    const std::filesystem::path here = folder();
+    const std::string pixel("\x80\x80\x80\x81");
+    for (const auto& [name, variables] : {std::pair{"a.hdr", ""}, {"b.hdr", "PIXASPECT=2\n"}})
+        std::ofstream(here / name, std::ios::binary)
+            << ("#?RADIANCE\n" + std::string(variables) + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + pixel);
+    const auto diff = [&](const char* a, const char* b, bool strict) {
+        PictureDiffOptions options;
+        options.strict = strict;
+        return diffPictures((here / a).string(), (here / b).string(), options);
+    };
+    const std::string line =
+        (here / "b.hdr").string() + ": its pixels are not square (aspect 2): they are shown square";
+    for (const auto& [a, b] : {std::pair{"a.hdr", "b.hdr"}, {"b.hdr", "a.hdr"}}) {
+        EXPECT_EQ(diff(a, b, false).notes, Lines{line});
+        EXPECT_EQ(diff(a, b, true).failures, Lines{line});
+    }
+    EXPECT_TRUE(diff("b.hdr", "b.hdr", true).passed());
+}
+
+// And of a baseline, in compare.
+TEST(Strict, FailsOverWhatABaselineSaysOfItsPixels) {
+    for (const bool strict : {false, true}) {
+        Frame baseline = fewChannels()[0];
+        baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
+        baseline.origin.not_applied = {"its white is of 100 cd/m2, which is not applied"};
+        const Comparison c =
+            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {})
+                .comparisons.at(0);
+        EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
+                                     baseline.name + ": " + baseline.origin.not_applied[0]),
+                  1);
+    }
+}
+
 // A rule for one channel that neither side has judges nothing: that is a mistake, a pattern's is none, and
 // neither is a channel that --channels left out.
 TEST(Strict, ARuleForAChannelOfNeitherFileFails) {

@@ -75,7 +75,7 @@ TEST(ExrParts, EveryPartIsReadAndItsLayersAreNamedByBoth) {
     EXPECT_EQ(file.width, 9);
     EXPECT_EQ(file.height, 6);
     EXPECT_FALSE(file.display_referred);
-    EXPECT_TRUE(file.notes.empty());
+    EXPECT_TRUE(file.notes.lines.empty());
     ASSERT_EQ(layerNames(file), (Names{"beauty", "beauty.albedo", "normals", "ids"}));
     EXPECT_EQ(file.layers[0].channels, (Names{"beauty.R", "beauty.G", "beauty.B", "beauty.A"}));
     EXPECT_EQ(file.layers[1].channels,
@@ -118,10 +118,11 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
         tiled.levels = levels;
         const PictureFile file = partsOf(exrOf({colorPart, tiled}));
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
-        EXPECT_EQ(file.notes, Names{levels == Imf::MIPMAP_LEVELS
-                                        ? "part \"normals\" is mip-mapped: its largest level is read"
-                                        : "part \"normals\" is rip-mapped: its largest level is read"});
-        EXPECT_EQ(partsOf(exrOf({tiled})).notes,
+        EXPECT_EQ(file.notes.lines,
+                  Names{levels == Imf::MIPMAP_LEVELS
+                            ? "part \"normals\": is mip-mapped: its largest level is read"
+                            : "part \"normals\": is rip-mapped: its largest level is read"});
+        EXPECT_EQ(partsOf(exrOf({tiled})).notes.lines,
                   Names{levels == Imf::MIPMAP_LEVELS ? "is mip-mapped: its largest level is read"
                                                      : "is rip-mapped: its largest level is read"});
     }

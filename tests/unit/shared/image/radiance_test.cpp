@@ -2,6 +2,7 @@
 // Radiance pictures made by hand: every orientation, both run-length codes, and files with wrong headers.
 #include "shared/image/radiance.h"
 #include "shared/image/atomic_file.h"
+#include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
 
@@ -22,7 +23,7 @@ std::string hdr(const std::string& resolution, const std::string& pixels, const 
     return "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + pixels;
 }
 Image radianceOf(const std::string& file) {
-    return readHdr(std::as_bytes(std::span(file)), "a.hdr");
+    return readHdr(std::as_bytes(std::span(file)), "a.hdr").image;
 }
 std::string radianceFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     return faultOf([&] { readHdr(std::as_bytes(std::span(file)), "a.hdr", most); });
@@ -149,7 +150,7 @@ TEST(Radiance, WrittenPicturesComeBackWithinAStep) {
             rgb[1] = i % 40 < 20 ? 0.25f : 3.0f * static_cast<float>(i);
         }
         EXPECT_EQ(writeHdr(file, image), 0u);
-        const Image back = readHdr(file);
+        const Image back = readPicture(file).layers[0].image;
         ASSERT_EQ(back.width, width);
         ASSERT_EQ(back.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -174,14 +175,14 @@ TEST(Radiance, WhatRgbeCannotHoldIsCounted) {
     image.at(2, 0, 2) = std::numeric_limits<float>::infinity();
     for (int c = 0; c < 3; ++c) image.at(3, 0, c) = 1e-40f;
     EXPECT_EQ(writeHdr(file, image), 4u);
-    const Image back = readHdr(file);
+    const Image back = readPicture(file).layers[0].image;
     EXPECT_NEAR(back.at(0, 0, 0), 0, 1.0 / 128);
     EXPECT_NEAR(back.at(1, 0, 1), 0, 1.0 / 128);
     EXPECT_EQ(back.at(2, 0, 2), std::ldexp(255.5f, 119)) << "the largest number of RGBE";
     EXPECT_EQ(back.at(3, 0, 0), 0);
     EXPECT_EQ(back.at(4, 0, 0), 128.5f / 128);
     EXPECT_THROW(writeHdr(file, Image(2, 2, 4)), std::runtime_error);
-    EXPECT_THROW(readHdr(file.parent_path() / "none.hdr"), std::runtime_error);
+    EXPECT_THROW(readPicture(file.parent_path() / "none.hdr"), std::runtime_error);
 }
 
 }  // namespace

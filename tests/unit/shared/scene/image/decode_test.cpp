@@ -404,6 +404,18 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
                           static_cast<float>(texture.rgba[4 * i + static_cast<std::size_t>(c)]) / 255);
     }
     const Bytes file = jpeg(JCS_RGB, JCS_YCbCr, {1, 2, 3});
+    // As JFIF and ICC have it: a density of 2 by 1, and a profile in two parts.
+    Bytes told = file;
+    ASSERT_EQ(told.at(3), 0xe0);
+    told.at(15) = 2;
+    const std::string parts = std::string("\xff\xe2\x00\x11ICC_PROFILE\0\1\2a", 19) +
+                              std::string("\xff\xe2\x00\x12ICC_PROFILE\0\2\2bc", 20);
+    told.insert(told.begin() + 20, parts.begin(), parts.end());
+    const std::vector<std::string> notes =
+        readPicture(std::as_bytes(std::span(told)), "a.jpg").notes.not_applied;
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], "its pixels are not square (aspect 2): they are shown square");
+    EXPECT_TRUE(notes[1].starts_with("its colour profile (3 bytes, ")) << notes[1];
     const auto pictureFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
         return faultOf([&] { readPicture(std::as_bytes(bytes), "a.jpg", {}, most); });
     };

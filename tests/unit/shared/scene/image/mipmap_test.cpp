@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/mipmap.h"
 
-#include "shared/scene/image/srgb.h"
+#include "shared/image/srgb.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
