@@ -58,9 +58,9 @@ ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRe
     return lit;
 }
 
-std::array<ImageRef, 5> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+std::array<ImageRef, 6> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                                         std::shared_ptr<const DescriptorSets> channels) {
-    std::array<ImageRef, 5> terms;
+    std::array<ImageRef, 6> terms;
     for (ImageRef& term : terms) term = passes.image({.name = "term of channels", .format = litFormat});
     addShading(passes, inputs, depth, std::move(channels), "shade terms of channels",
                Shader::deferred_channel_terms_frag, terms, litFormat);

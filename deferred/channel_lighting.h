@@ -17,8 +17,8 @@ ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRe
                             std::shared_ptr<const DescriptorSets> channels);
 
 // Adds one pass that shades them into the terms of lit, before anything is blended: lit_diffuse,
-// lit_specular, lit_ambient, lit_haze, transmittance. Throws as above.
-std::array<ImageRef, 5> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+// lit_specular, lit_ambient, lit_haze, transmittance, lit_environment. Throws as above.
+std::array<ImageRef, 6> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                                         std::shared_ptr<const DescriptorSets> channels);
 
 }  // namespace diptych

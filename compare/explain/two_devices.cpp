@@ -102,6 +102,7 @@ std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scen
     images[gpu::DEBUG_lit_diffuse] = std::move(terms.diffuse);
     images[gpu::DEBUG_lit_specular] = std::move(terms.specular);
     images[gpu::DEBUG_lit_ambient] = std::move(terms.ambient);
+    images[gpu::DEBUG_lit_environment] = std::move(terms.environment);
     for (auto& [mode, image] : images) keepInFile(image.data);
     return images;
 }

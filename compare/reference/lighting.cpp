@@ -167,6 +167,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
             shading.costs =
                 approximation_->costs(surface, compensation, sky.value, streamOf(seed, costsStream));
         if (surface.lightmapped) shading.costs.diffuse = {};  // nor do the paths approximate it
+        shading.environment = sky.value;
         sum += shading * surface.occlusion;
     }
     if (takes_surroundings_ && visible && (environment_ || ambient_ != glm::dvec3(0)))
@@ -183,6 +184,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         const MoreReflections more = between(surface, visible, sum.all(), streamOf(seed, betweenStream));
         sum += more.shading;
         sum.reflected.diffuse *= more.base;
+        sum.environment.diffuse *= more.base;
         sum.ambient -= base * (1.0 - more.base);
     }
     sum.ambient *= surface.occlusion;
@@ -214,7 +216,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     }
     const Between paths(surface);
     const double share = paths.share();
-    glm::dvec3 layer(0);
+    glm::dvec3 layer(0), sky(0);
     std::size_t walked = 0;
     const auto estimate = [&](std::size_t round, std::uint64_t index) {
         Random random(streamOf(streamOf(seed, round), index));
@@ -239,17 +241,26 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
         Reflected sum{path.weight * ambient_, path.direct};
         if (environment_ && (!shadowed_environment_ || !visible || visible(path.direction, infinity)))
             sum.specular += path.weight * environment_->radiance(path.direction) * surface.occlusion;
+        sky += (sum.specular - path.direct) * share;
         return sum * share;
     };
     Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
     // Where few paths meet a second facet, those that do have few samples to spend.
     if (share > Between::leastShare) more = untilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
-    if (walked > 0) layer /= static_cast<double>(walked);
+    if (walked > 0) {
+        layer /= static_cast<double>(walked);
+        sky /= static_cast<double>(walked);
+    }
     Surface dielectric = surface;
     dielectric.metallic = 0;
     if (surface.metallic < 1) layer += specularAlbedo(dielectric);
-    return {{{glm::dvec3(0), more.value.specular}, more.uncertainty, more.value.diffuse},
+    return {{{glm::dvec3(0), more.value.specular},
+             more.uncertainty,
+             more.value.diffuse,
+             {},
+             {},
+             {glm::dvec3(0), sky}},
             1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1))};
 }
 

@@ -34,6 +34,7 @@ struct Shading {
     // Where it was asked for.
     EnvironmentCosts costs{};
     Surroundings surroundings{};
+    Reflected environment{};  // of `reflected`: the environment's part
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -42,10 +43,12 @@ struct Shading {
         ambient += other.ambient;
         costs += other.costs;
         surroundings += other.surroundings;
+        environment += other.environment;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b, a.uncertainty * b, a.ambient * b, a.costs * b, a.surroundings * b};
+        return {a.reflected * b, a.uncertainty * b,  a.ambient * b,
+                a.costs * b,     a.surroundings * b, a.environment * b};
     }
 };
 

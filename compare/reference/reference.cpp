@@ -65,6 +65,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return pixel.shading.reflected.specular;
         case gpu::DEBUG_lit_ambient:
             return pixel.shading.ambient;
+        case gpu::DEBUG_lit_environment:
+            return pixel.shading.environment.diffuse + pixel.shading.environment.specular;
         case gpu::DEBUG_lit_haze:
             return pixel.haze.scattered;
         case gpu::DEBUG_shadow_visibility:

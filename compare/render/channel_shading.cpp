@@ -125,7 +125,7 @@ struct ChannelShading::State {
     VkSampler nearest;
     std::size_t first = 0, last = 0;  // passes of lit
     ImageRef lit;
-    std::optional<std::array<ImageRef, 5>> terms;  // made when they are asked for
+    std::optional<std::array<ImageRef, 6>> terms;  // made when they are asked for
 };
 
 ChannelShading::ChannelShading(Device& device, SharedResources& shared, const SceneView& view,

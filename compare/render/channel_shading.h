@@ -43,6 +43,7 @@ private:
 // haze. W x H x 3 each, 0 in the background.
 struct ChannelTerms {
     Image diffuse, specular, ambient, haze, transmittance;
+    Image environment;  // a part of diffuse and specular
 };
 
 // Direct light of one light, before any haze: W x H x 3 each.

@@ -124,6 +124,7 @@ private:
     // Whether the scene can light the channel at all.
     bool isLightable(int mode) const {
         const Variant& variant = prepared_.view.inputs.variant;
+        if (isOfEnvironment(mode)) return variant.get(gpu::FEATURE_environment) != 0;
         return !isAmbient(mode) || variant.get(gpu::FEATURE_ambient) != 0 ||
                variant.get(gpu::FEATURE_lightmap) != 0;
     }

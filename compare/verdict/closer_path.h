@@ -50,9 +50,8 @@ struct CloserPathChannel {
 
 struct CloserPath {
     std::size_t reference = 0;
-    std::array<std::size_t, 2> paths{};  // into Report::frames
-    std::vector<CloserPathChannel>
-        channels;  // lit, lit_diffuse, lit_specular and lit_ambient, where all three have them
+    std::array<std::size_t, 2> paths{};       // into Report::frames
+    std::vector<CloserPathChannel> channels;  // litModes, where all three have them
 };
 
 // `names` of materials by id, may be short.

@@ -18,7 +18,7 @@ bool isDiffuse(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);
 }
 bool isAll(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit);
+    return mode.number == static_cast<int>(gpu::DEBUG_lit) || isOfEnvironment(mode.number);
 }
 
 // How much wider samples make the lobe, as a share of its solid angle: each stands for its own part of it.

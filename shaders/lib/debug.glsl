@@ -36,6 +36,7 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_lit_ambient: return vec4(radiance.ambient, 1.0);
         case DEBUG_lit_haze: return vec4(radiance.haze, 1.0);
         case DEBUG_transmittance: return vec4(radiance.transmittance, 1.0);
+        case DEBUG_lit_environment: return vec4(radiance.environment, 1.0);
         case DEBUG_dielectric_f90: return vec4(s.dielectric_f90);
         case DEBUG_lightmap: return vec4(s.lightmap, 1.0);
         case DEBUG_tangent: return vec4(s.tangent, 1.0);

@@ -123,23 +123,20 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// Adds what the surface sends to `v`. Occlusion dims it. The base of a surface with a lightmap has its light
+// What the surface sends to `v`, by its base and by its lobe. Occlusion dims it. The base of a surface with a lightmap has its light
 // from there.
-void addEnvironment(Surface s, Brdf b, vec3 v, inout vec3 diffuse, inout vec3 specular) {
+void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 from_lobe) {
     float factor = environmentFactor() * s.occlusion;
     vec3 r = environmentFromWorld(reflection(-v, s.normal));
     vec3 received = environmentIrradiance(s.normal) * factor;
-    vec3 from_base = b.diffuse * PI * baseShare(b) * received;
+    from_base = b.diffuse * PI * baseShare(b) * received;
     if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
-    vec3 from_lobe;
     if (on(feature_environment & ENVIRONMENT_SAMPLED))
         from_lobe = sampledSpecular(b, s.normal, v) * factor;
     else
         from_lobe = lobeShare(b) * levelRadiance(specularLevel(b.alpha), octahedralPlace(r)) * factor;
     // What is reflected between facets leaves as from a Lambertian surface.
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * PI * received;
-    diffuse += from_base;
-    specular += from_lobe;
 }
 
 #endif

@@ -16,11 +16,13 @@ struct Radiance {
     float local_seen;      // and what is seen of it
     vec3 transmittance;    // share of all this that haze lets through
     vec3 haze;             // and what haze adds
+    vec3 environment;      // of diffuse and specular: the environment's part
 };
 
 // What a pixel starts from.
 Radiance noRadiance() {
-    return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0));
+    return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0),
+                    vec3(0.0));
 }
 
 vec3 lit(Radiance radiance) {

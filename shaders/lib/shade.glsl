@@ -125,8 +125,15 @@ Radiance shade(Surface s, PixelLights lights) {
         vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }
-    if (on(feature_environment) && feature_light_batch != BATCH_LATER)
-        addEnvironment(s, shading.brdf, v, radiance.diffuse, radiance.specular);
+    if (on(feature_environment)) {
+        vec3 from_base, from_lobe;
+        reflectEnvironment(s, shading.brdf, v, from_base, from_lobe);
+        radiance.environment = from_base + from_lobe;
+        if (feature_light_batch != BATCH_LATER) {
+            radiance.diffuse += from_base;
+            radiance.specular += from_lobe;
+        }
+    }
     if (has_suns) {
         uvec2 range = directionalPackets();
         EACH(range) {

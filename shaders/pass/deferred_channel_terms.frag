@@ -13,6 +13,7 @@ layout(location = 1) out vec4 out_specular;
 layout(location = 2) out vec4 out_ambient;
 layout(location = 3) out vec4 out_haze;
 layout(location = 4) out vec4 out_transmittance;
+layout(location = 5) out vec4 out_environment;
 
 void main() {
     Surface s = surfaceFromChannels(ivec2(gl_FragCoord.xy));
@@ -22,4 +23,5 @@ void main() {
     out_ambient = vec4(radiance.ambient, 1.0);
     out_haze = vec4(radiance.haze, 1.0);
     out_transmittance = vec4(radiance.transmittance, 1.0);
+    out_environment = vec4(radiance.environment, 1.0);
 }

@@ -44,6 +44,7 @@
     X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \
     X(43, lit_haze,         3, relative, color,  any,      both,         "scattered to the viewer by haze before the surface, W/(sr m^2)") \
     X(44, transmittance,    3, absolute, color,  share,    both,         "share of the surface's light that haze lets through") \
+    X(45, lit_environment,  3, relative, color,  any,      both,         "the environment's part of lit_diffuse and lit_specular, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)") \
     X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent that the normal map is read with, world; 0 without one") \
@@ -88,11 +89,12 @@
     X(local_visibility,  14, 3) \
     X(lit_ambient,       15, 0) \
     X(lit_haze,          16, 0) \
-    X(transmittance,     17, 0)
+    X(transmittance,     17, 0) \
+    X(lit_environment,   18, 0)
 // clang-format on
 
 CONTRACT_BEGIN
-CONTRACT_CONST(uint, CAPTURE_IMAGES, 18);
+CONTRACT_CONST(uint, CAPTURE_IMAGES, 19);
 CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 12);
 // Images of one capture pass: the fewest attachments that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

@@ -42,7 +42,8 @@ std::string_view nameOf(Metric metric);
 // Channels of lighting: those that depend on the surface and on the light it receives.
 inline constexpr std::array litModes{
     static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_lit_diffuse),
-    static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient)};
+    static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient),
+    static_cast<int>(gpu::DEBUG_lit_environment)};
 constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
@@ -62,6 +63,11 @@ constexpr bool isShaded(int mode) {
 // The one that is dark in a scene without ambient light and lightmaps.
 constexpr bool isAmbient(int mode) {
     return mode == static_cast<int>(gpu::DEBUG_lit_ambient);
+}
+
+// And the one that is dark without an environment. No light that casts a shadow is in either.
+constexpr bool isOfEnvironment(int mode) {
+    return mode == static_cast<int>(gpu::DEBUG_lit_environment);
 }
 
 // The EXR channel names of a mode: R, G, B for lit, Z for depth, "albedo.R", "normals.X", "roughness.Y" for

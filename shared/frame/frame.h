@@ -116,7 +116,7 @@ struct Frame {
     // (exposure, background). Empty: all.
     std::vector<int> requested;
     bool isRequested(int mode) const { return requested.empty() || std::ranges::count(requested, mode) > 0; }
-    // Forward+ only: lit, lit_diffuse, lit_specular and lit_ambient, shaded from surfaces that were encoded
+    // Forward+ only: litModes, shaded from surfaces that were encoded
     // as in settings.gbuffer and decoded again, as the deferred path shades them. Used to explain a
     // difference of lit.
     std::map<int, Image> through_gbuffer;

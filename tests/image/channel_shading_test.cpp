@@ -13,8 +13,9 @@
 namespace diptych::tests {
 namespace {
 
-constexpr gpu::uint litTerms[] = {gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular, gpu::DEBUG_lit_ambient,
-                                  gpu::DEBUG_lit_haze, gpu::DEBUG_transmittance};
+constexpr gpu::uint litTerms[] = {gpu::DEBUG_lit_diffuse,   gpu::DEBUG_lit_specular,
+                                  gpu::DEBUG_lit_ambient,   gpu::DEBUG_lit_haze,
+                                  gpu::DEBUG_transmittance, gpu::DEBUG_lit_environment};
 
 std::vector<int> shadedChannels() {
     std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
@@ -61,8 +62,9 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
             std::size_t differ = 0;
             for (std::size_t p = 0; p < own.pixels(); ++p)
                 differ += !std::equal(own.pixel(p), own.pixel(p) + 3, shaded.pixel(p));
-            const Image* const made[] = {&own_terms.diffuse, &own_terms.specular, &own_terms.ambient,
-                                         &own_terms.haze, &own_terms.transmittance};
+            const Image* const made[] = {&own_terms.diffuse,       &own_terms.specular,
+                                         &own_terms.ambient,       &own_terms.haze,
+                                         &own_terms.transmittance, &own_terms.environment};
             for (std::size_t t = 0; t < std::size(litTerms); ++t) {
                 const Image& theirs = frame.channels.at(static_cast<int>(litTerms[t]));
                 for (std::size_t i = 0; i < theirs.data.size(); ++i)

@@ -27,8 +27,9 @@ namespace {
 constexpr int skyDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
               skySpecular = static_cast<int>(gpu::DEBUG_lit_specular),
               skyAmbient = static_cast<int>(gpu::DEBUG_lit_ambient),
+              skyAlone = static_cast<int>(gpu::DEBUG_lit_environment),
               skyIds = static_cast<int>(gpu::DEBUG_material_id);
-const std::vector<int> shown{lit, skyDiffuse, skySpecular, skyAmbient, skyIds};
+const std::vector<int> shown{lit, skyDiffuse, skySpecular, skyAmbient, skyAlone, skyIds};
 
 Settings underSky(Size size = {16, 16}) {
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -82,7 +83,7 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
         for (const Frame& frame : bothPaths(renderer, settings, shown)) {
             expectColor(colorAt(frame, lit, 4, 4), painted[i], 1e-6f, frame.name + " sees axis");
             EXPECT_EQ(colorAt(frame, skyIds, 4, 4).x, -1);
-            for (const int term : {skyDiffuse, skySpecular, skyAmbient})
+            for (const int term : {skyDiffuse, skySpecular, skyAmbient, skyAlone})
                 EXPECT_EQ(colorAt(frame, term, 4, 4), glm::vec3(0)) << "the background is no light term";
         }
     }
@@ -119,9 +120,33 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
                                         colorAt(frame, skyDiffuse, x, y) + colorAt(frame, skySpecular, x, y),
                                     off = glm::abs(sum - colorAt(frame, skyAmbient, x, y));
                     worst = std::max({worst, double{off.x}, double{off.y}, double{off.z}});
+                    ASSERT_EQ(colorAt(frame, skyAlone, x, y), sum) << frame.name;
                 }
             EXPECT_GT(covered, 200);
             EXPECT_LT(worst, 2e-6) << frame.name << " " << nameOf(diffuse);
+        }
+    }
+}
+
+// Its channel is the same whatever lights shine beside it, in one draw or in several.
+TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
+    Scene scene = square();
+    scene.environment = paintedSky();
+    Settings settings = underSky();
+    scene.lights.clear();
+    const std::vector<Frame> dark = bothPaths(scene, settings, shown);
+    Renderer renderer(device(), scene, pipelines());
+    settings.assign = Assignment::every;
+    for (const unsigned lights : {1u, 2 * device().profile().packets_per_draw + 7}) {
+        settings.lights = fmt::format("point:{}", lights);
+        const std::vector<Frame> bright = bothPaths(renderer, settings, shown);
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_EQ(differingPixels(bright[i].channels.at(skyAlone), dark[i].channels.at(skyAlone)), 0u)
+                << lights;
+            EXPECT_GT(differingPixels(bright[i].channels.at(skyDiffuse), dark[i].channels.at(skyDiffuse)),
+                      100u)
+                << lights;
+            EXPECT_GT(colorAt(dark[i], skyAlone, 8, 8).g, 0.01f);
         }
     }
 }
@@ -302,7 +327,7 @@ TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
     const LightmapsUnderSky lightmaps;
     const Frame truth = lightmaps.reference();
     for (const Frame& frame : lightmaps.paths(GBufferEncoding::full))
-        for (const int mode : {skyDiffuse, skySpecular}) {
+        for (const int mode : {skyDiffuse, skySpecular, skyAlone}) {
             double sum = 0, off = 0;
             for (std::size_t i = 0; i < truth.channels.at(mode).data.size(); ++i) {
                 const double a = frame.channels.at(mode).data[i], b = truth.channels.at(mode).data[i];

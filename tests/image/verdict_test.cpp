@@ -206,6 +206,10 @@ const NegativeControl negativeControls[] = {
      -1,
      5},  // in thicker air nothing of the sun arrives
     {"transmittance", nudge, {}, "builtin:suns", -1, 1000},
+    {"lit_environment",
+     [](Scene& s) {
+         s.environment = Environment{"sky", Image(8, 4, 3, 1e-4f)};
+     }},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),

@@ -45,6 +45,32 @@ TEST(ReferenceEnvironment, EachTexelIsWhereTheSceneSaysItIs) {
     EXPECT_NEAR(light.radiance({0, 0, 1}).r, mean(0, 7), 1e-10);
 }
 
+// Under it alone all that is reflected is its part, whatever is followed between microfacets.
+TEST(ReferenceEnvironment, ItsPartOfTheLightIsToldApart) {
+    const Environment sky = sunnySky(3, 2);
+    Surface s = mirror(0.9, 0.5);
+    s.dielectric_f0 = glm::dvec3(0.04);
+    s.dielectric_f90 = 1;
+    const Light sun = lightOf(LightKind::directional, {}, {0.3, 0.4, -1});
+    for (const Multiscatter each : {Multiscatter::off, Multiscatter::walk})
+        for (const double metallic : {0.0, 1.0}) {
+            s.metallic = metallic;
+            const auto shaded = [&](std::span<const Light> lights, const Environment* environment) {
+                return Lighting(lights, environment, 1, {0, 0, 0}, {0, 0, 0}, {}, false, each)(s, {}, 1);
+            };
+            const Shading alone = shaded({}, &sky), beside = shaded(std::span(&sun, 1), &sky),
+                          none = shaded(std::span(&sun, 1), nullptr);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(alone.environment.diffuse[c], alone.reflected.diffuse[c], 1e-12);
+                EXPECT_NEAR(alone.environment.specular[c], alone.reflected.specular[c], 1e-12);
+                EXPECT_NEAR(beside.environment.diffuse[c], alone.environment.diffuse[c],
+                            0.02 * alone.environment.diffuse[c] + 1e-9);
+            }
+            EXPECT_GT(alone.environment.specular.g, 1e-3);
+            EXPECT_EQ(none.environment.size(), 0);
+        }
+}
+
 TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
     Environment sky = constantSky(0, 8, 4);
     for (std::size_t i = 0; i < sky.radiance.data.size(); ++i)
