@@ -148,8 +148,8 @@ ChannelTerms ChannelShading::terms(std::uint32_t sides) {
     std::vector<PassList::ReadBack> requests;
     for (const ImageRef term : *state_->terms) requests.push_back({term, 3});
     std::vector<Image> read = readImages(passes, requests);
-    return {std::move(read[0]), std::move(read[1]), std::move(read[2]), std::move(read[3]),
-            std::move(read[4])};
+    return {std::move(read[0]), std::move(read[1]), std::move(read[2]),
+            std::move(read[3]), std::move(read[4]), std::move(read[5])};
 }
 
 LightChannels ChannelShading::light(std::uint32_t sides, std::size_t place) {

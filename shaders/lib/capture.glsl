@@ -41,7 +41,6 @@ void capture(Surface s, float z, uint shaded) {
         if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
     }
     vec4 images[CAPTURE_IMAGES];
-    for (uint i = 0; i < CAPTURE_IMAGES; ++i) images[i] = vec4(0.0);
     // The channel at component 0 fills its image, later ones take a component each.
 #define CAPTURE(name, image, component)                                                      \
     if (isCaptured(image)) {                                                                 \
@@ -51,8 +50,12 @@ void capture(Surface s, float z, uint shaded) {
     }
     CAPTURES(CAPTURE)
 #undef CAPTURE
+    // Without a loop, so that a module with its constants given stores at the locations alone that are drawn.
     uint free = 0u;
-    for (uint i = 0; i < CAPTURE_IMAGES; ++i) write(i, images[i], free);
+#define WRITE(name, image, component) \
+    if (component == 0) write(image, images[image], free);
+    CAPTURES(WRITE)
+#undef WRITE
 }
 
 #endif

@@ -123,8 +123,8 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// What the surface sends to `v`, by its base and by its lobe. Occlusion dims it. The base of a surface with a lightmap has its light
-// from there.
+// What the surface sends to `v`, by its base and by its lobe. Occlusion dims it. The base of a surface with a
+// lightmap has its light from there.
 void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 from_lobe) {
     float factor = environmentFactor() * s.occlusion;
     vec3 r = environmentFromWorld(reflection(-v, s.normal));

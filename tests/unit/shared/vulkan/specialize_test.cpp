@@ -3,6 +3,7 @@
 // optimiser, which does the same more slowly, makes of them what it makes of the module with the same values.
 #include "shared/vulkan/specialize.h"
 
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/features.h"
 #include "shared/contract/material.h"
 #include "shared/contract/posing.h"
@@ -16,6 +17,7 @@
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -304,6 +306,12 @@ TEST(Specialize, InputsOfArraysHaveALocationAnElement) {
     EXPECT_FALSE(all.contains(7 + gpu::SLOT_COUNT));
 }
 
+int outputs(const SpirvWords& of) {
+    int count = 0;
+    for (const auto& [name, found] : interfaceOf(of)) count += name.starts_with("class 3 ") ? found : 0;
+    return count;
+}
+
 // A vertex shader stores what the fragment shader reads, and computes and fetches nothing for the rest.
 TEST(Specialize, StoresNoOutputThatNothingReads) {
     FeatureValues values(gpu::FEATURE_COUNT);
@@ -317,14 +325,21 @@ TEST(Specialize, StoresNoOutputThatNothingReads) {
     EXPECT_EQ(inputLocations(none), position);
     EXPECT_EQ(inputLocations(normals), normal);
     EXPECT_GT(inputLocations(all).size(), normal.size());
-    const auto outputs = [](const SpirvWords& of) {
-        int count = 0;
-        for (const auto& [name, found] : interfaceOf(of)) count += name.starts_with("class 3 ") ? found : 0;
-        return count;
-    };
     EXPECT_EQ(outputs(none), 1);  // gl_Position
     EXPECT_EQ(outputs(normals), 2);
     EXPECT_EQ(outputs(all), 6);  // without slots and lights of vertices
+}
+
+// Attachments are those images alone that a capture draws, from the first location on.
+TEST(Specialize, CapturesStoreTheImagesThatAreDrawn) {
+    for (const Shader shader : {Shader::deferred_capture_frag, Shader::forward_capture_frag})
+        for (const std::uint32_t images :
+             {1u, 1u << 5, 1u | 1u << 3 | 1u << (gpu::CAPTURE_IMAGES - 1), 0xffu << 8}) {
+            FeatureValues values(gpu::FEATURE_COUNT);
+            values[gpu::FEATURE_captures] = images;
+            EXPECT_EQ(outputs(specializedBy(shaderModule(shader).words, values)), std::popcount(images))
+                << images;
+        }
 }
 
 // What a device may lack is asked for only where a variant has it.
