@@ -113,7 +113,7 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
             lines.push_back("as fast, as far as can be told: " + commonStanding(report, i));
         if (choice.sure)
             lines.push_back(fmt::format("sure: every other contender is slower over all, at {:.0f} %",
-                                        100 * (1 - RaceRules().false_winner)));
+                                        100 * toldApartConfidence));
     }
     const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
     lines.push_back(fmt::format(
@@ -151,7 +151,7 @@ nlohmann::ordered_json toJson(const Choices& choices) {
     Json scenes = Json::array();
     for (const ChoiceReport& report : choices.scenes) scenes.push_back(toJson(report));
     const std::optional<Settings> settings = chosenSettings(choices);
-    Json json{{"schema", 1}};
+    Json json{{"schema", 2}};
     json["settings"] = settings ? parseOrderedJson(toJson(*settings)) : Json();
     json["all"] = commonJson(*choices.all);
     json["scenes"] = std::move(scenes);
