@@ -151,7 +151,7 @@ nlohmann::ordered_json toJson(const Choices& choices) {
     Json scenes = Json::array();
     for (const ChoiceReport& report : choices.scenes) scenes.push_back(toJson(report));
     const std::optional<Settings> settings = chosenSettings(choices);
-    Json json{{"schema", 2}};
+    Json json{{"schema", 1}};
     json["settings"] = settings ? parseOrderedJson(toJson(*settings)) : Json();
     json["all"] = commonJson(*choices.all);
     json["scenes"] = std::move(scenes);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/search.h"
 
-#include "compare/choose/table.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +21,10 @@ constexpr std::size_t triedTogether = 3, mostInVain = 6;
 constexpr double timeSlack = 1.2, budgetSlack = 1.1;
 // A candidate that is this much slower than the best after two frames is not judged.
 constexpr double worthJudging = 1.05;
+// A row of the table that takes this much longer than a fitting one is not judged.
+constexpr double hopeless = 1.5;
+// A change helps if it takes off more than this, a logarithm; less is noise.
+constexpr double worthNoticing = 0.02;
 // The other path is improved where its best is within this ratio of the best.
 constexpr double worthImproving = 3;
 constexpr std::size_t contenders = 3;
@@ -105,21 +107,34 @@ private:
     }
 
     void measureTable() {
-        std::vector<std::size_t> chunk;
-        for (std::size_t i = 0; i < all_.size(); ++i) {
-            say(0.7 * static_cast<double>(i) / static_cast<double>(all_.size()), "table");
-            firsts_.emplace(all_[i].settings.path, i);
-            judge(i);
-            chunk.push_back(i);
-            if (chunk.size() < timedTogether && i + 1 < all_.size()) continue;
-            time(chunk, 0);
-            chunk.clear();
+        for (std::size_t from = 0; from < all_.size(); from += timedTogether) {
+            say(0.7 * static_cast<double>(from) / static_cast<double>(all_.size()), "table");
+            std::vector<std::size_t> together;
+            for (std::size_t i = from; i < std::min(from + timedTogether, all_.size()); ++i)
+                together.push_back(i);
+            time(together, 0);
+            for (const std::size_t i : together) {
+                const bool is_first = firsts_.emplace(all_[i].settings.path, i).second;
+                if (!is_first && budget_.isForSpeed() && all_[i].ms() > hopeless * leastFitting()) continue;
+                judge(i);
+            }
         }
+        // Where nothing fits yet, what takes long may.
+        for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) judge(i);
+    }
+    double leastFitting() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Candidate& each : all_)
+            if (each.judged && missOf(*each.judged, {}, budget_) <= 0) least = std::min(least, each.ms());
+        return least;
     }
 
     Effect measured(std::size_t i) const {
+        // The error of a row that was not judged is taken for its first's: it takes too long in any case.
         const Candidate& candidate = all_[i];
-        return {candidate.log_ms, candidate.judged->error, static_cast<double>(candidate.judged->bytes)};
+        const Judged& judged =
+            candidate.judged ? *candidate.judged : *all_[firsts_.at(candidate.settings.path)].judged;
+        return {candidate.log_ms, judged.error, static_cast<double>(judged.bytes)};
     }
     void learnChanges() {
         const auto add = [&](const Change& change, std::optional<Effect> effect) {
@@ -244,7 +259,10 @@ private:
             say(0.7 + 0.2 * (1 - std::exp(-0.05 * static_cast<double>(all_.size() - known_))), "changes");
             measureTried(tried, best);
             for (const std::size_t i : tried) learnFrom(best, i);
-            in_vain = bestOf(path) != best ? 0 : in_vain + tried.size();
+            const std::size_t now = bestOf(path);
+            const bool helps = now != best && (!budget_.isForSpeed() || missBy(all_[best]) > 0 ||
+                                               all_[now].log_ms < all_[best].log_ms - worthNoticing);
+            in_vain = helps ? 0 : in_vain + tried.size();
         }
     }
     // Where the best fits and the fastest is wanted, times come first, else errors: what is no better by the
@@ -298,6 +316,10 @@ private:
         found_.sure = result.sure;
         found_.chosen = which[result.winner];
         found_.ms = result.standings[result.winner].ms;
+        // The device may be slower or faster by now: all times are told as of now.
+        const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
+        if (std::abs(shift) >= worthShifting)
+            for (Candidate& each : all_) each.log_ms += shift;
         for (std::size_t k = 0; k < which.size(); ++k) {
             const std::size_t i = which[k];
             all_[i].fate = Fate::raced;

@@ -4,6 +4,7 @@
 // help; then the best few are timed again until they are told apart.
 #pragma once
 
+#include "compare/choose/table.h"
 #include "compare/choose/told_apart.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
@@ -48,13 +49,6 @@ public:
                                      std::span<const std::size_t> order) = 0;
     // The passes of one frame, each timed by itself, ms.
     virtual std::vector<PassTime> profile(const Settings& settings) = 0;
-};
-
-// One Setting of a path: its option and value, in the words of Settings::set().
-struct Change {
-    Path path = Path::deferred;
-    std::string option, value;
-    auto operator<=>(const Change&) const = default;
 };
 
 // Settings with some changes; nothing where that has no meaning.

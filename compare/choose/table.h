@@ -2,14 +2,21 @@
 // The candidates that a choice draws first: each path as given, and with each of the usual single changes.
 #pragma once
 
-#include "compare/choose/search.h"
+#include "shared/frame/settings.h"
 
 #include <cstddef>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace diptych::choose {
+
+// One Setting of a path: its option and value, in the words of Settings::set().
+struct Change {
+    Path path = Path::deferred;
+    std::string option, value;
+    auto operator<=>(const Change&) const = default;
+};
 
 //  option, values: "*" is any. The first matter most: of more changes than a table has room for, they stay.
 #define DIPTYCH_USUAL_CHANGES(X)                                                                       \

@@ -118,6 +118,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"frames_timed", candidate.timings}};
     json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
+    json["first_camera_error"] = Json();  // of schema 1, as "estimated"
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
     if (candidate.standing)
         json["race"] = {{"ratio", candidate.standing->ratio},
@@ -211,7 +212,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
     const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
     Json json{
-        {"schema", 2},
+        {"schema", 1},
         {"scene", report.scene},
         {"cameras", report.cameras},
         {"device",
@@ -232,6 +233,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
+    json["estimated"] = 0;  // of schema 1: every picture is judged from all cameras
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
     json["notes"] = report.notes;
