@@ -233,9 +233,7 @@ private:
             for (double& log : logs) log = std::exp(log);
             return logs;
         };
-        RaceRules rules;
-        rules.rungs = {options_.rounds};
-        const Race result = race(n, draw, rules, options_.seed);
+        const Standings result = tellApart(n, draw, options_.rounds, options_.rounds);
         found_.sure = result.sure;
         found_.chosen = contenders[result.winner];
         found_.ties.clear();

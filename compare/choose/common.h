@@ -4,7 +4,6 @@
 // for being slow); without an error in the budget the one whose worst error is the least.
 #pragma once
 
-#include "compare/choose/race.h"
 #include "compare/choose/search.h"
 
 #include <cstddef>
@@ -19,7 +18,6 @@ namespace diptych::choose {
 
 struct CommonOptions {
     Budget budget;  // in every scene
-    std::uint64_t seed = 1;
     // What scenes propose beyond this is left out, what most of them propose first.
     std::size_t most_candidates = 16;
     // Of these the fastest by the scenes' own times are raced.

@@ -113,7 +113,7 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
             lines.push_back("as fast, as far as can be told: " + commonStanding(report, i));
         if (choice.sure)
             lines.push_back(fmt::format("sure: every other contender is slower over all, at {:.0f} %",
-                                        100 * (1 - RaceRules().false_winner)));
+                                        100 * toldApartConfidence));
     }
     const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
     lines.push_back(fmt::format(

@@ -4,7 +4,7 @@
 // values, or on those lines drawn on.
 #pragma once
 
-#include "compare/choose/race.h"
+#include "compare/choose/told_apart.h"
 
 #include <array>
 #include <cstddef>

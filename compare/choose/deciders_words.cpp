@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::choose {
@@ -65,10 +66,10 @@ std::vector<std::string> inWords(const DecidersReport& report) {
         "What decided it, {} against {}{}: here {:.4g} ms against {:.4g}{}", report.chosen, report.other,
         report.other_fits ? "" : ", which does not fit and is compared by time alone", here.ms[0], here.ms[1],
         here.isTold() ? "" : ", a tie as far as can be told")};
-    for (const Decider& decider : report.deciders.properties)
-        lines.push_back("  " + deciderInWords(decider, report.chosen_path, report.other_path));
-    lines.push_back(
-        fmt::format("  by {} frames of each camera; intervals hold 95 of 100", report.deciders.frames));
+    constexpr std::size_t told = 3;  // those that turn the choice come first; JSON has all
+    for (std::size_t i = 0; i < std::min(told, report.deciders.properties.size()); ++i)
+        lines.push_back("  " +
+                        deciderInWords(report.deciders.properties[i], report.chosen_path, report.other_path));
     return lines;
 }
 

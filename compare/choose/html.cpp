@@ -61,11 +61,9 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     std::string out = fmt::format("<tr{}><td class=\"whole\">{}{}</td>",
                                   i == report.choice.chosen ? " class=\"chosen\"" : "",
                                   pathSwatch(candidate.settings), markup(report.words[i]));
-    out += page::numberCell(ms, fmt::format("{:.4g}", ms));
-    out += fmt::format("<td>{}</td>", candidate.standing      ? "raced"
-                                      : candidate.timings > 0 ? fmt::format("{} frame{}", candidate.timings,
-                                                                            candidate.timings == 1 ? "" : "s")
-                                                              : std::string("model"));
+    out += candidate.timings > 0 ? page::numberCell(ms, fmt::format("{:.4g}", ms))
+                                 : std::string("<td class=\"n\" data-value=\"inf\"></td>");
+    out += fmt::format("<td>{} frames</td>", candidate.timings);
     if (candidate.judged) {
         out += page::numberCell(candidate.judged->error, number(candidate.judged->error));
         out += page::numberCell(static_cast<double>(candidate.judged->bytes),
@@ -77,7 +75,7 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     if (i == report.choice.chosen)
         fate = "chosen";
     else if (std::ranges::count(report.choice.ties, i) > 0)
-        fate = "raced: a tie";
+        fate = "timed with the best: a tie";
     return out + fmt::format("<td>{}</td></tr>\n", fate);
 }
 
@@ -88,7 +86,7 @@ std::string candidateTable(const ChoiceReport& report) {
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
         const Candidate& candidate = report.choice.candidates[i];
         return std::tuple(i != report.choice.chosen, !candidate.standing, !candidate.judged,
-                          candidate.predicted.log_ms);
+                          candidate.log_ms);
     });
     std::string out =
         "<h3 class=\"part\">Every candidate</h3><div class=\"box scroll rows\"><table "
@@ -112,9 +110,8 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
                            page::breakable(report.scene));
     out += "<div class=\"choice\">" + choiceBox(report) + "<div class=\"box\">" +
            choicePlot(report, PlotPlace::page) +
-           "<p class=\"soft small\">A bar is the interval of a contender's time to the fastest's, of all "
-           "comparisons together at 98 %. The line is the least error within a time, of what was "
-           "timed.</p></div></div>\n";
+           "<p class=\"soft small\">A bar is the 99 % confidence interval of a time over the fastest's. The "
+           "line is the least error within a time.</p></div></div>\n";
     if (report.deciders) {
         const std::vector<std::string> lines = inWords(*report.deciders);
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",

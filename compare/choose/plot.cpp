@@ -52,7 +52,7 @@ private:
     static std::vector<std::size_t> drawn(const Choice& choice) {
         std::vector<std::size_t> all;
         for (std::size_t i = 0; i < choice.candidates.size(); ++i)
-            if (choice.candidates[i].judged) all.push_back(i);
+            if (choice.candidates[i].judged && choice.candidates[i].timings > 0) all.push_back(i);
         return all;
     }
     std::vector<double> times() const {
@@ -100,8 +100,7 @@ private:
     std::string frontLine() const {
         std::vector<std::pair<double, double>> points;
         for (const std::size_t i : drawn_)
-            if (const Candidate& candidate = choice_.candidates[i]; candidate.timings > 0)
-                points.emplace_back(candidate.ms(), candidate.judged->error);
+            points.emplace_back(choice_.candidates[i].ms(), choice_.candidates[i].judged->error);
         std::ranges::sort(points);
         double least = std::numeric_limits<double>::infinity();
         std::vector<std::pair<double, double>> front;
@@ -117,12 +116,12 @@ private:
         const Candidate& candidate = choice_.candidates[i];
         const double px = x(candidate.ms()), py = y(candidate.judged->error);
         const bool raced = candidate.fate == Fate::raced;
-        const std::string words = fmt::format(
-            "{}; {}{:.4g} ms, {} {:.4g}; {}", report_.words[i], candidate.timings > 0 ? "" : "about ",
-            candidate.ms(), report_.figure, candidate.judged->error, fateInWords(candidate.fate));
+        const std::string words =
+            fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report_.words[i], candidate.ms(), report_.figure,
+                        candidate.judged->error, fateInWords(candidate.fate));
         std::string out = fmt::format(
-            "<g class=\"point {}{}{}\" data-row=\"{}\"{}><title>{}</title>", nameOf(candidate.settings.path),
-            raced ? " best" : "", candidate.timings > 0 ? "" : " untimed", i + 1,
+            "<g class=\"point {}{}\" data-row=\"{}\"{}><title>{}</title>", nameOf(candidate.settings.path),
+            raced ? " best" : "", i + 1,
             file ? "" : fmt::format(" tabindex=\"0\" role=\"img\" aria-label=\"{}\"", markup(words)),
             markup(words));
         if (candidate.standing) {
@@ -180,11 +179,8 @@ private:
                                    svgNumber(at - 10), svgNumber(up), svgNumber(at + 9), svgNumber(up));
             });
         const auto isDrawn = [&](const auto& what) { return std::ranges::any_of(drawn_, what); };
-        if (isDrawn([&](std::size_t i) { return choice_.candidates[i].timings == 0; }))
-            entry("not timed: by the model", "untimed",
-                  [](double at, double up) { return pathMark(Path::deferred, at, up, 4.5); });
         if (isDrawn([&](std::size_t i) { return choice_.candidates[i].fate == Fate::raced; }))
-            entry("raced, with its interval", "best", [](double at, double up) {
+            entry("timed again, with its interval", "best", [](double at, double up) {
                 return fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
                                    svgNumber(at - 9), svgNumber(up - 4), svgNumber(up + 4), svgNumber(up),
                                    svgNumber(at + 9)) +

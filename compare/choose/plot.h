@@ -8,9 +8,9 @@
 
 namespace diptych::choose {
 
-// Error over time of all candidates that were drawn, as SVG: what raced with the interval of its time, what
-// was drawn and not timed hollow, the budget's limits, and the least error that is reached within a time.
-// Both axes are logarithmic; an error of 0 and an infinite one have a lane of their own.
+// Error over time of all candidates that were judged and timed, as SVG: those timed again with the interval
+// of their time, the budget's limits, and the least error that is reached within a time. Both axes are
+// logarithmic; an error of 0 and an infinite one have a lane of their own.
 std::string choicePlot(const ChoiceReport& report, PlotPlace place);
 
 }  // namespace diptych::choose

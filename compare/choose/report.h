@@ -43,8 +43,6 @@ struct ChoiceReport {
     std::vector<std::string> words, commands;
     std::vector<UnseenCamera> unseen;  // cameras of the scene that were not asked for
     std::vector<std::string> notes{};
-    // Effects on passes that earlier choices on this device taught.
-    std::size_t known_effects = 0;
     std::optional<DecidersReport> deciders{};
     double seconds = 0;
 };
@@ -66,23 +64,19 @@ struct Choices {
 // Of the only scene, or for all; nothing where nothing fits.
 std::optional<Settings> chosenSettings(const Choices& choices);
 
-// The best candidate of the path that was not chosen, of those that were drawn and fit: the fastest, or
-// without an error in the budget the most accurate.
-std::optional<std::size_t> bestOfOtherPath(const ChoiceReport& report);
-
 // "the fastest with FLIP at most 0.01"
 std::string goalInWords(const ChoiceReport& report);
 // For a terminal; ends with a new line.
 std::string inWords(const ChoiceReport& report);
 // `first`: any of its scenes, which says the budget.
 std::string inWords(const CommonReport& report, const ChoiceReport& first);
-// Of one candidate: time, error and memory; "raced".
+// Of one candidate: time, error and memory.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
 const char* fateInWords(Fate fate);
 // Why, who else, how sure, or by how much it is missed: a line each, without indentation.
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);
 std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);
-// A line on what was compared, then one a property, with two spaces before it.
+// A line on the two Settings, then the three properties that turn the choice first, two spaces before each.
 std::vector<std::string> inWords(const DecidersReport& report);
 nlohmann::ordered_json toJson(const DecidersReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);

@@ -4,543 +4,333 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <random>
-#include <set>
+#include <map>
+#include <tuple>
 
 namespace diptych::choose {
 
 namespace {
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// An effect on time that is known so well is not measured anew; errors are of a scene and are.
-constexpr double knownEffect = 0.15;
-// So many standard deviations of its prediction a candidate may be better than predicted.
-constexpr double benefit = 2;
-// An error that two changes make together may be smaller than the larger of both by so much.
-constexpr double together = 0.8;
-// By so much, in logarithms, the error of several changes is taken to differ from the sum of what each does,
-// until so many were seen.
-constexpr double spreadAtFirst = 0.4, seenAtFirst = 4;
-// By so much, in logarithms, an estimated error is taken to differ from the judged one, until so many of both
-// are known. One camera's of the gallery's two: 0.22 over what forward+ changes, 0.10 over what deferred
-// does.
-constexpr double estimateAtFirst = 0.2, estimatesAtFirst = 4;
-// A change is worth combining if it takes off so much of the time, in logarithms.
-constexpr double worthTime = -0.02;
-// What is by so much slower than its path's first candidate, in logarithms, no other change makes up for; and
-// what is slower by so much is not looked at.
-constexpr double hopeless = 0.5, worthJudging = 0.1;
-// After so many that fit and were not faster by as much as matters, in logarithms, no more are
-// judged.
-constexpr double worthNoticing = 0.01;
-constexpr std::size_t mostInVain = 16;
-constexpr std::size_t changesAtOnce = 3;
-// A time this near to its budget, in standard deviations, is timed again, up to so many frames.
-constexpr double doubtful = 1;
-constexpr std::size_t mostAgain = 8;
-// Where nothing fits, so many are judged to find the nearest.
-constexpr std::size_t mostForNearest = 8;
+// Candidates that are timed together; all of them and the anchor hold images at once.
+constexpr std::size_t timedTogether = 4;
+// A device whose speed moved by less than this, a logarithm, is as fast as it was: the rest is noise.
+constexpr double worthShifting = 0.15;
+// Candidates tried around the best before the table's effects are believed to hold no more.
+constexpr std::size_t triedTogether = 3, mostInVain = 6;
+// A prediction adds effects of two noisy times each: a candidate may be this much better than predicted.
+constexpr double timeSlack = 1.2, budgetSlack = 1.1;
+// A candidate that is this much slower than the best after two frames is not judged.
+constexpr double worthJudging = 1.05;
+// A row of the table that takes this much longer than a fitting one is not judged.
+constexpr double hopeless = 1.5;
+// A change helps if it takes off more than this, a logarithm; less is noise.
+constexpr double worthNoticing = 0.02;
+// The other path is improved where its best is within this ratio of the best.
+constexpr double worthImproving = 3;
+constexpr std::size_t contenders = 3;
+constexpr double worthTimingAgain = 1.15;
 
-// Of two frames of the same passes: what disturbs a frame only lengthens it.
-std::vector<PassTime> least(std::vector<PassTime> a, const std::vector<PassTime>& b) {
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i].ms = std::min(a[i].ms, b[i].ms);
-    return a;
-}
-
-// How far values are from what they were taken for, in logarithms: a deviation that is assumed and counts as
-// much as some values do, and those that were seen.
-class LearnedSpread {
-public:
-    LearnedSpread(double deviation, double counts)
-        : squares_(deviation * deviation * counts), seen_(counts) {}
-    void add(double value, double taken_for) {
-        if (!(taken_for > 0) || !std::isfinite(value) || !std::isfinite(taken_for)) return;
-        const double off = std::log(std::max(value, 1e-12) / taken_for);
-        squares_ += off * off;
-        ++seen_;
-    }
-    double deviation() const { return std::sqrt(squares_ / seen_); }
-
-private:
-    double squares_, seen_;
+// What a change does to its path's first candidate. Unknown: tried by itself before it is combined.
+struct Effect {
+    double log_ms = 0, error = 0, bytes = 0;
+    Effect operator+(const Effect& b) const { return {log_ms + b.log_ms, error + b.error, bytes + b.bytes}; }
+    Effect operator-(const Effect& b) const { return {log_ms - b.log_ms, error - b.error, bytes - b.bytes}; }
 };
 
 class Search {
 public:
-    Search(std::span<const Settings> settings, Lab& lab, CostModel& model, const SearchOptions& options)
-        : lab_(lab), model_(model), options_(options), budget_(options.budget), random_(options.seed) {
-        for (const Settings& each : settings) add(each);
+    Search(std::span<const Settings> table, Lab& lab, const SearchOptions& options)
+        : lab_(lab), options_(options), budget_(options.budget) {
+        for (const Settings& settings : table) all_.push_back({.settings = settings});
+        known_ = all_.size();
     }
 
     Choice run() {
-        measureEffects();
-        if (options_.combine) addCombinations();
-        if (!budget_.isForSpeed()) {
-            findMostAccurate();
-        } else {
-            findFastest();
-            while (isNoneAccurate() && judgeNearest()) findFastest();
+        measureTable();
+        if (options_.combine) {
+            learnChanges();
+            for (const auto& [path, first] : firsts_) improve(path);
         }
-        for (std::size_t i = 0; i < all_.size(); ++i) {
-            all_[i].predicted = model_.predict(i);
-            all_[i].passes = model_.passesOf(i);
-            if (all_[i].fate == Fate::fits && all_[i].predicted.log_ms > limit())
-                all_[i].fate = Fate::too_slow;
-        }
+        for (Candidate& each : all_)
+            each.fate = !each.judged                            ? Fate::slower
+                        : missOf(*each.judged, {}, budget_) > 0 ? Fate::misses
+                        : missBy(each) > 0                      ? Fate::too_slow
+                                                                : Fate::fits;
+        timeBestAgain();
         if (!found_.chosen) findNearest();
         found_.candidates = std::move(all_);
+        for (const auto& shown : {found_.chosen, bestOfOtherPath(found_, budget_)})
+            if (shown) {
+                Candidate& candidate = found_.candidates[*shown];
+                candidate.passes = lab_.profile(candidate.settings);
+            }
         return std::move(found_);
     }
 
 private:
-    void add(const Settings& settings) {
-        model_.add(settings);
-        all_.push_back({.settings = settings});
-    }
-
     void say(double done, std::string_view what) const {
         if (options_.progress) options_.progress(done, what);
     }
-
-    const Judged& judge(std::size_t i) {
-        Candidate& candidate = all_[i];
-        if (candidate.judged) return *candidate.judged;
-        candidate.judged = lab_.judge(candidate.settings);
+    void judge(std::size_t i) {
+        if (all_[i].judged) return;
+        all_[i].judged = lab_.judge(all_[i].settings);
         ++found_.judged;
-        const bool fits = !(budget_.error && !(candidate.judged->error <= *budget_.error)) &&
-                          !(budget_.bytes && candidate.judged->bytes > *budget_.bytes);
-        candidate.fate = fits ? Fate::fits : Fate::misses;
-        const double error = candidate.judged->error;
-        const Path path = candidate.settings.path;
-        const std::vector<Change>& changes = model_.changesOf(i);
-        if (changes.empty()) {
-            first_errors_[path] = error;
-        } else if (changes.size() == 1) {
-            if (candidate.estimated) estimate_off_.add(error, scaled(path, *candidate.estimated));
-            errors_[changes.front()] = error;
-            estimated_.erase(changes.front());
-        } else if (const std::optional<double> sum = sumOfErrors(i)) {
-            sum_off_.add(error, *sum);
-        }
-        return *candidate.judged;
     }
-
-    // What an estimate of the path's would be in all, if it grew as that of the first candidate does.
-    double scaled(Path path, double estimate) const {
-        const auto first = first_estimates_.find(path);
-        if (first == first_estimates_.end()) return estimate;
-        const double factor = first_errors_.at(path) / first->second;
-        // Without one where the first candidate's pictures are right or hold no numbers.
-        return std::isfinite(factor) && factor > 0 ? estimate * factor : estimate;
-    }
-    // The error of a candidate with one change at most, about, where that takes less than judging it.
-    void estimate(std::size_t i) {
-        Candidate& candidate = all_[i];
-        const std::vector<Change>& changes = model_.changesOf(i);
-        if (candidate.judged && !changes.empty()) return;
-        if (changes.size() <= 1) candidate.estimated = lab_.estimate(candidate.settings);
-        if (!candidate.estimated) {
-            judge(i);
-            return;
-        }
-        ++found_.estimated;
-        const Path path = candidate.settings.path;
-        if (changes.empty()) {
-            first_estimates_[path] = *candidate.estimated;
-            return;
-        }
-        errors_[changes.front()] = scaled(path, *candidate.estimated);
-        estimated_.insert(changes.front());
-    }
-
-    // Times each twice, in an order and back.
-    void time(std::vector<std::size_t> which, std::size_t rounds = 1) {
+    // Two frames of each, in an order and back, around those of a candidate whose time is known, if any:
+    // times are held against its, so that a drift of the device's speed makes none look slow.
+    void time(std::vector<std::size_t> which, std::optional<std::size_t> anchor) {
+        if (which.empty()) return;
+        if (anchor && all_[*anchor].timings > 0 && std::ranges::count(which, *anchor) == 0)
+            which.push_back(*anchor);
+        else
+            anchor.reset();
         std::vector<Settings> frames;
-        for (const std::size_t i : which) frames.push_back(all_[i].settings);
         std::vector<std::size_t> order;
-        for (std::size_t round = 0; round < rounds; ++round) {
-            for (std::size_t k = 0; k < which.size(); ++k) order.push_back(k);
-            for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
-        }
-        const std::vector<double> times = lab_.time(frames, order);
-        for (std::size_t at = 0; at + 1 < times.size(); at += 2 * which.size())
-            for (std::size_t k = 0; k < which.size(); ++k) {
-                const double forth = times[at + k], back = times[at + 2 * which.size() - 1 - k];
-                repeats_.push_back(std::abs(std::log(forth / back)));
-            }
-        if (repeats_.size() >= 5) {
-            std::vector<double> sorted = repeats_;
-            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-            std::ranges::nth_element(sorted, middle);
-            // The median of |x - y| of two normal values is 0.954 of one's deviation.
-            model_.setNoise(std::clamp(*middle / 0.954, 0.005, 0.5));
-        }
-        for (std::size_t at = 0; at < times.size(); ++at) {
-            model_.observe(which[order[at]], times[at]);
-            ++all_[which[order[at]]].timings;
-        }
-        found_.timings += times.size();
-    }
-
-    // What a candidate's changes do to the error if each does the same beside the others; nothing where one's
-    // is not known.
-    std::optional<double> sumOfErrors(std::size_t i) const {
-        const auto first = first_errors_.find(all_[i].settings.path);
-        if (first == first_errors_.end()) return {};
-        double sum = first->second;
-        for (const Change& change : model_.changesOf(i)) {
-            const auto error = errors_.find(change);
-            if (error == errors_.end()) return {};
-            sum += error->second - first->second;
-        }
-        return std::max(sum, 0.0);
-    }
-    // The least that this sum leaves open, by how far off it was for others.
-    double leastOfSum(std::size_t i) const {
-        if (model_.changesOf(i).size() < 2) return 0;
-        return sumOfErrors(i).value_or(0) * std::exp(-benefit * sum_off_.deviation());
-    }
-    // The least and the likely error of a candidate by those of its single changes.
-    struct ErrorGuess {
-        double least = 0, likely = 0;
-    };
-    ErrorGuess guess(std::size_t i) const {
-        const auto first = first_errors_.find(all_[i].settings.path);
-        if (first == first_errors_.end()) return {};
-        double most = first->second, down = 0, sum = first->second;
-        for (const Change& change : model_.changesOf(i)) {
-            const auto error = errors_.find(change);
-            if (error == errors_.end()) continue;
-            most = std::max(most, error->second);
-            down += std::min(error->second - first->second, 0.0);
-            sum += error->second - first->second;
-        }
-        return {std::max(leftOpen(i) * std::max(most + down, 0.0), leastOfSum(i)), std::max(sum, 0.0)};
-    }
-    // By which the largest error of a candidate's changes may be too large for it.
-    double leftOpen(std::size_t i) const {
-        const bool is_estimated = std::ranges::any_of(
-            model_.changesOf(i), [&](const Change& change) { return estimated_.count(change) > 0; });
-        return is_estimated ? std::min(together, std::exp(-benefit * estimate_off_.deviation())) : together;
-    }
-    bool isSpoilt(std::size_t i) const { return budget_.error && guess(i).least > *budget_.error; }
-
-    // Times the passes of a candidate.
-    void profile(std::size_t i, int frames) {
-        auto times = lab_.profile(all_[i].settings, frames);
-        for (std::size_t repeat = 1; repeat < times.size(); ++repeat)
-            times.front() = least(std::move(times.front()), times[repeat]);
-        model_.observe(i, times.front());
-        all_[i].timings += times.size();
-        found_.timings += times.size();
-    }
-
-    // How much slower than its path's first candidate, a logarithm.
-    double slower(std::size_t i) const {
-        return model_.predict(i).log_ms - model_.predict(firsts_.at(all_[i].settings.path)).log_ms;
-    }
-
-    // Draws candidates that have a new change each in a random order, so that a drift of the device is no
-    // effect of a change; left out is what a known change rules out. Where the fastest is wanted and the
-    // first candidate is within the error, passes are timed first, and what makes a frame slower is not
-    // looked at; else what is not timed is what exceeds the error by itself.
-    void measure(std::vector<std::size_t> which, double from, double to) {
-        std::ranges::shuffle(which, random_);
         for (std::size_t k = 0; k < which.size(); ++k) {
-            const std::size_t i = which[k];
-            say(from + (to - from) * static_cast<double>(k) / static_cast<double>(which.size()), "effects");
-            // Where the first candidate exceeds the error, what makes it smaller is wanted at any time.
-            const bool is_first_fit = all_[firsts_.at(all_[i].settings.path)].isFit();
-            const bool is_for_time = budget_.isForSpeed() && is_first_fit;
-            if (is_first_fit && (isSpoilt(i) || (is_for_time && slower(i) > hopeless))) continue;
-            if (!is_for_time) estimate(i);
-            const bool has_error = all_[i].judged || all_[i].estimated;
-            if (has_error && isSpoilt(i)) continue;
-            const bool is_known = std::ranges::all_of(
-                model_.changesOf(i), [&](const Change& change) { return model_.knows(change, knownEffect); });
-            if (!is_known) profile(i, 1);
-            if (is_for_time && slower(i) < worthJudging) estimate(i);
+            frames.push_back(all_[which[k]].settings);
+            order.push_back(k);
         }
+        for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
+        const std::vector<double> times = lab_.time(frames, order);
+        std::vector<double> logs(which.size(), 0.0);
+        for (std::size_t at = 0; at < times.size(); ++at)
+            logs[order[at]] += 0.5 * std::log(std::max(times[at], 1e-9));
+        double shift = anchor ? all_[*anchor].log_ms - logs.back() : 0;
+        if (std::abs(shift) < worthShifting) shift = 0;
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            Candidate& candidate = all_[which[k]];
+            const auto before = static_cast<double>(candidate.timings);
+            candidate.log_ms = (candidate.log_ms * before + 2 * (logs[k] + shift)) / (before + 2);
+            candidate.timings += 2;
+        }
+        found_.timings += times.size();
     }
 
-    // Of each path its first candidate, and for each change whose effect is not known the candidate with the
-    // fewest others.
-    void measureEffects() {
-        std::vector<std::size_t> order(all_.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return model_.changesOf(i).size(); });
-        std::vector<std::size_t> firsts;
-        for (const std::size_t i : order)
-            if (model_.changesOf(i).empty()) firsts.push_back(i);
-        for (const std::size_t i : firsts) {
-            say(0, "effects");
-            firsts_[all_[i].settings.path] = i;
-            judge(i);
-            estimate(i);
-            profile(i, 3);
-        }
-        time(firsts);
-        // By the number of changes, so that what needs another change is left out where that one is hopeless.
-        std::map<std::size_t, std::vector<std::size_t>> picks;
-        std::set<Change> covered;
-        for (const std::size_t i : order) {
-            const std::vector<Change>& changes = model_.changesOf(i);
-            const bool isNew = std::ranges::any_of(
-                changes, [&](const Change& change) { return covered.count(change) == 0; });
-            if (!isNew) continue;
-            covered.insert(changes.begin(), changes.end());
-            picks[changes.size()].push_back(i);
-        }
-        double from = 0.1;
-        for (auto& [changes, level] : picks) {
-            const double to = from + 0.5 * (0.6 - from);
-            measure(std::move(level), from, to);
-            from = to;
-        }
-    }
-
-    // Combinations of changes that help by themselves, per path.
-    void addCombinations() {
-        const std::size_t singles = all_.size();
-        std::map<Path, std::size_t> firsts;
-        std::map<Path, std::vector<Change>> helpful;
-        for (std::size_t i = 0; i < singles; ++i) {
-            const std::vector<Change>& changes = model_.changesOf(i);
-            if (changes.empty()) firsts[all_[i].settings.path] = i;
-            if (changes.size() != 1 || isSpoilt(i)) continue;
-            const std::size_t first = firsts.at(all_[i].settings.path);
-            const double faster = model_.predict(i).log_ms - model_.predict(first).log_ms;
-            const auto error = errors_.find(changes.front());
-            const auto before = first_errors_.find(all_[i].settings.path);
-            const bool better = error != errors_.end() && before != first_errors_.end() &&
-                                error->second < before->second / alikeErrors;
-            if (faster < worthTime || better) helpful[all_[i].settings.path].push_back(changes.front());
-        }
-        for (const auto& [path, changes] : helpful) {
-            std::vector<Change> taken;
-            const Settings first = all_[firsts.at(path)].settings;  // all_ grows
-            addCombinations(first, changes, 0, taken);
-        }
-    }
-    void addCombinations(const Settings& first, const std::vector<Change>& changes, std::size_t from,
-                         std::vector<Change>& taken) {
-        if (taken.size() > 1) {
-            const std::optional<Settings> made = options_.combine(first, taken);
-            if (!made) return;
-            if (std::ranges::find(all_, *made, &Candidate::settings) == all_.end()) add(*made);
-        }
-        if (taken.size() == changesAtOnce) return;
-        for (std::size_t i = from; i < changes.size(); ++i) {
-            if (std::ranges::find(taken, changes[i].option, &Change::option) != taken.end()) continue;
-            taken.push_back(changes[i]);
-            addCombinations(first, changes, i + 1, taken);
-            taken.pop_back();
-        }
-    }
-
-    // Whether no candidate that was judged is within the error and the memory, whatever time it takes.
-    bool isNoneAccurate() const {
-        return std::ranges::none_of(all_, [](const Candidate& candidate) {
-            return candidate.isFit() || candidate.fate == Fate::too_slow;
-        });
-    }
-
-    // The candidates that are judged and fit, but for their time, the fastest by the model first.
-    std::vector<std::size_t> fitting() const {
-        std::vector<std::size_t> fit;
-        for (std::size_t i = 0; i < all_.size(); ++i)
-            if (all_[i].isFit()) fit.push_back(i);
-        return fastestFirst(std::move(fit));
-    }
-    std::vector<std::size_t> fastestFirst(const std::vector<std::size_t>& which) const {
-        std::vector<std::pair<double, std::size_t>> times;
-        for (const std::size_t i : which) times.emplace_back(model_.predict(i).log_ms, i);
-        std::ranges::sort(times);
-        std::vector<std::size_t> sorted;
-        for (const auto& [time, i] : times) sorted.push_back(i);
-        return sorted;
-    }
-    double leastTime(std::size_t i) const {
-        const Prediction prediction = model_.predict(i);
-        return prediction.log_ms - benefit * prediction.deviation;
-    }
-
-    // Of those that were not judged and may fit, the one that may be the fastest, if that is faster than
-    // `best`, a logarithm; `none` where there is none.
-    std::size_t mostPromising(double best) {
-        std::size_t next = none;
-        for (std::size_t i = 0; i < all_.size(); ++i) {
-            if (all_[i].judged) continue;
-            if (isSpoilt(i)) {
-                all_[i].fate = Fate::spoilt;
-                continue;
+    void measureTable() {
+        for (std::size_t from = 0; from < all_.size(); from += timedTogether) {
+            say(0.7 * static_cast<double>(from) / static_cast<double>(all_.size()), "table");
+            std::vector<std::size_t> together;
+            for (std::size_t i = from; i < std::min(from + timedTogether, all_.size()); ++i)
+                together.push_back(i);
+            time(together, 0);
+            for (const std::size_t i : together) {
+                const bool is_first = firsts_.emplace(all_[i].settings.path, i).second;
+                if (!is_first && budget_.isForSpeed() && all_[i].ms() > hopeless * leastFitting()) continue;
+                judge(i);
             }
-            const double time = leastTime(i);
-            if (time >= best) continue;
-            best = time;
-            next = i;
         }
-        return next;
+        // Where nothing fits yet, what takes long may.
+        for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) judge(i);
+    }
+    double leastFitting() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Candidate& each : all_)
+            if (each.judged && missOf(*each.judged, {}, budget_) <= 0) least = std::min(least, each.ms());
+        return least;
     }
 
-    void findFastest() {
-        std::size_t in_vain = 0;  // judged since the last one that was faster
-        for (std::size_t seen = 0;; ++seen) {
-            std::vector<std::size_t> fit = fitting();
-            if (!fit.empty() && all_[fit.front()].timings == 0) {
-                time({fit.front()});
-                continue;
-            }
-            const double best = fit.empty() ? infinity : model_.predict(fit.front()).log_ms;
-            const std::size_t next = in_vain < mostInVain || fit.empty() ? mostPromising(best) : none;
-            if (next == none) break;
-            say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
-            judge(next);
-            if (all_[next].isFit()) time({next});
-            if (!all_[next].isFit()) continue;
-            in_vain = model_.predict(next).log_ms < best - worthNoticing ? 0 : in_vain + 1;
+    Effect measured(std::size_t i) const {
+        // The error of a row that was not judged is taken for its first's: it takes too long in any case.
+        const Candidate& candidate = all_[i];
+        const Judged& judged =
+            candidate.judged ? *candidate.judged : *all_[firsts_.at(candidate.settings.path)].judged;
+        return {candidate.log_ms, judged.error, static_cast<double>(judged.bytes)};
+    }
+    void learnChanges() {
+        const auto add = [&](const Change& change, std::optional<Effect> effect) {
+            // Back to the first candidate's value as well.
+            const Change back{change.path, change.option,
+                              all_[firsts_.at(change.path)].settings.valueOf(change.option)};
+            effects_.try_emplace(back, Effect{});
+            if (effect)
+                effects_.insert_or_assign(change, effect);
+            else
+                effects_.try_emplace(change, std::nullopt);
+        };
+        for (std::size_t i = 0; i < known_; ++i) {
+            const std::vector<Change> changes =
+                changesBetween(all_[firsts_.at(all_[i].settings.path)].settings, all_[i].settings);
+            for (const Change& change : changes)
+                add(change, changes.size() == 1
+                                ? std::optional(measured(i) - measured(firsts_.at(change.path)))
+                                : std::nullopt);
         }
-        const std::vector<std::size_t> fit = fitting();
-        if (fit.empty()) return;
-        raceFor(fit);
-        tooSlowIfOver();
+        for (const Change& change : options_.changes)
+            if (firsts_.count(change.path) > 0) add(change, {});
     }
-
-    // Races those of some that may be the fastest.
-    void raceFor(const std::vector<std::size_t>& some) {
-        const std::vector<std::size_t> fit = fastestFirst(some);
-        const double best = model_.predict(fit.front()).log_ms;
-        std::vector<std::size_t> contenders;
-        for (const std::size_t i : fit)
-            if (contenders.size() < 2 || leastTime(i) - benefit * model_.predict(i).deviation < best)
-                contenders.push_back(i);
-        contenders.resize(std::min(contenders.size(), std::max<std::size_t>(options_.most_contenders, 1)));
-        std::vector<Settings> frames;
-        for (const std::size_t i : contenders) frames.push_back(all_[i].settings);
-        say(0.8, "race");
-        const Race result = race(
-            contenders.size(),
-            [&](std::span<const std::size_t> order) {
-                const std::vector<double> times = lab_.time(frames, order);
-                for (std::size_t at = 0; at < order.size(); ++at) {
-                    ++all_[contenders[order[at]]].timings;
-                    model_.observe(contenders[order[at]], times[at]);
-                }
-                return times;
-            },
-            {}, options_.seed + 1);
-        found_.timings += result.draws;
-        found_.sure = result.sure;
-        found_.ties.clear();
-        found_.chosen = contenders[result.winner];
-        found_.ms = result.standings[result.winner].ms;
-        std::optional<std::size_t> second;
-        for (std::size_t k = 0; k < contenders.size(); ++k) {
-            const Standing& standing = result.standings[k];
-            all_[contenders[k]].fate = Fate::raced;
-            all_[contenders[k]].standing = standing;
-            if (k == result.winner) continue;
-            if (!standing.isSlower()) found_.ties.push_back(contenders[k]);
-            if (!second || standing.ratio < result.standings[*second].ratio) second = k;
-        }
-        found_.runner_up = second ? std::optional(contenders[*second]) : std::nullopt;
-    }
-
-    // Nothing is chosen where the fastest takes too long.
-    void tooSlowIfOver() {
-        if (!budget_.ms || found_.ms <= *budget_.ms) return;
-        all_[*found_.chosen].fate = Fate::too_slow;
-        found_.chosen.reset();
-        found_.runner_up.reset();
-        found_.ties.clear();
-        found_.sure = false;
-    }
-
-    double limit() const { return budget_.ms ? std::log(*budget_.ms) : infinity; }
-    // Times a candidate until it is known to be within the time or beyond it, or enough.
-    bool isInTime(std::size_t i) {
-        if (!budget_.ms) return true;
-        while (all_[i].timings < mostAgain) {
-            const Prediction prediction = model_.predict(i);
-            if (all_[i].timings >= 2 &&
-                std::abs(prediction.log_ms - limit()) > doubtful * prediction.deviation)
-                break;
-            time({i}, all_[i].timings < 2 ? 1 : 2);
-        }
-        const bool isFast = model_.predict(i).log_ms <= limit();
-        if (!isFast) all_[i].fate = Fate::too_slow;
-        return isFast;
-    }
-
-    // Takes a candidate's place where it has a smaller error and is in time. `best`: `none` or one's number.
-    void consider(std::size_t i, std::size_t& best) {
-        if (!all_[i].isFit() || leastTime(i) > limit()) return;
-        if (best != none && all_[i].judged->error >= all_[best].judged->error) return;
-        if (isInTime(i)) best = i;
-    }
-
-    // Draws candidates for as long as one may be more accurate than the best that is in time, which is
-    // returned; `none` where nothing is.
-    std::size_t mostAccurateInTime() {
-        std::size_t best = none;
-        for (std::size_t i = 0; i < all_.size(); ++i) consider(i, best);
-        for (std::size_t seen = 0;; ++seen) {
-            std::size_t next = none;
-            double likely = infinity;
-            for (std::size_t i = 0; i < all_.size(); ++i) {
-                if (all_[i].judged || leastTime(i) > limit()) continue;
-                const ErrorGuess error = guess(i);
-                if (best != none && error.least >= all_[best].judged->error) continue;
-                if (next != none && error.likely >= likely) continue;
-                likely = error.likely;
-                next = i;
-            }
-            if (next == none) return best;
-            say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
-            judge(next);
-            consider(next, best);
-        }
-    }
-
-    void findMostAccurate() {
-        for (std::size_t best = mostAccurateInTime(); best != none; best = mostAccurateInTime()) {
-            std::vector<std::size_t> equals;
-            for (std::size_t i = 0; i < all_.size(); ++i)
-                if (all_[i].isFit() && (i == best || model_.predict(i).log_ms <= limit()) &&
-                    all_[i].judged->error <= all_[best].judged->error * alikeErrors)
-                    equals.push_back(i);
-            raceFor(equals);
-            if (!budget_.ms || found_.ms <= *budget_.ms) return;
-            // The fastest of the race is too slow, and so are the others.
-            for (const std::size_t i : equals)
-                if (all_[i].fate == Fate::raced) all_[i].fate = Fate::too_slow;
-            tooSlowIfOver();
-        }
+    // A candidate that differs from one of known effects in a single change tells that change's.
+    void learnFrom(std::size_t from, std::size_t to) {
+        if (!all_[from].judged || !all_[to].judged || all_[to].timings == 0) return;
+        for (auto& [change, effect] : effects_)
+            if (!effect && change.path == all_[to].settings.path &&
+                all_[to].settings.valueOf(change.option) == change.value)
+                if (const auto before = effects_.find(
+                        {change.path, change.option, all_[from].settings.valueOf(change.option)});
+                    before != effects_.end() && before->second)
+                    effect = *before->second + measured(to) - measured(from);
     }
 
     double missBy(const Candidate& candidate) const {
         return missOf(*candidate.judged, candidate.ms(), budget_);
     }
-    // Where nothing fits: judges what was estimated alone and may come nearer than all that was judged.
-    // Returns whether any of it fits, as an estimate may be farther off than it was taken to be.
-    bool judgeNearest() {
-        for (std::size_t more = 0; more < mostForNearest; ++more) {
-            double nearest = infinity;
-            std::size_t next = none;
-            for (std::size_t i = 0; i < all_.size(); ++i) {
-                if (all_[i].judged) nearest = std::min(nearest, all_[i].judged->error);
-                if (!all_[i].judged && all_[i].estimated &&
-                    (next == none || guess(i).likely < guess(next).likely))
-                    next = i;
-            }
-            if (next == none || guess(next).likely >= nearest) return false;
-            judge(next);
-            if (all_[next].isFit()) return true;
-        }
-        return false;
+    // Less is better: the miss, then what is wanted.
+    std::tuple<double, double, double> rank(std::size_t i) const {
+        const Candidate& candidate = all_[i];
+        if (!candidate.judged) return {std::numeric_limits<double>::infinity(), 0, 0};
+        if (const double miss = missBy(candidate); miss > 0) return {miss, 0, 0};
+        const double error = candidate.judged->error;
+        if (budget_.isForSpeed()) return {0, candidate.log_ms, error};
+        return {0, std::round(std::log(std::max(error, 1e-9)) / std::log(alikeErrors)), candidate.log_ms};
     }
+    std::size_t bestOf(Path path) const {
+        std::size_t best = firsts_.at(path);
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            if (all_[i].settings.path == path && rank(i) < rank(best)) best = i;
+        return best;
+    }
+
+    struct Trial {
+        std::tuple<double, double, double> rank;  // as predicted
+        std::vector<Change> changes;
+    };
+    // What may be better than `from` by the effects of its changes, the most promising first.
+    std::vector<Trial> trialsFrom(std::size_t from) const {
+        const Candidate& best = all_[from];
+        const double miss = missBy(best);
+        std::vector<std::pair<Change, std::optional<Effect>>> singles;
+        for (const auto& [change, effect] : effects_) {
+            if (change.path != best.settings.path) continue;
+            const std::string value = best.settings.valueOf(change.option);
+            if (value == change.value) continue;
+            const auto before = effects_.find({change.path, change.option, value});
+            const bool known = effect && before != effects_.end() && before->second;
+            singles.emplace_back(change, known ? std::optional(*effect - *before->second) : std::nullopt);
+        }
+        std::vector<Trial> trials;
+        const auto consider = [&](const Effect& effect, std::vector<Change> changes) {
+            const Effect sum = measured(from) + effect;
+            const double ms = std::exp(sum.log_ms), error = std::max(sum.error, 0.0);
+            const double predicted = missOf(
+                {error / budgetSlack, static_cast<std::uint64_t>(std::max(sum.bytes, 0.0) / budgetSlack)},
+                ms / budgetSlack, budget_);
+            if (miss > 0 ? predicted >= miss : predicted > 0) return;
+            const auto count = static_cast<double>(changes.size());
+            if (miss > 0)
+                trials.push_back({{predicted, ms, count}, std::move(changes)});
+            else if (budget_.isForSpeed() && ms < timeSlack * best.ms())
+                trials.push_back({{0, ms, count}, std::move(changes)});
+            else if (!budget_.isForSpeed() && error < best.judged->error)
+                trials.push_back({{0, error, ms}, std::move(changes)});
+        };
+        for (std::size_t a = 0; a < singles.size(); ++a) {
+            if (!singles[a].second) {
+                // Nothing is known: as good as the best, and a little better so that it counts as such.
+                consider({0, -1e-3 * best.judged->error, 0}, {singles[a].first});
+                continue;
+            }
+            consider(*singles[a].second, {singles[a].first});
+            for (std::size_t b = a + 1; b < singles.size(); ++b)
+                if (singles[b].second && singles[a].first.option != singles[b].first.option)
+                    consider(*singles[a].second + *singles[b].second, {singles[a].first, singles[b].first});
+        }
+        std::ranges::stable_sort(trials, {}, &Trial::rank);
+        return trials;
+    }
+
+    void improve(Path path) {
+        std::size_t in_vain = 0;
+        while (in_vain < mostInVain) {
+            const std::size_t best = bestOf(path);
+            std::size_t of_all = best;
+            for (const auto& [other, first] : firsts_)
+                if (const std::size_t i = bestOf(other); rank(i) < rank(of_all)) of_all = i;
+            if (budget_.isForSpeed() && missBy(all_[best]) <= 0 &&
+                all_[best].ms() > worthImproving * all_[of_all].ms())
+                return;
+            std::vector<std::size_t> tried;
+            for (const Trial& trial : trialsFrom(best)) {
+                if (tried.size() == triedTogether) break;
+                const std::optional<Settings> made = options_.combine(all_[best].settings, trial.changes);
+                if (!made || std::ranges::find(all_, *made, &Candidate::settings) != all_.end()) continue;
+                tried.push_back(all_.size());
+                all_.push_back({.settings = *made});
+            }
+            if (tried.empty()) return;
+            say(0.7 + 0.2 * (1 - std::exp(-0.05 * static_cast<double>(all_.size() - known_))), "changes");
+            measureTried(tried, best);
+            for (const std::size_t i : tried) learnFrom(best, i);
+            const std::size_t now = bestOf(path);
+            const bool helps = now != best && (!budget_.isForSpeed() || missBy(all_[best]) > 0 ||
+                                               all_[now].log_ms < all_[best].log_ms - worthNoticing);
+            in_vain = helps ? 0 : in_vain + tried.size();
+        }
+    }
+    // Where the best fits and the fastest is wanted, times come first, else errors: what is no better by the
+    // one is not measured by the other.
+    void measureTried(const std::vector<std::size_t>& tried, std::size_t best) {
+        const double miss = missBy(all_[best]);
+        const bool times_first = budget_.isForSpeed() && miss <= 0;
+        if (times_first) time(tried, best);
+        std::vector<std::size_t> left;
+        for (const std::size_t i : tried) {
+            if (times_first && all_[i].ms() > worthJudging * all_[best].ms()) continue;
+            judge(i);
+            const double error_miss = missOf(*all_[i].judged, {}, budget_);
+            if (miss > 0 ? error_miss < miss : error_miss <= 0) left.push_back(i);
+        }
+        if (!times_first) time(left, best);
+    }
+
+    void timeBestAgain() {
+        while (true) {
+            std::vector<std::size_t> fit;
+            for (std::size_t i = 0; i < all_.size(); ++i)
+                if (all_[i].fate == Fate::fits) fit.push_back(i);
+            if (fit.empty()) return;
+            std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return rank(i); });
+            const Candidate& best = all_[fit.front()];
+            std::erase_if(fit, [&](std::size_t i) {
+                return budget_.isForSpeed() ? all_[i].ms() > worthTimingAgain * best.ms()
+                                            : all_[i].judged->error > alikeErrors * best.judged->error;
+            });
+            fit.resize(std::min(fit.size(), contenders));
+            timeAgain(fit);
+            if (!budget_.ms || found_.ms <= *budget_.ms) return;
+            // The fastest of them is too slow after all, and so are the others.
+            for (const std::size_t i : fit) all_[i].fate = Fate::too_slow;
+            found_.chosen.reset();
+            found_.runner_up.reset();
+            found_.ties.clear();
+            found_.sure = false;
+        }
+    }
+    void timeAgain(const std::vector<std::size_t>& which) {
+        std::vector<Settings> frames;
+        for (const std::size_t i : which) frames.push_back(all_[i].settings);
+        say(0.9, "the best again");
+        const Standings result = tellApart(which.size(), [&](std::span<const std::size_t> order) {
+            for (const std::size_t k : order) ++all_[which[k]].timings;
+            return lab_.time(frames, order);
+        });
+        found_.timings += result.draws;
+        found_.sure = result.sure;
+        found_.chosen = which[result.winner];
+        found_.ms = result.standings[result.winner].ms;
+        // The device may be slower or faster by now: all times are told as of now.
+        const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
+        if (std::abs(shift) >= worthShifting)
+            for (Candidate& each : all_) each.log_ms += shift;
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            const std::size_t i = which[k];
+            all_[i].fate = Fate::raced;
+            all_[i].standing = result.standings[k];
+            if (k == result.winner) continue;
+            if (!all_[i].standing->isSlower()) found_.ties.push_back(i);
+            if (!found_.runner_up || all_[i].standing->ratio < all_[*found_.runner_up].standing->ratio)
+                found_.runner_up = i;
+        }
+    }
+
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
             if (all_[i].judged && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
@@ -549,22 +339,21 @@ private:
     }
 
     Lab& lab_;
-    CostModel& model_;
     const SearchOptions& options_;
     const Budget& budget_;
-    std::mt19937_64 random_;
     std::vector<Candidate> all_;
+    std::size_t known_ = 0;  // of the table
     std::map<Path, std::size_t> firsts_;
-    std::map<Path, double> first_errors_;
-    std::map<Change, double> errors_;
-    std::map<Path, double> first_estimates_;
-    std::set<Change> estimated_;  // of errors_
-    LearnedSpread sum_off_{spreadAtFirst, seenAtFirst}, estimate_off_{estimateAtFirst, estimatesAtFirst};
-    std::vector<double> repeats_;
+    std::map<Change, std::optional<Effect>> effects_;
     Choice found_;
 };
 
 }  // namespace
+
+double Candidate::ms() const {
+    if (standing) return standing->ms;
+    return timings > 0 ? std::exp(log_ms) : std::numeric_limits<double>::quiet_NaN();
+}
 
 double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget) {
     double miss = 0;
@@ -577,9 +366,22 @@ double missOf(const Judged& judged, std::optional<double> ms, const Budget& budg
     return miss;
 }
 
-Choice search(std::span<const Settings> candidates, Lab& lab, CostModel& model,
-              const SearchOptions& options) {
-    return Search(candidates, lab, model, options).run();
+Choice search(std::span<const Settings> table, Lab& lab, const SearchOptions& options) {
+    return Search(table, lab, options).run();
+}
+
+std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& budget) {
+    if (!choice.chosen) return {};
+    const auto value = [&](std::size_t i) {
+        const Candidate& candidate = choice.candidates[i];
+        return budget.isForSpeed() ? candidate.ms() : candidate.judged->error;
+    };
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+        if (choice.candidates[i].settings.path != choice.candidates[*choice.chosen].settings.path &&
+            choice.candidates[i].isFit() && (!best || value(i) < value(*best)))
+            best = i;
+    return best;
 }
 
 }  // namespace diptych::choose

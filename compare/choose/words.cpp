@@ -61,31 +61,25 @@ std::string whyInWords(const ChoiceReport& report) {
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
-    const std::optional<std::size_t> best = bestOfOtherPath(report);
+    const std::optional<std::size_t> best = bestOfOtherPath(choice, report.budget);
     if (!best) return "of the other path nothing that was judged fits";
     const Candidate& other = choice.candidates[*best];
     std::map<std::string, std::pair<double, double>> passes;  // chosen, other
-    constexpr double noPass = 2e-3;  // of a frame: the model's time of a pass that there is not is not 0
-    const auto there = [&](const PassTime& pass, const Candidate& of) {
-        return pass.ms < noPass * of.predicted.ms() ? 0 : pass.ms;
-    };
-    for (const PassTime& pass : chosen.passes) passes[pass.name].first = there(pass, chosen);
-    for (const PassTime& pass : other.passes) passes[pass.name].second = there(pass, other);
+    for (const PassTime& pass : chosen.passes) passes[pass.name].first += pass.ms;
+    for (const PassTime& pass : other.passes) passes[pass.name].second += pass.ms;
     std::vector<std::pair<double, std::string>> parts;
     constexpr double worthTelling = 0.03;  // of a frame
     for (const auto& [name, ms] : passes)
-        if (std::abs(ms.first - ms.second) > worthTelling * other.predicted.ms())
+        if (std::abs(ms.first - ms.second) > worthTelling * other.ms())
             parts.emplace_back(-std::abs(ms.first - ms.second),
                                fmt::format("{} {:.3g} against {:.3g}", name, ms.second, ms.first));
     std::ranges::sort(parts);
-    std::string line = fmt::format("of the other path the {} that was drawn and fits, {}, takes {}{:.3g} ms",
-                                   forSpeed ? "fastest" : "most accurate", report.words[*best],
-                                   other.standing ? "" : "about ", other.ms());
+    std::string line = fmt::format("of the other path the {} that was drawn and fits, {}, takes {:.3g} ms",
+                                   forSpeed ? "fastest" : "most accurate", report.words[*best], other.ms());
     if (!forSpeed)
         line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
                             chosen.judged->error);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        line += (i == 0 ? "; passes by the model: " : ", ") + parts[i].second;
+    for (std::size_t i = 0; i < parts.size(); ++i) line += (i == 0 ? "; passes " : ", ") + parts[i].second;
     return line;
 }
 
@@ -94,18 +88,15 @@ std::string fatesInWords(const Choice& choice) {
     std::map<Fate, std::size_t> counts;
     for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
     std::vector<std::string> words;
-    for (const Fate fate :
-         {Fate::raced, Fate::fits, Fate::too_slow, Fate::misses, Fate::spoilt, Fate::unseen})
+    for (const Fate fate : {Fate::raced, Fate::fits, Fate::too_slow, Fate::misses, Fate::slower})
         if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], fateInWords(fate)));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
 const char* nameOf(Fate fate) {
     switch (fate) {
-        case Fate::unseen:
-            return "unseen";
-        case Fate::spoilt:
-            return "spoilt";
+        case Fate::slower:
+            return "slower";
         case Fate::misses:
             return "misses";
         case Fate::too_slow:
@@ -124,10 +115,10 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"words", report.words[i]},
               {"command", report.commands[i]},
               {"fate", nameOf(candidate.fate)},
-              {"ms", candidate.ms()},
               {"frames_timed", candidate.timings}};
+    json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
-    json["first_camera_error"] = candidate.estimated ? Json(*candidate.estimated) : Json();
+    json["first_camera_error"] = Json();  // of schema 1, as "estimated"
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
     if (candidate.standing)
         json["race"] = {{"ratio", candidate.standing->ratio},
@@ -141,8 +132,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
 
 std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
-    std::string text = candidate.timings > 0 ? fmt::format("{:.4g} ms", candidate.ms())
-                                             : fmt::format("about {:.3g} ms", candidate.ms());
+    std::string text = candidate.timings > 0 ? fmt::format("{:.4g} ms", candidate.ms()) : "not timed";
     if (candidate.judged)
         text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
                             page::bytes(candidate.judged->bytes));
@@ -151,18 +141,16 @@ std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
 
 const char* fateInWords(Fate fate) {
     switch (fate) {
-        case Fate::unseen:
-            return "not judged, no better by the model";
-        case Fate::spoilt:
-            return "not judged, a change of it exceeds the error";
+        case Fate::slower:
+            return "slower, not judged";
         case Fate::misses:
             return "over the error or the memory";
         case Fate::too_slow:
             return "too slow";
         case Fate::fits:
-            return "drawn and no better";
+            return "no better";
         case Fate::raced:
-            return "raced";
+            return "timed with the best";
     }
     return "";
 }
@@ -176,25 +164,10 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     for (const std::size_t i : choice.ties)
         lines.push_back("as fast, as far as can be told: " + standingOf(report, i));
     if (choice.sure)
-        lines.push_back(fmt::format("sure: every other contender is slower, at {:.0f} %",
-                                    100 * (1 - RaceRules().false_winner)));
+        lines.push_back(
+            fmt::format("sure: every other contender is slower, at {:.0f} %", 100 * toldApartConfidence));
     addUnseen(report, lines);
     return lines;
-}
-
-std::optional<std::size_t> bestOfOtherPath(const ChoiceReport& report) {
-    const Choice& choice = report.choice;
-    if (!choice.chosen) return {};
-    const auto isBetter = [&](const Candidate& a, const Candidate& b) {
-        return report.budget.isForSpeed() ? a.ms() < b.ms() : a.judged->error < b.judged->error;
-    };
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
-        if (const Candidate& candidate = choice.candidates[i];
-            candidate.settings.path != choice.candidates[*choice.chosen].settings.path && candidate.isFit() &&
-            (!best || isBetter(candidate, choice.candidates[*best])))
-            best = i;
-    return best;
 }
 
 std::string goalInWords(const ChoiceReport& report) {
@@ -221,11 +194,9 @@ std::string inWords(const ChoiceReport& report) {
     for (const std::string& line : reasonsInWords(report)) text += "  " + line + "\n";
     if (report.deciders)
         for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
-    text += fmt::format(
-        "  {} candidates: {}\n  {} pictures judged{}, {} frames timed, {} effects known before, {:.1f} s\n",
-        choice.candidates.size(), fatesInWords(choice), choice.judged,
-        choice.estimated > 0 ? fmt::format(" and {} from one camera", choice.estimated) : "", choice.timings,
-        report.known_effects, report.seconds);
+    text += fmt::format("  {} candidates: {}\n  {} pictures judged, {} frames timed, {:.1f} s\n",
+                        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings,
+                        report.seconds);
     for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
     if (choice.chosen) text += report.commands[*choice.chosen] + "\n";
     return text;
@@ -262,7 +233,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
-    json["estimated"] = choice.estimated;
+    json["estimated"] = 0;  // of schema 1: every picture is judged from all cameras
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
     json["notes"] = report.notes;

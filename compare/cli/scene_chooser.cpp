@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/scene_chooser.h"
 
+#include "compare/choose/table.h"
 #include "compare/cli/commands.h"
 #include "compare/cli/scene_lab.h"
 #include "compare/cli/scene_variations.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
 #include "compare/run/command_text.h"
-#include "compare/run/version.h"
 #include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
-#include "shared/vulkan/user_cache.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,15 +58,17 @@ std::vector<Settings> candidatesFor(const Options& options, const Device& device
     return std::move(sweep.rows);
 }
 
-// A candidate of one path with changes; nothing where a sweep would not draw it.
-std::optional<Settings> combined(const Settings& given, const Settings& first,
-                                 std::span<const Change> changes) {
-    tradeoff::Grid grid{{"path", {std::string(nameOf(first.path))}}};
-    for (const Change& change : changes) grid.push_back({change.option, {change.to}});
+// Settings with some changes more; nothing where a sweep would not draw them.
+std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
+    tradeoff::Grid grid;
+    for (const tradeoff::Choice& choice : tradeoff::choicesOf(of, given))
+        if (std::ranges::count(changes, choice.first, &Change::option) == 0)
+            grid.push_back({choice.first, {choice.second}});
+    for (const Change& change : changes) grid.push_back({change.option, {change.value}});
     try {
         const tradeoff::SweepRows sweep = tradeoff::makeSweepRows(given, {grid});
         for (const Change& change : changes)
-            if (sweep.rows.front().valueOf(change.option) != change.to) return {};
+            if (sweep.rows.front().valueOf(change.option) != change.value) return {};
         return sweep.rows.front();
     } catch (const std::runtime_error&) {
         return {};
@@ -107,10 +108,7 @@ SceneChooser::SceneChooser(const Options& options)
       figure_(figureOf(options.choose.figure)),
       progress_(progressOutput(options)),
       device_(deviceOptions(options)),
-      pipelines_(makePipelineSet(device_)),
-      calibration_file_(calibrationFile(userCacheFolder(), device_.info().name)),
-      calibration_(
-          readCalibration(calibration_file_, device_.info().name, device_.info().driver, commitName())) {
+      pipelines_(makePipelineSet(device_)) {
     say(options, "on " + device_.info().name);
 }
 
@@ -149,7 +147,6 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.figure = tradeoff::errorFigures.at(figure_).title;
     report.figure_name = tradeoff::errorFigures.at(figure_).name;
     report.device = reportDevice(device_);
-    report.known_effects = calibration_.effects.size();
 
     const Settings truth = tradeoff::truthFor(given, candidates);
     RenderOptions drawing = renderOptions(options_);
@@ -163,19 +160,22 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
     held.lab.emplace(held.renderer, references, figure_, renderOptions(options_));
 
-    CostModel model(calibration_);
     SearchOptions search;
     search.budget = report.budget;
-    if (options_.grid.empty())
-        search.combine = [&](const Settings& first, std::span<const Change> changes) {
-            return combined(given, first, changes);
-        };
+    for (const Settings& row : candidates) {
+        const Settings& first = *std::ranges::find(candidates, row.path, &Settings::path);
+        const std::vector<Change> changes = changesBetween(first, row);
+        if (changes.size() == 1) search.changes.push_back(changes.front());
+    }
+    search.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
+        std::optional<Settings> made = combined(given, of, changes);
+        const bool drawn = options_.grid.empty() ? made && !drawingProblem(device_, *made)
+                                                 : made && std::ranges::count(candidates, *made) > 0;
+        return drawn ? made : std::nullopt;
+    };
     const Stage searching = stage.part(0.2, 0.95);
     search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
-    report.choice = choose::search(candidates, *held.lab, model, search);
-    Calibration taught = calibration_;
-    model.teach(taught, where);
-    if (writeCalibration(calibration_file_, taught)) calibration_ = std::move(taught);
+    report.choice = choose::search(tableOf(candidates), *held.lab, search);
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
@@ -200,36 +200,17 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
     const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
-    std::vector<std::size_t> others;
-    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
-        if (choice.candidates[i].judged && choice.candidates[i].settings.path != chosen_path)
-            others.push_back(i);
-    if (others.empty()) return {};  // --grid has candidates of one path alone
-    const bool fits =
-        std::ranges::any_of(others, [&](std::size_t i) { return choice.candidates[i].isFit(); });
-    if (fits) std::erase_if(others, [&](std::size_t i) { return !choice.candidates[i].isFit(); });
-    // Where the most accurate is wanted, one of its accuracy.
-    if (const std::optional<std::size_t> best = bestOfOtherPath(report);
-        best && fits && !report.budget.isForSpeed())
-        std::erase_if(others, [&](std::size_t i) {
-            return choice.candidates[i].judged->error > choice.candidates[*best].judged->error;
-        });
-    std::ranges::sort(others, {}, [&](std::size_t i) {
-        return fits ? choice.candidates[i].predicted.log_ms : choice.candidates[i].judged->error;
-    });
-    // Of those that fit, the fastest by the model race: it may be off for what was not timed.
-    constexpr std::size_t raced = 4;
-    others.resize(std::min(others.size(), fits ? raced : 1));
-    std::vector<Settings> frames;
-    for (const std::size_t i : others) frames.push_back(choice.candidates[i].settings);
-    RaceRules rules;
-    rules.rungs = {2, 4};
-    const Race best = race(
-        frames.size(), [&](std::span<const std::size_t> order) { return held.lab->time(frames, order); },
-        rules, 1);
-    const std::size_t other = others[best.winner];
+    // The other path's best, or where none of it fits, its most accurate.
+    std::optional<std::size_t> other = bestOfOtherPath(choice, report.budget);
+    const bool fits = other.has_value();
+    for (std::size_t i = 0; i < choice.candidates.size() && !fits; ++i)
+        if (const Candidate& candidate = choice.candidates[i];
+            candidate.judged && candidate.settings.path != chosen_path &&
+            (!other || candidate.judged->error < choice.candidates[*other].judged->error))
+            other = i;
+    if (!other) return {};  // --grid has candidates of one path alone
     // Where nothing is blended, both may differ in how they would blend: not where a variation blends.
-    std::array<Settings, 2> compared{chosen.settings, frames[best.winner]};
+    std::array<Settings, 2> compared{chosen.settings, choice.candidates[*other].settings};
     const tradeoff::ReferenceFrames& references = references_.at(report.scene);
     if (std::ranges::all_of(references.frames,
                             [](const Frame& frame) { return frame.blended.pixels() == 0; }))
@@ -239,16 +220,14 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
                     each.set(field.option, options_.settings.valueOf(field.option));
     const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
     constexpr int rounds = 5;
-    DecidersReport deciders{
+    return DecidersReport{
         report.words[*choice.chosen],
-        report.words[other],
+        report.words[*other],
         std::string(nameOf(chosen_path)),
-        std::string(nameOf(frames[best.winner].path)),
+        std::string(nameOf(compared[1].path)),
         fits,
         findDeciders(drawAsIs(varied), propertiesOf(varied), rounds,
                      [&](double done, std::string_view what) { progress.at(done, std::string(what)); })};
-    deciders.deciders.frames += best.draws;
-    return deciders;
 }
 
 UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,

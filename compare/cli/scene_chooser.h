@@ -2,7 +2,6 @@
 // Chooses for scenes on one device: reads them, draws their references, and measures what a choice asks for.
 #pragma once
 
-#include "compare/choose/calibration.h"
 #include "compare/choose/common.h"
 #include "compare/choose/report.h"
 #include "compare/cli/options.h"
@@ -10,7 +9,6 @@
 #include "compare/tradeoff/measure.h"
 #include "shared/vulkan/device.h"
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,8 +41,6 @@ private:
     Progress progress_;
     Device device_;
     std::shared_ptr<PipelineSet> pipelines_;
-    const std::filesystem::path calibration_file_;
-    choose::Calibration calibration_;
     std::map<std::string, tradeoff::ReferenceFrames> references_;  // by scene
     std::unique_ptr<Held> held_;
 };

@@ -10,6 +10,9 @@ namespace diptych::cli {
 
 namespace {
 
+// Candidates whose frames are kept for their times: each has images of its own.
+constexpr std::size_t mostKept = 4;
+
 // The Settings from each camera of the reference frames.
 std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::ReferenceFrames& references) {
     std::vector<Settings> seen;
@@ -53,15 +56,6 @@ choose::Judged SceneLab::judge(const Settings& settings) {
     return judged;
 }
 
-std::optional<double> SceneLab::estimate(const Settings& settings) {
-    if (cameras() == 1 || !isOfReferenceSize(settings)) return {};
-    const Settings seen = fromEachCamera(settings, references_).front();
-    prepare(std::span(&seen, 1));
-    tradeoff::ErrorsOfCameras errors;
-    errors.add(errorsOf(0, drawn(seen).lit(0)));
-    return errors.errors().at(figure_);
-}
-
 choose::Judged SceneLab::judgeCaptured(const Settings& settings) {
     RenderOptions drawing = options_;
     drawing.runs = 0;
@@ -75,7 +69,10 @@ void SceneLab::prepare(std::span<const Settings> seen) {
         return std::ranges::find(drawn_, settings, &Drawn::settings) != drawn_.end();
     };
     if (std::ranges::all_of(seen, isThere)) return;
-    std::erase_if(drawn_, [&](const Drawn& each) { return std::ranges::count(seen, each.settings) == 0; });
+    std::size_t others = drawn_.size();
+    std::erase_if(drawn_, [&](const Drawn& each) {
+        return std::ranges::count(seen, each.settings) == 0 && others-- > mostKept * cameras();
+    });
     for (const Settings& settings : seen) {
         if (isThere(settings)) continue;
         const std::size_t pipelines = renderer_.pipelines();
@@ -121,14 +118,12 @@ std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<c
     return times;
 }
 
-std::vector<std::vector<PassTime>> SceneLab::profile(const Settings& settings, int frames) {
+std::vector<PassTime> SceneLab::profile(const Settings& settings) {
     const Settings seen = fromEachCamera(settings, references_).front();
     prepare(std::span(&seen, 1));
     PreparedFrames& of = readyForTimes(seen).frames;
     of.warmUp(std::array{std::size_t{0}});
-    std::vector<std::vector<PassTime>> times;
-    for (int i = 0; i < frames; ++i) times.push_back(of.profile(0));
-    return times;
+    return of.profile(0);
 }
 
 }  // namespace diptych::cli

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <list>
 #include <map>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,15 +26,13 @@ public:
         : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
 
     choose::Judged judge(const Settings& settings) override;
-    // The first camera's error, of several.
-    std::optional<double> estimate(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the frames that it keeps: each has images of its own.
     void release() {
         drawn_.clear();
         judged_.clear();
     }
-    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override;
+    std::vector<PassTime> profile(const Settings& settings) override;
 
 private:
     std::size_t cameras() const { return references_.frames.size(); }
@@ -49,8 +46,8 @@ private:
         PreparedFrames frames;
         bool made_pipelines, is_drawn = false;
     };
-    // Makes frames of Settings with their cameras; those that are there already are taken, so that what was
-    // judged is timed without being made anew; where any has to be made, all others are dropped.
+    // Makes frames of Settings with their cameras unless they are there, so that what was judged is timed
+    // without being made anew. Of the others the latest are kept, mostKept for each camera.
     void prepare(std::span<const Settings> seen);
     Drawn& prepared(const Settings& seen);
     PreparedFrames& drawn(const Settings& seen);  // that were prepared, drawn once at least

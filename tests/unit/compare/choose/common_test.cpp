@@ -45,9 +45,8 @@ public:
                             std::exp(std::normal_distribution<double>(0, deviation_)(random_)));
         return times;
     }
-    std::vector<std::vector<PassTime>> profile(const Settings& settings, int frames) override {
-        return std::vector<std::vector<PassTime>>(static_cast<std::size_t>(frames),
-                                                  {{"shade", find(settings).ms}});
+    std::vector<PassTime> profile(const Settings& settings) override {
+        return {{"shade", find(settings).ms}};
     }
     std::size_t judged = 0;
 
@@ -71,11 +70,9 @@ struct ForAll {
         const std::vector<Settings> candidates{standardOne, forwardOne, compactOne, fullOne};
         for (const std::vector<Known>& scene : scenes) {
             labs.emplace_back(scene, 0.01, labs.size() + 1);
-            const Calibration none;
-            CostModel model(none);
             SearchOptions search_options;
             search_options.budget = budget;
-            own.push_back(search(candidates, labs.back(), model, search_options));
+            own.push_back(search(candidates, labs.back(), search_options));
             labs.back().judged = 0;
         }
         for (const Choice& choice : own) pointers.push_back(&choice);

@@ -59,43 +59,23 @@ choose::Judged RecordedLab::judge(const Settings& settings) {
     return {row.error, row.bytes};
 }
 
-std::optional<double> RecordedLab::estimate(const Settings& settings) {
-    if (!(noise_.estimate > 0)) return {};
-    const RecordedRow& row = sweep_.find(settings);
-    std::seed_seq of{seed_, static_cast<std::uint64_t>(&row - sweep_.rows.data())};
-    std::mt19937_64 random(of);
-    return noise_.camera * row.error * std::exp(std::normal_distribution<double>(0, noise_.estimate)(random));
-}
-
 double RecordedLab::drift(double timings_ago) const {
     return 1 + noise_.drift * (std::clamp((timed_ - timings_ago) / noise_.drifts, 0.0, 1.0) - 0.5);
 }
 
-double RecordedLab::slower() {
-    const double by = drift() * std::exp(std::normal_distribution<double>(0, noise_.deviation)(random_));
-    ++timed_;
-    return by;
-}
-
 std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {
-    std::vector<double> times;
-    for (const std::size_t i : order) times.push_back(sweep_.find(frames[i]).ms * slower());
-    return times;
-}
-
-std::vector<std::vector<PassTime>> RecordedLab::profile(const Settings& settings, int frames) {
-    std::vector<std::vector<PassTime>> times;
-    for (int i = 0; i < frames; ++i) {
-        const RecordedRow& row = sweep_.find(settings);
-        times.push_back(row.passes);
-        double all = slower();
-        // No random number is drawn where none is slow, so that the others' stay what they are.
-        if (noise_.slow_firsts > 0 && profiled_.insert(&row).second &&
-            std::bernoulli_distribution(noise_.slow_firsts)(random_))
-            all *= 1 + std::exponential_distribution<double>(1 / noise_.slower_first)(random_);
-        for (PassTime& pass : times.back()) pass.ms *= all;
+    std::vector<double> recorded, times;
+    for (const Settings& settings : frames) recorded.push_back(sweep_.find(settings).ms);
+    std::normal_distribution<double> noise(0, noise_.deviation);
+    for (const std::size_t i : order) {
+        times.push_back(recorded[i] * drift() * std::exp(noise(random_)));
+        ++timed_;
     }
     return times;
+}
+
+std::vector<PassTime> RecordedLab::profile(const Settings& settings) {
+    return sweep_.find(settings).passes;
 }
 
 }  // namespace diptych

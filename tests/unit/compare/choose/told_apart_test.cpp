@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Contenders whose times are known, told apart under noise and drift.
+#include "compare/choose/told_apart.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace diptych::choose {
+
+namespace {
+
+// Frames that take `ms`, each off by noise, on a device that slows down by a part of its speed a frame.
+class SlowingDevice {
+public:
+    SlowingDevice(std::vector<double> ms, double deviation, double drift, std::uint64_t seed)
+        : ms_(std::move(ms)), deviation_(deviation), drift_(drift), random_(seed) {}
+    std::vector<double> operator()(std::span<const std::size_t> order) {
+        std::vector<double> times;
+        for (const std::size_t i : order)
+            times.push_back(ms_[i] * std::exp(std::normal_distribution<double>(0, deviation_)(random_)) *
+                            (1 + drift_ * frames_++));
+        return times;
+    }
+
+private:
+    std::vector<double> ms_;
+    double deviation_, drift_;
+    std::mt19937_64 random_;
+    double frames_ = 0;
+};
+
+Standings raced(const std::vector<double>& ms, double deviation, double drift, std::uint64_t seed) {
+    SlowingDevice device(ms, deviation, drift, seed);
+    return tellApart(ms.size(), [&](std::span<const std::size_t> order) { return device(order); });
+}
+
+TEST(ChooseToldApart, StudentsQuantilesAreThoseOfTheTables) {
+    EXPECT_NEAR(studentT(0.05, 1), 12.706, 1e-3);
+    EXPECT_NEAR(studentT(0.05, 2), 4.303, 1e-3);
+    EXPECT_NEAR(studentT(0.01, 5), 4.032, 1e-3);
+    EXPECT_NEAR(studentT(0.05, 10), 2.228, 1e-3);
+    EXPECT_NEAR(studentT(0.001, 30), 3.646, 1e-3);
+}
+
+// 400 pairs of copies: one is told faster in few of them, and no winner by the order of the draws.
+TEST(ChooseToldApart, TwoCopiesAreATie) {
+    for (const double drift : {0.0, 0.01}) {
+        std::size_t winners = 0, first = 0;
+        for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+            const Standings result = raced({10, 10}, 0.1, drift, seed);
+            winners += result.sure;
+            first += result.winner == 0;
+        }
+        EXPECT_LE(winners, 400 * 0.05) << drift;
+        EXPECT_NEAR(static_cast<double>(first), 200.0, 50.0) << "five deviations of a fair coin's 400 throws";
+    }
+}
+
+// Without noise a drift alone makes no difference: each order is drawn back.
+TEST(ChooseToldApart, ADriftIsNoDifference) {
+    const Standings result = raced({10, 10, 10}, 0, 0.02, 3);
+    for (const Standing& standing : result.standings) EXPECT_NEAR(standing.ratio, 1, 2e-3);
+}
+
+TEST(ChooseToldApart, EveryDrawIsCounted) {
+    std::size_t drawn = 0;
+    const auto draw = [&](std::span<const std::size_t> order) {
+        drawn += order.size();
+        return std::vector<double>(order.size(), 10.0);
+    };
+    EXPECT_EQ(tellApart(3, draw).draws, drawn);
+    EXPECT_GT(drawn, 0u);
+}
+
+TEST(ChooseToldApart, TheFastestWinsAndIsSure) {
+    std::size_t right = 0, sure = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        const Standings result = raced({12, 10, 13, 11.5, 20}, 0.05, 0.002, seed);
+        right += result.winner == 1;
+        sure += result.sure;
+        EXPECT_LE(result.standings[4].rounds, result.standings[1].rounds)
+            << "the slowest does not run to the end";
+    }
+    EXPECT_GE(right, 196u);
+    EXPECT_GE(sure, 180u);
+}
+
+}  // namespace
+
+}  // namespace diptych::choose
