@@ -24,7 +24,7 @@ constexpr Primaries rec709{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290},
     display_p3{0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290};
 const std::string converted = "its colours were converted from the primaries x, y ";
 
-PictureFile pictureOf(const std::string& file) {
+PictureFile decodedFrom(const std::string& file) {
     return readPicture(std::as_bytes(std::span(file)), "a");
 }
 
@@ -81,7 +81,7 @@ TEST(Primaries, OfAnExr) {
         const auto xy = [&](std::size_t i) {
             return Imath::V2f(static_cast<float>(p[2 * i]), static_cast<float>(p[2 * i + 1]));
         };
-        return pictureOf(exrOf({part}, [&](std::vector<Imf::Header>& heads) {
+        return decodedFrom(exrOf({part}, [&](std::vector<Imf::Header>& heads) {
             Imf::addChromaticities(heads[0], {xy(0), xy(1), xy(2), xy(3)});
             if (white > 0) Imf::addWhiteLuminance(heads[0], white);
             heads[0].pixelAspectRatio() = aspect;
@@ -110,8 +110,8 @@ TEST(Primaries, OfAnExr) {
 
 TEST(Primaries, OfARadiancePicture) {
     const auto with = [](const std::string& variables) {
-        return pictureOf("#?RADIANCE\n" + variables +
-                         "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s);
+        return decodedFrom("#?RADIANCE\n" + variables +
+                           "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s);
     };
     // A grey of any white is grey.
     const PictureFile grey =
@@ -146,11 +146,11 @@ TEST(Primaries, OfAPng) {
         EXPECT_TRUE(file.notes.lines.at(0).starts_with(converted));
     }
     made.gamma = 1;
-    EXPECT_NEAR(pictureOf(pngOf(made)).layers[0].image.data[0], -0.224940, 2e-4) << "linear values";
+    EXPECT_NEAR(decodedFrom(pngOf(made)).layers[0].image.data[0], -0.224940, 2e-4) << "linear values";
     made.srgb = true;
-    EXPECT_TRUE(pictureOf(pngOf(made)).notes.lines.empty()) << "sRGB has precedence";
+    EXPECT_TRUE(decodedFrom(pngOf(made)).notes.lines.empty()) << "sRGB has precedence";
     made = {PNG_COLOR_TYPE_GRAY, 8, 1, {{51}}, false, {}, {}, -1, 0, false, false, made.chunks};
-    EXPECT_EQ(pictureOf(pngOf(made)).layers[0].image.data, PixelData{0.2f}) << "grey has no primaries";
+    EXPECT_EQ(decodedFrom(pngOf(made)).layers[0].image.data, PixelData{0.2f}) << "grey has no primaries";
 }
 
 TEST(Primaries, WhatAPngSaysBesideThem) {
@@ -158,7 +158,7 @@ TEST(Primaries, WhatAPngSaysBesideThem) {
     made.chunks = {{"cICP", "\x0c\x10\x00\x01"s},
                    {"acTL", bigEndianOf({3, 0})},
                    {"pHYs", bigEndianOf({2000, 1000}) + "\0"s}};
-    EXPECT_EQ(pictureOf(pngOf(made)).notes.not_applied,
+    EXPECT_EQ(decodedFrom(pngOf(made)).notes.not_applied,
               (Names{"its pixels are not square (aspect 0.5): they are shown square",
                      "its colours are of code points 12 16 0 1 (ITU-T H.273), which are not applied: its "
                      "values are taken as sRGB's",
@@ -166,7 +166,7 @@ TEST(Primaries, WhatAPngSaysBesideThem) {
     made.chunks = {{"cICP", "\x01\x0d\x00\x01"s},
                    {"acTL", bigEndianOf({1, 0})},
                    {"pHYs", bigEndianOf({2835, 2835}) + "\1"s}};
-    EXPECT_TRUE(pictureOf(pngOf(made)).notes.not_applied.empty()) << "sRGB, one frame, square";
+    EXPECT_TRUE(decodedFrom(pngOf(made)).notes.not_applied.empty()) << "sRGB, one frame, square";
 }
 
 }  // namespace
