@@ -135,7 +135,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    // The frame's own G-buffer holds no geometric normals, as no light needs them.
+    // The frame's own G-buffer holds geometric normals only if shadows need them.
     if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
         request.modes.end())
         addGBuffer(passes, inputs, frame, true);

@@ -31,7 +31,7 @@ struct Related {
     bool own_base = false;  // the base is another one than the given case
 };
 
-// How alike the pictures must be; compare/audit/README.md derives what each allows.
+// How alike the pictures must be; RelationMeasurer::grantOf derives what each allows.
 enum class Alike {
     bits,     // the same arithmetic of the same numbers: bit for bit
     sums,     // the same terms, added in another order

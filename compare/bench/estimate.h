@@ -38,7 +38,9 @@ struct PassEstimate {
         bound;  // the demand that takes longest; "launch" where that is less than starting a pass
 };
 // The compiler's mean over the pipelines of a pass: a SIMD unit's cycles for a wave of 64 threads, without
-// lights and for each light.
+// lights and for each light. RADV's "Inverse Throughput" hides latency by the other resident waves, so
+// occupancy is in it and EstimateAssumptions::reached is not applied. A loop of unknown length counts as 8
+// turns, so each pipeline is compiled without lights too, and `light` is an eighth of the difference.
 struct PassCycles {
     std::string pass;
     double vertex = 0, fragment = 0, compute = 0, light = 0;
@@ -52,8 +54,9 @@ struct FrameEstimate {
     std::vector<PassEstimate> passes;
 };
 
-// Assumptions, each with its reason in README.md: which part of a data sheet's figure is reached, operations
-// of a light and of a fragment, and how long a pass takes to begin and to end, ms.
+// Assumptions, not validated on a GPU: the share of a data sheet's figure that is reached; operations a light
+// (counted in kernel_avx2.cpp, a multiply-add is two), fragment, vertex and compute invocation; and ms to
+// begin a pass.
 struct EstimateAssumptions {
     double reached = 0.6;
     double light_flops = 120, fragment_flops = 200, vertex_flops = 100, compute_flops = 100;

@@ -65,7 +65,7 @@ Probe roughnessProbe() {
     return p;
 }
 
-// Turquin 2019 and Fdez-Aguera 2019 (shared/environment/README.md).
+// Turquin 2019 and Fdez-Aguera 2019 (shaders/lib/multiscatter.glsl).
 Probe betweenProbe(bool energy) {
     Probe p = surfaceProbe(
         "surfaces", energy ? "between microfacets, energy" : "between microfacets, Fdez-Aguera",

@@ -16,8 +16,8 @@ namespace diptych {
 
 // Bytes of host memory at the peak of drawing one Frame of each Settings after the other, beyond what the
 // process has once the scene is read: pictures, and where the device is a CPU (`software`) its images and
-// pipelines. Measured on lavapipe 22.3: 0.7 to 1.5 times what commands take (README). `sun`: whether one may
-// cast shadows. `materials`: of the scene.
+// pipelines. Measured on lavapipe 22.3: 0.7 to 1.5 times what commands take (MEASURED.md). `sun`: whether
+// one may cast shadows. `materials`: of the scene.
 std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
                          bool sun, std::size_t materials);
 

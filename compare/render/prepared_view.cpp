@@ -70,7 +70,7 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
 }
 
 // A thread a tile and word of lights suits a GPU; lavapipe marks the cells of each light faster
-// (shared/light/README.md, "What lists cost").
+// (shared/light/MEASURED.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
         return device.profile().wide_groups ? ListKernel::gather : ListKernel::scatter;

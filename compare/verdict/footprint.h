@@ -17,7 +17,7 @@ namespace diptych {
 
 // Mean FLIP that pixels with detail may have. Two sound filters (trilinear, and the mean over the pixel's
 // footprint) come to 0.25 at most in scenes made to alias, 0.03 to 0.13 in others; another texture, or one
-// that lies elsewhere, comes to 0.4 and more (README.md).
+// that lies elsewhere, comes to 0.4 and more (MEASURED.md).
 inline constexpr double detailFlip = 0.3;
 
 struct Footprints {

@@ -14,7 +14,7 @@ layout(location = 1) out float out_optical_depth;
 void main() {
     BlendedFragment f = blendedFragment();
     // Falls to 1/20 over the range of blended surfaces: of exp(-k depth) the k with the least error over 2 to
-    // 8 layers of opacities from 0.2 to 0.9 (shared/transparent/README.md).
+    // 8 layers of opacities from 0.2 to 0.9 (shared/transparent/MEASURED.md).
     float weight = exp(-3.0 * blendedDepth(middleDepth()));
     out_sums = vec4(f.radiance, f.opacity) * weight;
     out_optical_depth = opticalDepth(f.opacity, MOST_OPTICAL_DEPTH);

@@ -115,7 +115,7 @@ CloseUp closeUpOf(const Frame& frame, const Frame& truth) {
 }
 
 // So near that texels are magnified: what is left is level of detail, edges and half floats. The table of
-// shared/material/README.md.
+// shared/material/MEASURED.md.
 TEST(ExactTextures, BringAHelmetNearToTheReference) {
     const std::filesystem::path file = assets() / "flight_helmet/FlightHelmet.gltf";
     if (!std::filesystem::exists(file))

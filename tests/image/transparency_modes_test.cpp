@@ -121,7 +121,7 @@ Stacks stacks(int layers, float opacity, unsigned seed) {
     return made;
 }
 
-// The table of shared/transparent/README.md, printed as it stands there.
+// The table of shared/transparent/MEASURED.md, printed as it stands there.
 TEST(TransparencyModes, ErrorsAreThoseOfTheTable) {
     std::map<std::tuple<Transparency, int, float>, double> errors;
     constexpr float opacities[] = {0.1f, 0.2f, 0.5f, 0.9f, 1.0f, 0.0f};

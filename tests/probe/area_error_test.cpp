@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The errors of both ways of shading area lights against the reference: the table of shared/light/README.md
+// The errors of both ways of shading area lights against the reference: the table of shared/light/MEASURED.md
 // is measured here, and written to the file that DIPTYCH_AREA_TABLE names.
 #include "tests/probe/area_maker.h"
 
@@ -125,7 +125,7 @@ std::string roughnessAndAngle(const AreaCase& c) {
 
 // Of what is seen the mean error stays below 5 % at every roughness and angle, on dielectrics and on metals
 // up to 75 degrees, by a tenth for the next device's rounding; at 85 degrees a metal's reaches what the fit
-// leaves there (shared/light/README.md). The
+// leaves there (shared/light/MEASURED.md). The
 // largest error of any light, relative to a sky of the same radiance, is bounded by half the distance between
 // lobe and transformed cosine (total variation), with 2 % for the table's interpolation and half floats.
 TEST(AreaError, IsBoundedByTheFit) {

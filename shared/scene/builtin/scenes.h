@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scenes that builtin.cpp lists; each function makes one. README.md says what each is for.
+// The scenes that builtin.cpp lists; each function makes one. A comment names the fault that a test scene
+// catches.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -21,42 +22,42 @@ struct ArrayCounts {
 Scene array(const ArrayCounts& counts);
 
 // surfaces.cpp: surface properties that a G-buffer must store
-Scene normals();
-Scene emission();
-Scene darkAlbedo();
-Scene dielectrics();
-Scene cutout();
-Scene occlusion();
-Scene manyMaterials();
-Scene vertexColors();
-Scene unlitMaterials();
-Scene sixteenBits();
-Scene lightmaps();
+Scene normals();         // seams and steps of normal encodings, in every octant
+Scene emission();        // emission clamped or rescaled, 1e-6 to 1e6
+Scene darkAlbedo();      // base colour packed with a gamma
+Scene dielectrics();     // specular parameters that the G-buffer lacks
+Scene cutout();          // alpha tests and double sides that differ between passes
+Scene occlusion();       // occlusion applied to direct light
+Scene manyMaterials();   // material ids beyond the packed bits
+Scene vertexColors();    // vertex colours dropped, or applied elsewhere
+Scene unlitMaterials();  // light, normal map or emission on unlit surfaces
+Scene sixteenBits();     // 16-bit textures cut to 8 bits
+Scene lightmaps();       // baked light lost, doubled, clamped or from the wrong UV set
 
 // places.cpp: positions, visibility, transforms
-Scene coplanar();
-Scene glass();
-Scene crossed();
-Scene deep();
-Scene mirrored();
-Scene stretched();
-Scene farAway();
-Scene ortho();
-Scene triangle();
-Scene empty();
-Scene background();
+Scene coplanar();    // depth ties
+Scene glass();       // blending order, sides and lights; opacity 0, 1 and beyond
+Scene crossed();     // surfaces that no order of draws blends correctly
+Scene deep();        // position from depth, off-centre in a wide view
+Scene mirrored();    // bitangents and winding under inherited mirroring
+Scene stretched();   // normals under non-uniform scale and shear
+Scene farAway();     // float32 in world space
+Scene ortho();       // view vectors and depth of an orthographic camera
+Scene triangle();    // the smallest input
+Scene empty();       // no mesh
+Scene background();  // nothing in view
 
 // calibration.cpp: what a renderer of others is held against
 Scene calibration();
 
 // turned_maps.cpp: normal maps under KHR_texture_transform
-Scene tangents();
+Scene tangents();  // tangents of untransformed or resting texture coordinates
 
 // motion.cpp: what moves
-Scene motion();
+Scene motion();  // a pose that is left out, late or half
 
 // lamps.cpp: lights
-Scene rangeEdge();
+Scene rangeEdge();  // light left at the end of the range
 Scene suns();
 Scene points();
 Scene spots();

@@ -228,7 +228,7 @@ Distance distanceOf(Multiscatter compensation, double roughness, double f0, int 
     return {energy, apart / (2 * all)};
 }
 
-// Rows of the table of shared/environment/README.md, which is made with a hundred times as many walks: with
+// Rows of the table of shared/environment/MEASURED.md, which is made with a hundred times as many walks: with
 // 36 bins these alone are some 0.015 apart in shape. Both compensations come far nearer than none; the
 // Lambertian lobe has the better shape.
 TEST(ReferenceMicrosurface, HowFarTheCompensationsAre) {
