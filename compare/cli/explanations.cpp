@@ -54,7 +54,7 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
 
 // Surfaces that another renderer may have where its channels say nothing of them: one change of Settings of a
 // row at most is believed.
-using Change = void (*)(Settings&);
+using SurfaceChange = void (*)(Settings&);
 template <SpecularKernel kernel>
 void widenRoughness(Settings& s) {
     if (!s.spec_aa) s.spec_aa_kernel = kernel;
@@ -63,7 +63,7 @@ void widenRoughness(Settings& s) {
 void turnNormalsOtherwise(Settings& s) {
     s.skin_normals = s.skin_normals == SkinNormals::joints ? SkinNormals::blended : SkinNormals::joints;
 }
-const std::vector<std::vector<Change>> otherSurfaces{
+const std::vector<std::vector<SurfaceChange>> otherSurfaces{
     {turnNormalsOtherwise},
     {widenRoughness<SpecularKernel::variance>, widenRoughness<SpecularKernel::slope>}};
 
@@ -83,10 +83,10 @@ std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Rend
     Frame shown =
         renderer.draw(withConventions(plain.settings, nearestConventions(plain.settings, trial)), light);
     Settings surfaces = plain.settings;
-    for (const std::vector<Change>& changes : otherSurfaces) {
+    for (const std::vector<SurfaceChange>& changes : otherSurfaces) {
         std::optional<Frame> nearest;
-        Change believed = nullptr;
-        for (const Change change : changes) {
+        SurfaceChange believed = nullptr;
+        for (const SurfaceChange change : changes) {
             Settings settings = shown.settings;
             change(settings);
             if (settings == shown.settings || settings.problem()) continue;
