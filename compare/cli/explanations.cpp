@@ -52,40 +52,58 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
     return frame;
 }
 
-// The view of `plain` with roughness widened by normals, where that brings lit nearer to the other renderer's
-// by at least half of what it changes: as much as anything has to that it is believed of (unsaid_settings.h).
+// Surfaces that another renderer may have where its channels say nothing of them: one change of Settings of a
+// row at most is believed.
+using SurfaceChange = void (*)(Settings&);
+template <SpecularKernel kernel>
+void widenRoughness(Settings& s) {
+    if (!s.spec_aa) s.spec_aa_kernel = kernel;
+    s.spec_aa = true;
+}
+void turnNormalsOtherwise(Settings& s) {
+    s.skin_normals = s.skin_normals == SkinNormals::joints ? SkinNormals::blended : SkinNormals::joints;
+}
+const std::vector<std::vector<SurfaceChange>> otherSurfaces{
+    {turnNormalsOtherwise},
+    {widenRoughness<SpecularKernel::variance>, widenRoughness<SpecularKernel::slope>}};
+
+// The view of `plain` with such surfaces, where each brings lit nearer to the other renderer's by at least
+// half of what it changes: as much as anything has to that it is believed of (unsaid_settings.h).
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
-    if (plain.settings.spec_aa) return {};
     const auto lit = [](const Frame& frame) -> const Image& {
         return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
     };
     const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
-    // Under the conventions that it shows: what these do would hide what roughness does.
+    // Under the conventions that it shows: what these do would hide what surfaces do.
     RenderOptions light = options;
     light.channels = {static_cast<int>(gpu::DEBUG_lit)};
     const ConventionTrial trial{[&](const Settings& settings) { return lit(renderer.draw(settings, light)); },
                                 [&](const Image& ours) { return meanOf(errorsOf(ours, lit(external))); }};
-    const Settings shown = withConventions(plain.settings, nearestConventions(plain.settings, trial));
-    const Frame conventional = renderer.draw(shown, light);
-    std::optional<Frame> nearest;
-    for (const SpecularKernel kernel : {SpecularKernel::variance, SpecularKernel::slope}) {
-        Settings settings = shown;
-        settings.spec_aa = true;
-        settings.spec_aa_kernel = kernel;
-        if (settings.problem()) continue;
-        Frame widened = renderer.draw(settings, light);
-        if (distance(widened, external) < distance(nearest ? *nearest : conventional, external))
-            nearest = std::move(widened);
+    Frame shown =
+        renderer.draw(withConventions(plain.settings, nearestConventions(plain.settings, trial)), light);
+    Settings surfaces = plain.settings;
+    for (const std::vector<SurfaceChange>& changes : otherSurfaces) {
+        std::optional<Frame> nearest;
+        SurfaceChange believed = nullptr;
+        for (const SurfaceChange change : changes) {
+            Settings settings = shown.settings;
+            change(settings);
+            if (settings == shown.settings || settings.problem()) continue;
+            Frame tried = renderer.draw(settings, light);
+            if (!(distance(tried, external) < distance(nearest ? *nearest : shown, external))) continue;
+            nearest = std::move(tried);
+            believed = change;
+        }
+        if (!nearest) continue;
+        const double nearer = distance(shown, external) - distance(*nearest, external);
+        if (!(nearer > 0.5 * distance(*nearest, shown))) continue;
+        believed(surfaces);
+        shown = std::move(*nearest);
     }
-    if (!nearest) return {};
-    const double nearer = distance(conventional, external) - distance(*nearest, external);
-    if (!(nearer > 0.5 * distance(*nearest, conventional))) return {};
+    if (surfaces == plain.settings) return {};
     // Its channels: those of surfaces are the same under any convention.
-    Settings settings = plain.settings;
-    settings.spec_aa = true;
-    settings.spec_aa_kernel = nearest->settings.spec_aa_kernel;
-    return renderer.draw(settings, options);
+    return renderer.draw(surfaces, options);
 }
 
 Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,
@@ -159,8 +177,8 @@ void addExplanations(const Options& options, Device& device, Report& report, con
 
 Frame lentChannels(const Frame& external, const Frame& plain, Renderer& renderer,
                    const RenderOptions& options) {
-    const std::optional<Frame> widened = drawnNearer(external, plain, renderer, options);
-    const Frame& ours = widened ? *widened : plain;
+    const std::optional<Frame> nearer = drawnNearer(external, plain, renderer, options);
+    const Frame& ours = nearer ? *nearer : plain;
     Frame frame = external;
     frame.settings = ours.settings;
     frame.requested.clear();

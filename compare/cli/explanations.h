@@ -27,7 +27,8 @@ std::vector<std::string> explainWords(const std::string& scene, const Settings& 
 
 // Another renderer's picture of the view of `ours`, as explain() takes it: with the Settings and the channels
 // of `ours` where it says nothing of them, so that what its lit differs by is sought in the lighting. Where
-// ours comes nearer to it with roughness that is widened by normals (--spec-aa), those are the channels.
+// ours comes nearer to it with normals of skins turned otherwise (--skin-normals) or roughness that is
+// widened by normals (--spec-aa), those are the channels.
 Frame lentChannels(const Frame& external, const Frame& ours, Renderer& renderer,
                    const RenderOptions& options);
 

@@ -60,12 +60,15 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
                         causes_.size(), mostCauses));
 }
 
-// Roughness that one side widens by its normals is told as that.
+// Roughness that one side widens by its normals is told as that, and so are normals that it turns otherwise.
 std::string Swaps::shownBy(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
     if (widened && mode.name == "roughness")
         return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
                            nameOf(sides_.settings(1).spec_aa_kernel));
+    const SkinNormals normals = sides_.settings(1).skin_normals;
+    if (normals != sides_.settings(0).skin_normals && mode.name == "normals")
+        return fmt::format("{}, of skins turned as by --skin-normals {}", mode.shows, nameOf(normals));
     return std::string(mode.shows);
 }
 

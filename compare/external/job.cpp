@@ -174,7 +174,7 @@ private:
                   {"file", copied ? (folder_ / "scene.glb").string() : fs::absolute(scene_.name).string()},
                   {"copy", copied},
                   {"animation", settings_.animation}};
-        if (copied) put("scene.glb", sceneGltf(scene_, told), "scene.glb", notes);
+        if (copied) put("scene.glb", sceneGltf(scene_, told, settings_.skin_normals), "scene.glb", notes);
         return json;
     }
 

@@ -97,12 +97,12 @@ public:
         addNode({{"camera", 0}, {"matrix", listOf(world)}});
     }
 
-    void addScene(const Scene& scene, const Pose& pose) {
+    void addScene(const Scene& scene, const Pose& pose, SkinNormals normals) {
         const std::vector<Material>& materials = materialsOf(scene, pose);
         for (const Material& material : materials) addMaterial(scene, material);
         if (!materials.empty())
             for (const std::string& extension : gltfMaterialExtensions()) extensions_.insert(extension);
-        for (const Instance& instance : pose.instances) addInstance(scene, pose, instance);
+        for (const Instance& instance : pose.instances) addInstance(scene, pose, instance, normals);
     }
 
     WrittenScene finish() {
@@ -121,19 +121,21 @@ public:
 private:
     void addNode(Json node) { file_.json["nodes"].push_back(std::move(node)); }
 
-    void addInstance(const Scene& scene, const Pose& pose, const Instance& instance) {
+    void addInstance(const Scene& scene, const Pose& pose, const Instance& instance, SkinNormals normals) {
         const Primitive& primitive = primitiveOf(scene, instance);
         if (primitive.indices.empty() || primitive.positions.empty()) return;
-        if (instance.deformed()) return addNode({{"mesh", addMesh(posedPrimitive(scene, pose, instance))}});
+        if (instance.deformed())
+            return addNode({{"mesh", addMesh(posedPrimitive(scene, pose, instance, normals))}});
         const auto [found, added] = meshes_.try_emplace({instance.mesh, instance.primitive}, 0);
         if (added) found->second = addMesh(primitive);
         addNode({{"mesh", found->second}, {"matrix", listOf(instance.world_from_object)}});
     }
 
     // In world space.
-    static Primitive posedPrimitive(const Scene& scene, const Pose& pose, const Instance& instance) {
+    static Primitive posedPrimitive(const Scene& scene, const Pose& pose, const Instance& instance,
+                                    SkinNormals normals) {
         Primitive posed = primitiveOf(scene, instance);
-        const PosedVertices vertices = posedVertices(scene, pose, instance);
+        const PosedVertices vertices = posedVertices(scene, pose, instance, normals == SkinNormals::blended);
         posed.positions = inFloat(vertices.positions);
         posed.normals = inFloat(vertices.normals);
         // The handedness of the instance's transform is in its winding and its bitangents.
@@ -259,10 +261,10 @@ private:
 
 }  // namespace
 
-WrittenScene sceneGltf(const Scene& scene, const SceneView& view) {
+WrittenScene sceneGltf(const Scene& scene, const SceneView& view, SkinNormals normals) {
     SceneWriter writer;
     writer.addCamera(view.view);
-    writer.addScene(scene, view.pose);
+    writer.addScene(scene, view.pose, normals);
     writer.addLights(view.lights);
     return writer.finish();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/external/renderer_file.h"
+#include "shared/frame/setting_values.h"
 #include "shared/scene/scene_view.h"
 
 #include <string>
@@ -17,7 +18,7 @@ struct WrittenScene {
 
 // Everything that the view shows, where it is at its time: geometry with every vertex posed, materials,
 // textures as PNG, its lights of KHR_lights_punctual and its camera, which is camera 0.
-WrittenScene sceneGltf(const Scene& scene, const SceneView& view);
+WrittenScene sceneGltf(const Scene& scene, const SceneView& view, SkinNormals normals);
 
 // The lights and the camera alone. Each light shines along -Z of its own node, as glTF has it. Lights that
 // KHR_lights_punctual does not know are left out, and `notes` says how many of which kind.

@@ -194,6 +194,21 @@ bool isBlack(const PictureRows& picture, const Coverage& coverage) {
     return true;
 }
 
+double litShare(const PictureRows& picture, const Coverage& coverage) {
+    std::vector<float> buffer;
+    std::size_t all = 0, lit = 0;
+    for (int y = 0; y < picture.height; ++y) {
+        const float* p = picture.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
+        for (int x = 0; x < picture.width; ++x, p += picture.components) {
+            if (!covered[x]) continue;
+            ++all;
+            lit += std::any_of(p, p + picture.components, [](float v) { return v != 0; });
+        }
+    }
+    return all == 0 ? 0 : static_cast<double>(lit) / static_cast<double>(all);
+}
+
 Coverage everyPixel(std::size_t pixels) {
     return {std::vector<std::uint8_t>(pixels, 1), pixels, false};
 }

@@ -26,6 +26,8 @@ Coverage everyPixel(std::size_t pixels);
 
 // Whether every component of every covered pixel is 0.
 bool isBlack(const PictureRows& picture, const Coverage& coverage);
+// The share of the covered pixels that have a component other than 0; 0 where none is covered.
+double litShare(const PictureRows& picture, const Coverage& coverage);
 
 // Over the covered pixels, in the channel's own unit (angular: degrees); all 0 where nothing is covered.
 // Every figure may be infinite: a NaN or infinity against anything else is an infinite difference, which no

@@ -76,7 +76,7 @@ RTCRay single(const Ray& ray) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
+Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool blended_normals)
     : scene_(scene),
       pose_(pose),
       eye_(eye),
@@ -91,7 +91,8 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
         const TriangleId first{static_cast<std::uint32_t>(i), 0};
         const Primitive& p = primitive(first);
         if (p.indices.empty()) return;
-        if (pose.instances[i].deformed()) posed_[i] = posedVertices(scene, pose, pose.instances[i]);
+        if (pose.instances[i].deformed())
+            posed_[i] = posedVertices(scene, pose, pose.instances[i], blended_normals);
         const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), p.positions.size()));

@@ -41,8 +41,9 @@ struct Ray {
 
 class Geometry {
 public:
-    // `eye` becomes the origin of positions. The pose and the scene must outlive this.
-    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye);
+    // `eye` becomes the origin of positions; `blended_normals`: see posedVertices(). The pose and the scene
+    // must outlive this.
+    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool blended_normals = false);
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;

@@ -85,7 +85,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 13;
+    constexpr int version = 14;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -111,6 +111,7 @@ std::uint64_t keyOf(const Request& request) {
     key.add(request.ambient);
     key.add(request.multiscatter);
     key.add(request.base_layer);
+    key.add(request.skin_normals);
     key.add(request.falloff.window);
     key.add(request.falloff.cone);
     key.add(request.air.has_value());

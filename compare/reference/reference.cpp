@@ -177,7 +177,7 @@ public:
         : request_(request),
           eye_(request.view.eye()),
           rays_(request.view),
-          geometry_(request.scene, request.pose, eye_),
+          geometry_(request.scene, request.pose, eye_, request.skin_normals == SkinNormals::blended),
           materials_(request.scene, request.pose, geometry_),
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,

@@ -36,6 +36,7 @@ struct Request {
     glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
     BaseLayer base_layer = BaseLayer::max;
+    SkinNormals skin_normals = SkinNormals::joints;
     Falloff falloff = {};
     std::optional<Air> air = {};
     bool blended = true;                    // whether surfaces of alphaMode BLEND are there at all

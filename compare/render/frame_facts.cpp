@@ -45,6 +45,11 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     if (!view.default_view.empty())
         frame.notes.push_back(
             fmt::format("the scene has no camera: seen {}; --camera chooses another", view.default_view));
+    if (view.view.wider_frame > 0)
+        frame.notes.push_back(fmt::format(
+            "the camera frames {:.3g}:1, and the picture is {:.3g}:1: more is seen above and below, so that "
+            "nothing is cropped",
+            view.view.wider_frame, static_cast<double>(view.view.width) / view.view.height));
     if (view.sun && settings.ibl_intensity > 0)
         frame.notes.push_back("environment: " +
                               (view.sun->found

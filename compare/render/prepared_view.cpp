@@ -124,7 +124,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency)),
       culling(device, shared.pipelines, shared.layouts, shared.geometry, scene.pose, scene.view,
               settings.msaa, settings.cull, draws),
-      posing(shared.posings.at(scene.pose, settings.skinning, shared.pipelines)),
+      posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings),

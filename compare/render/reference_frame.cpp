@@ -113,6 +113,7 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
             .ambient = doubles(settings.ambient),
             .multiscatter = settings.multiscatter,
             .base_layer = settings.base_layer,
+            .skin_normals = settings.skin_normals,
             .falloff = {settings.range_window, settings.spot_cone},
             .air = airOf(view.lights, settings),
             .blended = settings.transparency != Transparency::off,

@@ -139,17 +139,20 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
 // Why two pictures that agree say little: nothing is in view, hardly anything, or no light. Empty otherwise.
 // `shown`: the share of the pixels that show a surface, before any were left out by the command line.
 std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
-    // Less, and the background decides every picture and hardly a pixel the verdict.
-    constexpr double least = 0.01;
+    // Less, and the background decides every picture and hardly a pixel the verdict; or what is black does.
+    constexpr double least = 0.01, least_lit = 0.05;
     if (coverage.known && shown == 0) return "both pictures are empty: no surface is in view";
     if (coverage.known && shown < least)
         return fmt::format("only {} of the picture shows the scene", percentText(shown));
-    const auto black = [&](const Frame& frame) {
+    const auto litOf = [&](const Frame& frame) {
         const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
-        return lit != frame.channels.end() && frame.isRequested(lit->first) && isBlack(lit->second, coverage);
+        const bool asked = lit != frame.channels.end() && frame.isRequested(lit->first);
+        return asked ? litShare(lit->second, coverage) : 1.0;
     };
-    return black(left) && black(right) ? "both pictures are black: no light reaches what is in view"
-                                       : std::string();
+    const double lit = std::max(litOf(left), litOf(right));
+    if (lit == 0) return "both pictures are black: no light reaches what is in view";
+    return lit < least_lit ? fmt::format("only {} of what is in view is lit", percentText(lit))
+                           : std::string();
 }
 
 // In mode scene: how many pixels of which channel are judged in which way; empty elsewhere.

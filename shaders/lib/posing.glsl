@@ -109,18 +109,57 @@ mat4x3 matrixAt(PosedInstance i, uint at) {
     return MatrixArray(i.matrices).at[at];
 }
 
-// The weighted mean of the joints' matrices: from the object, about the pivot, to world axes.
-mat4x3 posingMatrix(PosedInstance i, uint vertex) {
-    if (i.joint_sets == 0) return matrixAt(i, 0);
-    mat4x3 sum = mat4x3(0.0);
+float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// A matrix's axes over its largest component, since products of what is very long or short leave float32, and
+// one over that component; 0 where all are.
+struct Axes {
+    vec3 x, y, z;
+    float scale;
+};
+Axes axesOf(mat4x3 matrix) {
+    float largest = max(largestOf(matrix[0]), max(largestOf(matrix[1]), largestOf(matrix[2])));
+    float scale = largest > 0.0 ? 1.0 / largest : 0.0;
+    return Axes(matrix[0] * scale, matrix[1] * scale, matrix[2] * scale, scale);
+}
+
+// Of any length. Cofactors are the inverse transpose times the determinant, and exist where a matrix flattens.
+vec3 byCofactors(Axes a, vec3 normal) {
+    return crossProduct(a.y, a.z) * normal.x + crossProduct(a.z, a.x) * normal.y +
+           crossProduct(a.x, a.y) * normal.z;
+}
+
+// What joints make of a vertex.
+struct Joined {
+    mat4x3 matrix;  // their weighted mean: from the object, about the pivot, to world axes
+    vec3 normal;    // the mean of their inverse transposes times the normal, times a number above 0
+    float unit;     // one over that number, which is the first joint's that counts; 0: none does yet
+};
+
+// The determinant counts without its sign, which PosedInstance::handedness has. As a ratio to the first joint's it is 1
+// at a vertex of one joint, whose normal then has the bits of that joint's cofactors.
+void addJoint(inout Joined sum, mat4x3 matrix, float weight, bool of_joints, vec3 normal) {
+    sum.matrix += weight * matrix;
+    if (!of_joints) return;
+    Axes a = axesOf(matrix);
+    float determinant = abs(dot(a.x, crossProduct(a.y, a.z)));
+    float inverse = min(a.scale / max(determinant, LEAST_DETERMINANT), MOST_INVERSE);
+    if (sum.unit == 0.0 && weight > 0.0) sum.unit = inverse;
+    float share = sum.unit > 0.0 ? weight * (inverse / sum.unit) : 0.0;
+    sum.normal += share * byCofactors(a, normal);
+}
+
+Joined joined(PosedInstance i, uint vertex, bool of_joints, vec3 normal) {
+    Joined sum = Joined(mat4x3(0.0), vec3(0.0), 0.0);
+    if (i.joint_sets == 0) sum.matrix = matrixAt(i, 0);
     for (uint set = 0; set < i.joint_sets; ++set) {
         uint at = set * i.vertices + vertex;
         uvec2 packed = jointsAt(i, at);
         vec4 weights = jointWeightsAt(i, at);
-        sum += weights.x * matrixAt(i, packed.x & 0xffffu);
-        sum += weights.y * matrixAt(i, packed.x >> 16);
-        sum += weights.z * matrixAt(i, packed.y & 0xffffu);
-        sum += weights.w * matrixAt(i, packed.y >> 16);
+        addJoint(sum, matrixAt(i, packed.x & 0xffffu), weights.x, of_joints, normal);
+        addJoint(sum, matrixAt(i, packed.x >> 16), weights.y, of_joints, normal);
+        addJoint(sum, matrixAt(i, packed.y & 0xffffu), weights.z, of_joints, normal);
+        addJoint(sum, matrixAt(i, packed.y >> 16), weights.w, of_joints, normal);
     }
     return sum;
 }
@@ -132,20 +171,7 @@ vec3 placedBy(mat4x3 matrix, vec3 position) {
     return within ? placed : vec3(uintBitsToFloat(0x7fc00000u));
 }
 vec3 posedPosition(PosedInstance i, uint vertex) {
-    return placedBy(posingMatrix(i, vertex), morphedPosition(i, vertex));
-}
-
-float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
-
-// Unit, on the side from which the front is seen; 0: has no direction. By the cofactors of the matrix, its
-// inverse transpose times its determinant, which exist where it flattens too.
-vec3 posedNormal(PosedInstance i, mat4x3 matrix, vec3 normal) {
-    // Products of what is very long or short leave float32.
-    float largest = max(largestOf(matrix[0]), max(largestOf(matrix[1]), largestOf(matrix[2])));
-    float scale = largest > 0.0 ? 1.0 / largest : 0.0;
-    vec3 x = matrix[0] * scale, y = matrix[1] * scale, z = matrix[2] * scale;
-    vec3 sum = crossProduct(y, z) * normal.x + crossProduct(z, x) * normal.y + crossProduct(x, y) * normal.z;
-    return i.handedness * unitVector(sum);
+    return placedBy(joined(i, vertex, false, vec3(0.0)).matrix, morphedPosition(i, vertex));
 }
 
 // Of a vertex whose triangle has a normal of its own: from the posed corners.
@@ -192,13 +218,16 @@ struct PosedVertex {
     vec3 tangent;   // likewise
 };
 
-PosedVertex posedVertex(PosedInstance i, uint vertex) {
-    mat4x3 matrix = posingMatrix(i, vertex);
+// `of_joints`: the normal goes by each joint's inverse transpose, else by the cofactors of the vertex's matrix.
+PosedVertex posedVertex(PosedInstance i, uint vertex, bool of_joints) {
+    vec3 normal = morphedNormal(i, vertex);
+    Joined by = joined(i, vertex, of_joints, normal);
     PosedVertex posed;
-    posed.position = placedBy(matrix, morphedPosition(i, vertex));
-    posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex)
-                                       : posedNormal(i, matrix, morphedNormal(i, vertex));
-    posed.tangent = unitVector(mat3(matrix) * morphedTangent(i, vertex));
+    posed.position = placedBy(by.matrix, morphedPosition(i, vertex));
+    vec3 turned = of_joints ? by.normal : byCofactors(axesOf(by.matrix), normal);
+    // On the side from which the front is seen.
+    posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex) : i.handedness * unitVector(turned);
+    posed.tangent = unitVector(mat3(by.matrix) * morphedTangent(i, vertex));
     return posed;
 }
 

@@ -9,7 +9,7 @@ void main() {
     PosedInstance i = instanceOfDispatch();
     uint vertex = posingThread();
     if (vertex >= i.vertices) return;
-    PosedVertex posed = posedVertex(i, vertex);
+    PosedVertex posed = posedVertex(i, vertex, has(POSED_JOINTS));
     AttributesArray attributes = AttributesArray(i.posed_attributes);
     Vec3Array(i.posed_positions).at[vertex] = posed.position;
     attributes.at[vertex].normal = posed.normal;

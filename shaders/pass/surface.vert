@@ -28,7 +28,7 @@ Vertex vertexAt() {
     if (on(feature_vertex_posing)) {
         PosedInstance i = instanceOfDraw();
         uint number = numberIn(i);
-        PosedVertex posed = posedVertex(i, number);
+        PosedVertex posed = posedVertex(i, number, feature_vertex_posing == VERTEX_POSING_JOINTS);
         v.position = posed.position;
         v.normal = posed.normal;
         v.tangent = vec4(posed.tangent, v.tangent.w * i.bitangents);

@@ -88,7 +88,7 @@
     X(45, lights_in_front,            frame,   PASS_LISTS)                                                  \
     /* TRANSMISSION_* of material.h */                                                                      \
     X(46, transmission,               item,    PASSES_SHADE)                                                \
-    /* the vertex shader poses: posing.h */                                                                 \
+    /* VERTEX_POSING_* of posing.h: the vertex shader poses */                                              \
     X(47, vertex_posing,              item,    PASSES_DRAW)                                                 \
     /* of the instance that a kernel poses: how many sets of joints it has, a sum of POSED_* of posing.h */ \
     X(48, posed_joint_sets,           pass,    PASS_POSING)                                                 \

@@ -92,6 +92,16 @@ CONTRACT_CONST(uint, POSED_COLORS, 32);
 CONTRACT_CONST(uint, POSED_FLAT, 64);     // flat_normals
 CONTRACT_CONST(uint, POSED_GROUPS, 128);  // tangents that are made of the morphed vertices
 CONTRACT_CONST(uint, POSED_PAIRS, 256);   // numbers of 32 bits are loaded in pairs
+CONTRACT_CONST(uint, POSED_JOINTS, 512);  // normals by each joint's inverse transpose
+
+// feature_vertex_posing: the normal of a vertex goes by its matrix, or by each joint's inverse transpose.
+CONTRACT_CONST(uint, VERTEX_POSING_BLENDED, 1);
+CONTRACT_CONST(uint, VERTEX_POSING_JOINTS, 2);
+
+// An inverse transpose is the cofactors over the determinant, of a matrix whose largest component is 1; a
+// joint that flattens has neither. Beside others it counts for so much.
+CONTRACT_CONST(float, LEAST_DETERMINANT, 1e-30f);
+CONTRACT_CONST(float, MOST_INVERSE, 1e18f);
 
 // Positions beyond it are NaN, and their triangles are not drawn; m. maxCoordinate of scene.h.
 CONTRACT_CONST(float, MAX_POSED_COORDINATE, 1e18f);

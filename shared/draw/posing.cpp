@@ -70,9 +70,12 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
 }
 
 // By what the primitive has, whatever has a weight now: no other time needs another kernel.
-Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i, bool pairs) {
+Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i, bool pairs,
+                  SkinNormals normals) {
+    const bool of_joints = normals == SkinNormals::joints && i.joint_sets > 0 && i.flat_normals == 0;
     gpu::uint parts = (i.flat_normals != 0 ? gpu::POSED_FLAT : 0) |
-                      (rest.instance.groups > 0 ? gpu::POSED_GROUPS : 0) | (pairs ? gpu::POSED_PAIRS : 0);
+                      (rest.instance.groups > 0 ? gpu::POSED_GROUPS : 0) | (pairs ? gpu::POSED_PAIRS : 0) |
+                      (of_joints ? gpu::POSED_JOINTS : 0);
     for (const Deformations::Target& t : rest.targets)
         for (const auto& [part, deltas] : {std::pair{gpu::POSED_POSITIONS, t.positions},
                                            {gpu::POSED_NORMALS, t.normals},
@@ -110,7 +113,8 @@ OwnedPipelineLayout makePosingLayout(Device& device) {
 }
 
 Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
-               const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning)
+               const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
+               SkinNormals normals)
     : layout_(layout), skinning_(skinning) {
     // Arrays first with their offsets in place of addresses.
     struct Arrays {
@@ -155,7 +159,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
                           morphed});
         instances_.push_back(
-            {arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs)});
+            {arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs, normals)});
         vertices_ += i.vertices;
         groups += i.groups;
         if (i.groups > 0) morphed += i.vertices;
@@ -290,6 +294,13 @@ gpu::uvec2 Posing::address(const DrawItem& item) const {
                                  : gpu::uvec2(0);
 }
 
+gpu::uint Posing::vertexPosing(const DrawItem& item) const {
+    if (!isPosedInShader(item)) return 0;
+    const Variant& variant = instances_[static_cast<std::size_t>(item.box)].variant;
+    return (variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_JOINTS) != 0 ? gpu::VERTEX_POSING_JOINTS
+                                                                            : gpu::VERTEX_POSING_BLENDED;
+}
+
 std::int32_t Posing::vertexOffset(const DrawItem& item) const {
     return isPosed(item)
                ? static_cast<std::int32_t>(instances_[static_cast<std::size_t>(item.box)].first_vertex)
@@ -313,9 +324,10 @@ Posings::Posings(Device& device, Uploader& uploader, const Scene& scene, const G
       rest_(device, uploader, scene, geometry),
       layout_(makePosingLayout(device)) {}
 
-std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, Pipelines& pipelines) {
+std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, SkinNormals normals,
+                                          Pipelines& pipelines) {
     if (pose.boxes.empty()) return std::make_shared<const Posing>();
-    Key key{skinning, {}, pose.boxes, pose.skins, pose.weights, {}};
+    Key key{skinning, normals, {}, pose.boxes, pose.skins, pose.weights, {}};
     for (const Instance& instance : pose.instances)
         if (instance.box >= 0) {
             key.instances.push_back(instance);
@@ -325,7 +337,7 @@ std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, P
     for (const Kept& kept : kept_)
         if (kept.key == key) return kept.posing.lock();
     auto posing = std::make_shared<const Posing>(device_, uploader_, pipelines, layout_, rest_, geometry_,
-                                                 pose, skinning);
+                                                 pose, skinning, normals);
     ++made_;
     kept_.push_back({std::move(key), posing});
     return posing;

@@ -26,7 +26,8 @@ public:
     // std::runtime_error where memory ends or more morph targets have a weight than a shader can add up. The
     // geometry and the layout must outlive it.
     Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
-           const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning);
+           const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
+           SkinNormals normals);
 
     bool any() const { return !instances_.empty(); }
     // Passes named "pose", before the first that draws.
@@ -36,10 +37,11 @@ public:
 
     // Whether an item's vertices are in the buffers of bind(), at vertexOffset().
     bool isPosed(const DrawItem& item) const { return item.box >= 0 && skinning_ == Skinning::compute; }
-    // Whether the vertex shader poses it, of the instance at the address.
+    // Whether the vertex shader poses it, of the instance at the address; and how, VERTEX_POSING_* or 0.
     bool isPosedInShader(const DrawItem& item) const {
         return item.box >= 0 && skinning_ == Skinning::vertex;
     }
+    gpu::uint vertexPosing(const DrawItem& item) const;
     gpu::uvec2 address(const DrawItem& item) const;
     std::int32_t vertexOffset(const DrawItem& item) const;
     void bind(VkCommandBuffer commands) const;
@@ -69,7 +71,8 @@ private:
 class Posings {
 public:
     Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
-    std::shared_ptr<const Posing> at(const Pose& pose, Skinning skinning, Pipelines& pipelines);
+    std::shared_ptr<const Posing> at(const Pose& pose, Skinning skinning, SkinNormals normals,
+                                     Pipelines& pipelines);
     std::uint64_t bytes() const { return rest_.bytes(); }  // of what all poses share
     std::size_t made() const { return made_; }             // poses so far
 
@@ -77,6 +80,7 @@ private:
     // What a pose's vertices follow from.
     struct Key {
         Skinning skinning = Skinning::compute;
+        SkinNormals normals = SkinNormals::joints;
         std::vector<Instance> instances;  // deformed ones
         std::vector<PosedBox> boxes;
         std::vector<std::vector<glm::dmat4>> skins;

@@ -60,7 +60,7 @@ std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const D
     for (const DrawItem& item : items) {
         keys.push_back(keyOf(item));
         PipelineKey& key = keys.back();
-        key.variant.set(gpu::FEATURE_vertex_posing, inputs.posing.isPosedInShader(item));
+        key.variant.set(gpu::FEATURE_vertex_posing, inputs.posing.vertexPosing(item));
         if (sampled) {
             key = inputs.depth.stored(std::move(key));
             key.samples = inputs.samples;

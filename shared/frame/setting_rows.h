@@ -202,6 +202,12 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::skinning);
     visit(
+        Field{.option = "skin-normals",
+              .help =
+                  "what turns a skinned vertex's normal: the mean of its joints' inverse transposes, or the "
+                  "cofactors of the mean of their matrices"},
+        &Settings::skin_normals);
+    visit(
         Field{
             .option = "env",
             .help =

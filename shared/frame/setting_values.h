@@ -100,6 +100,13 @@ template <>
 inline constexpr auto enum_names<Skinning> =
     std::to_array<EnumName<Skinning>>({{Skinning::compute, "compute"}, {Skinning::vertex, "vertex"}});
 
+// What turns the normal of a skinned vertex: the mean of its joints' inverse transposes, or the inverse
+// transpose of the mean of their matrices. glTF leaves it open; both agree where a vertex follows one joint.
+enum class SkinNormals { joints, blended };
+template <>
+inline constexpr auto enum_names<SkinNormals> = std::to_array<EnumName<SkinNormals>>(
+    {{SkinNormals::joints, "joints"}, {SkinNormals::blended, "blended"}});
+
 enum class SpecularAlbedo { table, fit };
 template <>
 inline constexpr auto enum_names<SpecularAlbedo> =

@@ -31,6 +31,7 @@ struct Settings {
     double time = 0.0;   // s
     std::string animation;  // "" all of them; an index or a name
     Skinning skinning = Skinning::compute;
+    SkinNormals skin_normals = SkinNormals::joints;
     std::string env = "none";   // file of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y
     bool env_sun = false;

@@ -4,6 +4,7 @@
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/motion/bounds.h"
 
+#include <optional>
 #include <utility>
 
 namespace diptych {
@@ -19,6 +20,18 @@ void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<con
     if (request.environment_factor > 0)
         result.lights.push_back(
             turnedSun(kept->light, request.environment_turned, request.environment_factor));
+}
+
+// The side from which the default sun shines, whichever camera is chosen: from what the scene's first camera
+// looks at to its eye, at 0 s, so that the sun does not move with it. Nothing where the scene has none.
+std::optional<glm::dvec3> firstBackward(const Scene& scene, const ViewRequest& request, const Pose& pose) {
+    if (scene.cameras.empty()) return std::nullopt;
+    const std::vector<Camera> cameras =
+        request.time == 0 ? pose.cameras : poseAt(scene, 0, request.animation).cameras;
+    if (cameras.empty()) return std::nullopt;
+    View view;
+    view.camera = cameras.front();
+    return view.backward();
 }
 
 SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
@@ -41,9 +54,10 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
         if (request.environment_sun) takeSun(scene, request, sun, result);
     }
     result.default_sun = request.scene_lights && result.lights.empty() && !scene.environment;
-    // The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
-    // lights the sides which face that viewer.
-    if (result.default_sun) result.lights.push_back(defaultSun(defaultView().backward));
+    if (result.default_sun) {
+        const std::optional<glm::dvec3> own = firstBackward(scene, request, result.pose);
+        result.lights.push_back(defaultSun(own ? *own : defaultView().backward));
+    }
     result.needs = requirements(scene, result.pose, result.lights);
     return result;
 }

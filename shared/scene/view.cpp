@@ -204,6 +204,22 @@ const Camera* sceneCamera(const Pose& pose, const std::string& choice) {
     return &pose.cameras[index];
 }
 
+// A camera whose frame is wider than the picture becomes one that sees as wide, and more above and below.
+void fitFrame(View& view) {
+    constexpr double same = 1 + 1e-6;  // files hold the ratio in float32
+    Camera& camera = view.camera;
+    const double aspect = static_cast<double>(view.width) / view.height;
+    const double framed = camera.orthographic ? camera.xmag / camera.ymag : camera.aspect;
+    if (framed > aspect * same) {
+        if (camera.orthographic)
+            camera.ymag *= framed / aspect;
+        else
+            camera.yfov = 2 * std::atan(tanHalfFov(camera) * framed / aspect);
+        view.wider_frame = framed;
+    }
+    camera.aspect = camera.xmag = 0;
+}
+
 std::string listOf(const std::vector<Camera>& cameras) {
     if (cameras.empty()) return "the scene has no camera";
     std::string list;
@@ -251,6 +267,7 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     }
     view.width = width;
     view.height = height;
+    fitFrame(view);
     return view;
 }
 

@@ -16,6 +16,7 @@ struct View {
     Camera camera;  // in world space
     int width = 0, height = 0;
     double target_distance = 1;  // m, from the eye to the point that it looks at
+    double wider_frame = 0;      // width over height of the camera's frame where the picture is narrower; 0
 
     glm::dvec3 eye() const;
     glm::dvec3 target() const;
@@ -30,6 +31,9 @@ struct View {
     gpu::View gpuView() const;  // the light counts in it are left 0
 };
 
+// All of the camera's frame is in the picture (glTF 2.0, 3.10.3): a picture that is narrower than the frame
+// shows more above and below it, and a wider one more at its sides.
+//
 // `choice` is Settings::camera: one of the scene's own cameras, a free camera, or empty for the first of its
 // cameras or, where it has none, the default view. Throws std::runtime_error naming --camera and what is
 // accepted.

@@ -33,6 +33,7 @@ struct Case {
     std::string name;
     int joint_sets, targets;
     bool flat = false;
+    SkinNormals normals = SkinNormals::joints;
 };
 
 // A grid with 64 joints in a row; a vertex follows those that are near it, of any set. Targets move positions
@@ -117,7 +118,7 @@ struct Posed {
           uploader(device),
           geometry(device, uploader, scene),
           posings(device, uploader, scene, geometry),
-          posing(posings.at(poseAt(scene, 0), Skinning::compute, pipelines)),
+          posing(posings.at(poseAt(scene, 0), Skinning::compute, c.normals, pipelines)),
           passes(device, 1, 1) {
         posing->addPasses(passes, pipelines);
     }
@@ -156,6 +157,7 @@ int main(int count, char** arguments) try {
     fmt::print("{}, {} vertices, {} runs, ms: median (smallest to largest)\n", device.info().name, vertices,
                runs);
     for (const Case& c : {Case{"one joint set", 1, 0},
+                          {"one joint set, --skin-normals blended", 1, 0, false, SkinNormals::blended},
                           {"two joint sets", 2, 0},
                           {"2 morph targets", 0, 2},
                           {"8 morph targets", 0, 8},

@@ -203,7 +203,7 @@ void requireSound(const Scene& scene) {
     for (const Camera& camera : scene.cameras) {
         require(withinOrNone(camera.node, scene.nodes), "a camera's node is there");
         require(std::isfinite(camera.yfov) && std::isfinite(camera.ymag) && std::isfinite(camera.near) &&
-                    camera.far > camera.near,
+                    camera.aspect >= 0 && camera.xmag >= 0 && camera.far > camera.near,
                 "a camera sees something");
     }
     // At the start, between keys and after the last, whatever they are.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Conventions in which renderers differ, in both paths and the reference: what a coloured layer leaves to the
 // base, how a spot fades, how a light ends at its range.
+#include "compare/cli/explanations.h"
 #include "compare/explain/explain.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -149,6 +150,42 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
             EXPECT_NE(cause.name, "--spot-cone");
             EXPECT_NE(cause.name, "--base-layer");
         }
+    }
+}
+
+// Normals are surfaces': another program's picture alone says how it turns those of skins.
+TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
+    const Scene scene = loadScene("builtin:motion");
+    SceneViews views(scene);
+    Renderer renderer(device(), views, pipelines());
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::forward_plus;
+    settings.size = {96, 54};
+    settings.time = 0.7;
+    RenderOptions options;
+    options.channels = explainedChannels();
+    options.runs = 0;
+    const Frame ours = renderer.draw(settings, options);
+    for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended}) {
+        Settings theirs = settings;
+        theirs.skin_normals = normals;
+        RenderOptions light = options;
+        light.channels = {lit};
+        Frame other = renderer.draw(theirs, light);
+        other.origin.external = true;
+        other.settings = settings;
+        const Frame lent = cli::lentChannels(other, ours, renderer, options);
+        EXPECT_EQ(lent.settings.skin_normals, normals);
+        const Explanation found = explain(device(), renderer, scene, ours, lent);
+        if (normals == SkinNormals::joints) {
+            EXPECT_EQ(found.distance, 0);
+            continue;
+        }
+        ASSERT_FALSE(found.causes.empty());
+        EXPECT_EQ(found.causes[0].name, "normals");
+        EXPECT_NE(found.causes[0].shows.find("--skin-normals blended"), std::string::npos)
+            << found.causes[0].shows;
+        EXPECT_LE(found.unexplained, 0.01 * found.distance);
     }
 }
 

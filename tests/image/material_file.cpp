@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::tests {
@@ -159,14 +160,15 @@ int addNode(GltfFile& file, Json node) {
     return static_cast<int>(file.json["nodes"].size()) - 1;
 }
 
-// A glTF camera's aspect ratio and magnification in x are hints: a picture's size decides.
+// Every camera frames a square, which fills the shorter side of its picture.
 void writeCamera(GltfFile& file, const CellCamera& camera) {
-    const double half = camera.half, far = 1000;
+    const double half = camera.half * std::min(1.0, static_cast<double>(camera.size.x) / camera.size.y),
+                 far = 1000;
     if (camera.orthographic)
         file.json["cameras"].push_back(
             {{"name", camera.name},
              {"type", "orthographic"},
-             {"orthographic", {{"xmag", 2}, {"ymag", half}, {"znear", 0.5}, {"zfar", far}}}});
+             {"orthographic", {{"xmag", half}, {"ymag", half}, {"znear", 0.5}, {"zfar", far}}}});
     else
         file.json["cameras"].push_back({{"name", camera.name},
                                         {"type", "perspective"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What moves: both paths draw the live pose, the same bits wherever it is posed and whatever was drawn
 // before, with every assignment of lights, shadows and haze; and it is where the reference has it.
+#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/motion/animation.h"
 #include "tests/image/scenes.h"
@@ -141,6 +142,42 @@ TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Scene, MovingParity, testing::ValuesIn(movingScenes), [](const auto& scene) {
     return testName(std::filesystem::path(scene.param).stem().string());
 });
+
+// Half of a joint at rest and half of one that is half as wide, by hand: the normal (1, 0, 1) becomes (1.5,
+// 0, 1) by each joint's inverse transpose, and (4, 0, 3) by that of their mean.
+TEST(Moving, NormalsOfSkinsGoByEachJointOrByTheirMean) {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.meshes.resize(1);
+    Primitive& square = scene.meshes[0].primitives.emplace_back();
+    square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    square.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
+    square.tangents.assign(4, {0, 1, 0, 1});
+    square.indices = {0, 1, 2, 0, 2, 3};
+    square.joint_sets = {
+        {std::vector<glm::u16vec4>(4, {0, 1, 0, 0}), std::vector<glm::vec4>(4, {0.5f, 0.5f, 0, 0})}};
+    scene.skins = {{"", {1, 2}, {glm::mat4(1), glm::mat4(1)}, -1}};
+    scene.nodes.resize(3);
+    scene.nodes[0].mesh = scene.nodes[0].skin = 0;
+    scene.nodes[2].parent_from_node[0].x = 0.5;
+    scene.cameras.resize(1);
+    scene.cameras[0].world_from_camera[3].z = 2;
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {8, 8};
+    constexpr int normalsMode = static_cast<int>(gpu::DEBUG_normals);
+    for (const auto& [normals, expected] :
+         {std::pair{SkinNormals::joints, glm::vec3(1.5f, 0, 1)}, {SkinNormals::blended, glm::vec3(4, 0, 3)}})
+        for (const Skinning skinning : {Skinning::compute, Skinning::vertex}) {
+            settings.skin_normals = normals;
+            settings.skinning = skinning;
+            for (const Frame& frame : bothPaths(renderer, settings, {normalsMode})) {
+                const float* const n = frame.channels.at(normalsMode).pixel(4 * 8 + 4);
+                EXPECT_LT(glm::distance(glm::vec3(n[0], n[1], n[2]), glm::normalize(expected)), 1e-6f)
+                    << frame.name << ", " << nameOf(normals) << ", " << nameOf(skinning);
+            }
+        }
+}
 
 // ---- time --------------------------------------------------------------------------------------------
 

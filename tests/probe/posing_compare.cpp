@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace diptych {
@@ -47,6 +48,12 @@ glm::dmat3 cofactorsOf(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
+double largestOf(const glm::dmat3& m) {
+    double largest = 0;
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, glm::compMax(glm::abs(m[c])));
+    return largest;
+}
+
 // At most the largest stretch of the matrix over its smallest: |M| |M^-1| / 3 in the Frobenius norm.
 double stretchOf(const glm::dmat3& m) {
     const auto norm = [](const glm::dmat3& a) {
@@ -55,11 +62,18 @@ double stretchOf(const glm::dmat3& m) {
     return norm(m) * norm(cofactorsOf(m)) / std::abs(glm::determinant(m)) / 3;
 }
 
+// A joint, or the one matrix that moves all vertices.
+struct Mover {
+    glm::dmat3 axes;
+    double weight = 0;
+};
+
 // What a vertex is made of, in numbers that bound its rounding errors.
 struct Parts {
     glm::dmat4 matrix{0};
     double scale = 0;  // sum over joints of weight times the largest element of the matrix's axes
     double reach = 0;  // the same of what is added up to its position, m
+    std::vector<Mover> movers;
 };
 
 class Instanced {
@@ -112,8 +126,8 @@ public:
         const glm::dvec3 origin = pose_.boxes[static_cast<std::size_t>(instance_.box)].origin;
         double whole = 0;
         const auto add = [&](const glm::dmat4& m, double weight) {
-            double largest = 0;
-            for (int c = 0; c < 3; ++c) largest = std::max(largest, glm::compMax(glm::abs(glm::dvec3(m[c]))));
+            const double largest = largestOf(glm::dmat3(m));
+            parts.movers.push_back({glm::dmat3(m), weight});
             parts.matrix += weight * m;
             parts.scale += weight * largest;
             const double moved = glm::length(glm::dvec3(m * glm::dvec4(pivot_, 1)) - origin);
@@ -154,9 +168,10 @@ struct Got {
 class Comparison {
 public:
     Comparison(const Scene& scene, const Pose& pose, const Instance& instance, Got got, std::string what,
-               PosingErrors& errors)
+               PosingErrors& errors, SkinNormals normals)
         : of_(scene, pose, instance),
-          exact_(posedVertices(scene, pose, instance)),
+          exact_(posedVertices(scene, pose, instance, normals == SkinNormals::blended)),
+          of_joints_(normals == SkinNormals::joints && instance.skin >= 0),
           origin_(pose.boxes[static_cast<std::size_t>(instance.box)].origin),
           got_(got),
           what_(std::move(what)),
@@ -216,8 +231,11 @@ private:
                 v);
             const glm::dvec3 rest = morphedNormal(v);
             cancelled = length / glm::length(rest);
-            bound = 6 * of_.roundings() * halfUlp * parts.scale * parts.scale * length /
-                    glm::length(cofactorsOf(m) * rest);
+            if (of_joints_)
+                bound = jointsBound(parts, rest, length, exact, at);
+            else
+                bound = 6 * of_.roundings() * halfUlp * parts.scale * parts.scale * length /
+                        glm::length(cofactorsOf(m) * rest);
         }
         bound = glm::degrees(bound);
         if (!(bound < 90)) return;  // float32 knows no direction
@@ -228,6 +246,31 @@ private:
         if (stretchOf(m) > 4 || cancelled > 10) return;
         EXPECT_LE(off, 0.05) << at;
         raise(errors_.normal, off);
+    }
+
+    // rad; also holds the one in double against glTF's inverse transpose, where every joint has one. Of each
+    // joint float32 rounds the cofactors and the determinant that they are divided by, of a matrix whose
+    // largest component is 1.
+    double jointsBound(const Parts& parts, const glm::dvec3& rest, double length, const glm::dvec3& exact,
+                       const std::string& at) const {
+        const double rounded = 6 * of_.roundings() * halfUlp;
+        double off = 0, least = 1;
+        glm::dvec3 sum(0);
+        for (const Mover& mover : parts.movers) {
+            const double largest = largestOf(mover.axes);
+            if (largest == 0) continue;
+            const glm::dmat3 axes = mover.axes / largest;
+            const double determinant = std::abs(glm::determinant(axes));
+            least = std::min(least, determinant);
+            const glm::dvec3 turned = cofactorsOf(axes) * rest;
+            const double share = mover.weight / (largest * determinant);
+            off += share * (rounded * length + glm::length(turned) * 2 * rounded / determinant);
+            sum += mover.weight * (glm::transpose(glm::inverse(mover.axes)) * rest);
+        }
+        const double size = glm::length(sum);
+        if (least < 1e-6 || !(size > 1e-3 * off)) return std::numeric_limits<double>::infinity();
+        EXPECT_LT(degreesBetween(sum, exact), 1e-6) << at;
+        return off / size;
     }
 
     glm::dvec3 morphedNormal(std::size_t v) const {
@@ -293,6 +336,7 @@ private:
 
     Instanced of_;
     PosedVertices exact_;
+    bool of_joints_;
     glm::dvec3 origin_;
     Got got_;
     std::string what_;
@@ -303,7 +347,14 @@ private:
 
 }  // namespace
 
-void comparePosing(const Scene& scene, const Pose& pose, const std::string& what, PosingErrors& errors) {
+namespace {
+
+// What the kernels make of a pose, read back.
+struct ReadBack {
+    std::vector<glm::vec3> positions;
+    std::vector<gpu::VertexAttributes> attributes;
+};
+ReadBack posedByKernels(const Scene& scene, const Pose& pose, SkinNormals normals) {
     Device& device = probeDevice();
     Uploader uploader(device);
     const Geometry geometry(device, uploader, scene);
@@ -311,21 +362,36 @@ void comparePosing(const Scene& scene, const Pose& pose, const std::string& what
     uploader.flush();
     const OwnedPipelineLayout layout = makePosingLayout(device);
     Pipelines pipelines(device, layout);
-    const std::shared_ptr<const Posing> posing = posings.at(pose, Skinning::compute, pipelines);
-    ASSERT_TRUE(posing->any()) << what;
-    const auto positions = readBuffer<glm::vec3>(posing->positions(), posing->vertices());
-    const auto attributes = readBuffer<gpu::VertexAttributes>(posing->attributes(), posing->vertices());
+    const auto posing = posings.at(pose, Skinning::compute, normals, pipelines);
+    if (!posing->any()) return {};
+    return {readBuffer<glm::vec3>(posing->positions(), posing->vertices()),
+            readBuffer<gpu::VertexAttributes>(posing->attributes(), posing->vertices())};
+}
+
+}  // namespace
+
+std::vector<glm::vec3> posedNormals(const Scene& scene, const Pose& pose, SkinNormals normals) {
+    std::vector<glm::vec3> all;
+    for (const gpu::VertexAttributes& a : posedByKernels(scene, pose, normals).attributes)
+        all.push_back(a.normal);
+    return all;
+}
+
+void comparePosing(const Scene& scene, const Pose& pose, const std::string& what, PosingErrors& errors,
+                   SkinNormals normals) {
+    const ReadBack got = posedByKernels(scene, pose, normals);
+    ASSERT_FALSE(got.positions.empty()) << what;
     std::size_t first = 0;
     for (std::size_t i = 0; i < pose.instances.size(); ++i) {
         const Instance& instance = pose.instances[i];
         const Primitive& primitive = primitiveOf(scene, instance);
         if (instance.box < 0 || primitive.indices.empty()) continue;
-        Comparison(scene, pose, instance, {&positions[first], &attributes[first]},
-                   fmt::format("{}, instance {}", what, i), errors)
+        Comparison(scene, pose, instance, {&got.positions[first], &got.attributes[first]},
+                   fmt::format("{}, instance {}", what, i), errors, normals)
             .run();
         first += primitive.positions.size();
     }
-    EXPECT_EQ(first, posing->vertices()) << what;
+    EXPECT_EQ(first, got.positions.size()) << what;
 }
 
 void printErrors(const std::string& what, const PosingErrors& e) {

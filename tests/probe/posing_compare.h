@@ -2,10 +2,12 @@
 // Vertices that the kernels of posing made, held against posedVertices() in double.
 #pragma once
 
+#include "shared/frame/setting_values.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 
 #include <string>
+#include <vector>
 
 namespace diptych {
 
@@ -27,7 +29,11 @@ struct PosingErrors {
 //  - colours and texture coordinates: what float32 rounds, and the same bits where no target moves them.
 // What float32 rounds: a bound on the sum of all operations' errors, half an ULP of the largest number in
 // each, from the vertex's own matrices, weights and deltas.
-void comparePosing(const Scene& scene, const Pose& pose, const std::string& what, PosingErrors& errors);
+void comparePosing(const Scene& scene, const Pose& pose, const std::string& what, PosingErrors& errors,
+                   SkinNormals normals = SkinNormals::joints);
+
+// What a kernel makes of the scene's normals, instance by instance.
+std::vector<glm::vec3> posedNormals(const Scene& scene, const Pose& pose, SkinNormals normals);
 
 void printErrors(const std::string& what, const PosingErrors& errors);
 

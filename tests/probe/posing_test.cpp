@@ -35,7 +35,8 @@ TEST(Posing, OfTheSceneOfWhatMoves) {
     const Scene scene = loadScene("builtin:motion");
     PosingErrors errors;
     for (const double seconds : {0.0, 0.35, 1.0, 1.7, 3.1})
-        comparePosing(scene, poseAt(scene, seconds), fmt::format("at {} s", seconds), errors);
+        for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended})
+            comparePosing(scene, poseAt(scene, seconds), fmt::format("at {} s", seconds), errors, normals);
     printErrors("builtin:motion", errors);
 }
 
@@ -70,7 +71,8 @@ TEST(Posing, OfRandomMeshesInRandomPoses) {
         if (c.joint_sets > 0) maker.addSkin(scene, c);  // the mesh is drawn with two skins
         const Pose pose = poseAt(scene, 0);
         ASSERT_EQ(pose.boxes.size(), c.joint_sets > 0 ? 2u : 1u);
-        comparePosing(scene, pose, fmt::format("mesh {}", n), errors);
+        for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended})
+            comparePosing(scene, pose, fmt::format("mesh {}, {}", n, nameOf(normals)), errors, normals);
     }
     printErrors("random meshes", errors);
     EXPECT_EQ(errors.missing, 0u);
@@ -194,6 +196,31 @@ TEST(Posing, AMeshWithJointsMovesAsAWholeWithoutASkin) {
     compared(scene, "without a skin");
 }
 
+// Where a vertex follows one joint, whichever of its four, both ways to turn its normal have the same bits.
+TEST(Posing, OneJointTurnsANormalEitherWayToTheSameBits) {
+    PosingMaker maker(15);
+    PosingChoice c;
+    c.joint_sets = 2;
+    c.root = placed({3, 4, 5}, {-1.5, 0.7, 1.2});
+    Scene scene = maker.scene(c);
+    const Pose pose = poseAt(scene, 0);
+    const auto differing = [&] {
+        const std::vector<glm::vec3> a = posedNormals(scene, pose, SkinNormals::joints),
+                                     b = posedNormals(scene, pose, SkinNormals::blended);
+        std::size_t count = 0;
+        for (std::size_t v = 0; v < a.size(); ++v) count += a[v] != b[v];
+        return count;
+    };
+    EXPECT_GT(differing(), 10u) << "several joints";
+    std::vector<JointSet>& sets = scene.meshes[0].primitives[0].joint_sets;
+    for (std::size_t v = 0; v < sets[0].weights.size(); ++v)
+        for (std::size_t s = 0; s < 2; ++s) {
+            sets[s].weights[v] = glm::vec4(0);
+            if (s == v / 4 % 2) sets[s].weights[v][static_cast<int>(v % 4)] = 1;
+        }
+    EXPECT_EQ(differing(), 0u) << "one";
+}
+
 // A joint of scale 0 gathers its vertices in a point, where nothing has a direction.
 TEST(Posing, ACollapsedJointHasNoDirections) {
     PosingMaker maker(10);
@@ -287,24 +314,26 @@ TEST(Posing, ViewsOfOneMomentShareAPose) {
     const OwnedPipelineLayout layout = makePosingLayout(device);
     Pipelines pipelines(device, layout);
     const Pose rest = poseAt(scene, 0);
-    auto first = posings.at(rest, Skinning::compute, pipelines);
-    EXPECT_EQ(posings.at(rest, Skinning::compute, pipelines), first);
+    constexpr SkinNormals joints = SkinNormals::joints;
+    auto first = posings.at(rest, Skinning::compute, joints, pipelines);
+    EXPECT_EQ(posings.at(rest, Skinning::compute, joints, pipelines), first);
     EXPECT_EQ(posings.made(), 1u);
-    EXPECT_NE(posings.at(rest, Skinning::vertex, pipelines), first);
+    EXPECT_NE(posings.at(rest, Skinning::vertex, joints, pipelines), first);
+    EXPECT_NE(posings.at(rest, Skinning::compute, SkinNormals::blended, pipelines), first);
     std::size_t made = posings.made();
     for (const auto& change : std::vector<void (*)(Pose&)>{[](Pose& p) { p.skins[0][0][3].x += 1e-9; },
                                                            [](Pose& p) { p.weights[0][0] += 1e-9; },
                                                            [](Pose& p) { p.boxes[0].origin.x += 1; }}) {
         Pose other = rest;
         change(other);
-        EXPECT_NE(posings.at(other, Skinning::compute, pipelines), first);
+        EXPECT_NE(posings.at(other, Skinning::compute, joints, pipelines), first);
         EXPECT_EQ(posings.made(), ++made);
     }
     Pose lit = rest;
     lit.lights.emplace_back();
-    EXPECT_EQ(posings.at(lit, Skinning::compute, pipelines), first);
+    EXPECT_EQ(posings.at(lit, Skinning::compute, joints, pipelines), first);
     first.reset();
-    posings.at(rest, Skinning::compute, pipelines);
+    posings.at(rest, Skinning::compute, joints, pipelines);
     EXPECT_EQ(posings.made(), made + 1);  // nobody had kept it
 }
 

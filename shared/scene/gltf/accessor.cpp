@@ -96,6 +96,7 @@ Elements locate(const tinygltf::Model& model, int view, std::size_t offset, std:
     if (count == 0) return {bytes.data(), stride, 0};
     if (offset > bytes.size() || size > bytes.size() - offset ||
         count - 1 > (bytes.size() - offset - size) / stride) {
+        if (const std::string cut = cutOf(model, view); !cut.empty()) throw std::runtime_error(cut);
         const bool countable = offset <= std::numeric_limits<std::size_t>::max() / 4 &&
                                count - 1 < std::numeric_limits<std::size_t>::max() / 4 / stride;
         fail(who, fmt::format("{} {} of {} bytes end at {}, past bufferView {} ({} bytes)", count, noun, size,
@@ -257,13 +258,21 @@ std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
     const std::string name = fmt::format("bufferView {}", index);
     if (checkedIndex(view.buffer, model.buffers.size(), name, "buffer") < 0) fail(name, "names no buffer");
+    const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const std::string cut = cutOf(model, index);
+    if (cut.empty()) return std::span(data).subspan(view.byteOffset, view.byteLength);
+    if (view.byteOffset >= data.size()) throw std::runtime_error(cut);
+    return std::span(data).subspan(view.byteOffset);
+}
+
+std::string cutOf(const tinygltf::Model& model, int index) {
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
     const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
-    if (!missing(buffer).empty()) throw std::runtime_error(missing(buffer));
-    const std::vector<unsigned char>& data = buffer.data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        fail(name, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", view.byteLength,
-                               view.byteOffset, view.buffer, data.size()));
-    return std::span(data).subspan(view.byteOffset, view.byteLength);
+    const std::size_t held = buffer.data.size();
+    if (view.byteOffset <= held && view.byteLength <= held - view.byteOffset) return {};
+    if (!missing(buffer).empty()) return missing(buffer);
+    return fmt::format("bufferView {}: {} bytes from {} on end past buffer {} ({} bytes)", index,
+                       view.byteLength, view.byteOffset, view.buffer, held);
 }
 
 std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::string& who, const char* noun,

@@ -21,8 +21,12 @@ class Model;
 
 namespace diptych::gltf {
 
-// The bytes of bufferView `index`, checked to lie inside its buffer; `who` names the caller in errors.
+// The bytes of bufferView `index` that its buffer holds, which is an error where they are none; `who` names
+// the caller in errors. Exporters count padding that they do not write.
 std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index, const std::string& who);
+// Why these are fewer than the bufferView names: "bufferView 3: 40 bytes from 0 on end past buffer 0 (38
+// bytes)". Empty: they are all.
+std::string cutOf(const tinygltf::Model& model, int index);
 
 // The number of elements of an accessor, after checking that all of them, sparse ones too, lie inside their
 // bufferViews. `noun` is what errors call an element. `width`: the number of components that an element must

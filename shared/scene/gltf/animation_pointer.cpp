@@ -40,9 +40,11 @@ constexpr Pattern pointerPatterns[] = {
     {"/extensions/KHR_lights_punctual/lights/{}/spot/innerConeAngle", AnimatedPart::light_inner_cone},
     {"/extensions/KHR_lights_punctual/lights/{}/spot/outerConeAngle", AnimatedPart::light_outer_cone},
     {"/cameras/{}/perspective/yfov", AnimatedPart::camera_yfov},
+    {"/cameras/{}/perspective/aspectRatio", AnimatedPart::camera_aspect},
     {"/cameras/{}/perspective/znear", AnimatedPart::camera_near},
     {"/cameras/{}/perspective/zfar", AnimatedPart::camera_far},
     {"/cameras/{}/orthographic/ymag", AnimatedPart::camera_ymag},
+    {"/cameras/{}/orthographic/xmag", AnimatedPart::camera_xmag},
     {"/cameras/{}/orthographic/znear", AnimatedPart::camera_near},
     {"/cameras/{}/orthographic/zfar", AnimatedPart::camera_far},
     {"/materials/{}/pbrMetallicRoughness/baseColorFactor", AnimatedPart::base_color},
@@ -164,7 +166,9 @@ public:
                 light(item(model_.lights, target.object), target);
                 return target;
             case AnimatedPart::camera_yfov:
+            case AnimatedPart::camera_aspect:
             case AnimatedPart::camera_ymag:
+            case AnimatedPart::camera_xmag:
             case AnimatedPart::camera_near:
             case AnimatedPart::camera_far:
                 camera(item(model_.cameras, target.object), target);
@@ -213,6 +217,8 @@ private:
             wrong(fmt::format("the camera is {}", oneLine(camera.type)));
         if (target.part == AnimatedPart::camera_far && perspective && camera.perspective.zfar == 0)
             wrong("the camera has no zfar");
+        if (target.part == AnimatedPart::camera_aspect && camera.perspective.aspectRatio == 0)
+            wrong("the camera has no aspectRatio");
     }
 
     void material(const tinygltf::Material& material, const Match& match, ChannelTarget& target) const {

@@ -22,13 +22,15 @@ constexpr std::size_t bytesPerByte = 64;
 
 }  // namespace
 
-void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vector<std::string>& notes) {
+void decompress(tinygltf::Model& model, const std::vector<bool>& drawn,
+                std::map<std::size_t, std::string>& broken, std::vector<std::string>& notes) {
     std::size_t held = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) held += buffer.data.size();
     const std::size_t limit = freeBytes + bytesPerByte * held;
 
+    std::map<std::size_t, std::string> undecoded;
     std::vector<MeshoptView> views = findMeshopt(model);
-    const std::vector<DracoPrimitive> primitives = findDraco(model, drawn);
+    const std::vector<DracoPrimitive> primitives = findDraco(model, drawn, undecoded);
     double claimed = 0;  // double, because the sum of the claimed sizes may exceed 64 bits
     for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
     for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
@@ -40,7 +42,11 @@ void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vec
     NoteList found("compressed bufferViews");
     decodeMeshopt(model, std::move(views), found);
     found.moveTo(notes);
-    decodeDraco(model, primitives, limit);
+    decodeDraco(model, primitives, limit, undecoded);
+    NoteList left_out("compressed meshes");
+    for (const auto& [mesh, line] : undecoded) left_out.add(line + ": the mesh is left out");
+    left_out.moveTo(notes);
+    broken.merge(undecoded);
 }
 
 }  // namespace diptych::gltf

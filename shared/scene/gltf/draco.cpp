@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 #include <new>
+#include <stdexcept>
 
 namespace diptych::gltf {
 
@@ -203,12 +205,21 @@ int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
 
 }  // namespace
 
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn) {
+std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn,
+                                      std::map<std::size_t, std::string>& broken) {
     std::vector<DracoPrimitive> result;
-    for (std::size_t m = 0; m < model.meshes.size(); ++m)
-        for (std::size_t p = 0; drawn[m] && p < model.meshes[m].primitives.size(); ++p)
-            if (const auto* e = extension(model.meshes[m].primitives[p].extensions, dracoName))
-                result.push_back(readExtension(model, *e, m, p));
+    for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+        if (!drawn[m]) continue;
+        std::vector<DracoPrimitive> of_mesh;
+        try {
+            for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
+                if (const auto* e = extension(model.meshes[m].primitives[p].extensions, dracoName))
+                    of_mesh.push_back(readExtension(model, *e, m, p));
+            std::ranges::move(of_mesh, std::back_inserter(result));
+        } catch (const std::runtime_error& e) {
+            broken.emplace(m, e.what());
+        }
+    }
     return result;
 }
 
@@ -222,11 +233,21 @@ double dracoCost(const tinygltf::Model& model, const DracoPrimitive& p) {
            static_cast<double>(corners) * static_cast<double>(dracoBytesPerCorner);
 }
 
-void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit) {
+void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
+                 std::map<std::size_t, std::string>& broken) {
     std::vector<Result> results(primitives.size());
-    forEachInParallel(primitives.size(),
-                      [&](std::size_t i) { results[i] = decoded(model, primitives[i], limit); });
+    std::vector<std::string> faults(primitives.size());
+    forEachInParallel(primitives.size(), [&](std::size_t i) {
+        try {
+            results[i] = decoded(model, primitives[i], limit);
+        } catch (const std::runtime_error& e) {
+            faults[i] = e.what();
+        }
+    });
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (!faults[i].empty()) broken.emplace(primitives[i].mesh, faults[i]);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (broken.contains(primitives[i].mesh)) continue;
         tinygltf::Primitive& primitive = primitiveOf(model, primitives[i]);
         for (std::size_t a = 0; a < primitives[i].attributes.size(); ++a) {
             const DracoPrimitive::Attribute& attribute = primitives[i].attributes[a];

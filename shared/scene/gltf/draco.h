@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,15 +24,17 @@ struct DracoPrimitive {
     std::size_t vertices;  // of every attribute
 };
 
-// Such primitives of the drawn meshes (`drawn`: one flag for each mesh). Throws std::runtime_error for the
-// first primitive that breaks a rule of the extension.
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn);
+// Such primitives of the drawn meshes (`drawn`: one flag for each mesh). A mesh with a primitive that breaks
+// a rule of the extension is `broken`, with its first fault.
+std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn,
+                                      std::map<std::size_t, std::string>& broken);
 
 // Bytes that decoding takes: those of its accessors, and what Draco holds for as many triangles.
 double dracoCost(const tinygltf::Model& model, const DracoPrimitive& primitive);
 
 // Gives each primitive accessors over decoded bytes; the decoded indices may still name vertices that do not
-// exist. A stream that would need more than `limit` bytes is refused.
-void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit);
+// exist. A mesh with a stream that cannot be decoded, or would need more than `limit` bytes, is `broken`.
+void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
+                 std::map<std::size_t, std::string>& broken);
 
 }  // namespace diptych::gltf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/file.h"
 
+#include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/animation_pointer.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/note_list.h"
@@ -159,9 +160,7 @@ Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<C
     } else {
         fail("has no uri, and the file no binary chunk for it");
     }
-    if (data.size() < length)
-        fail(fmt::format("holds {} bytes of the {} that its byteLength names", data.size(), length));
-    data.resize(length);
+    data.resize(std::min<std::uint64_t>(data.size(), length));
     return data;
 }
 
@@ -184,11 +183,30 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
             std::vector<std::string> found;
             buffer.data = bytesOf(json, i == 0, bytes, binary, out.resources, found);
             for (const std::string& note : found) notes.add(fmt::format("{}: {}", who, note));
+            if (buffer.data.size() < length) {
+                setMissing(buffer, fmt::format("{}: holds {} bytes of the {} that its byteLength names", who,
+                                               buffer.data.size(), length));
+                notes.add(missing(buffer) + ": nothing that is drawn reads the others");
+            }
         } catch (const std::runtime_error& e) {
             setMissing(buffer, fmt::format("{}: {}", who, e.what()));
             if (!mayBeEmpty(json) || json.contains("uri"))
                 notes.add(missing(buffer) + ": nothing that is drawn reads it");
         }
+    }
+    notes.moveTo(out.notes);
+}
+
+// BufferViews that end past a buffer of which all bytes are there.
+void noteCutViews(Document& out) {
+    NoteList notes("bufferViews");
+    for (std::size_t i = 0; i < out.model.bufferViews.size(); ++i) {
+        const int buffer = out.model.bufferViews[i].buffer;
+        if (buffer < 0 || static_cast<std::size_t>(buffer) >= out.model.buffers.size() ||
+            !missing(out.model.buffers[static_cast<std::size_t>(buffer)]).empty())
+            continue;
+        if (const std::string cut = cutOf(out.model, static_cast<int>(i)); !cut.empty())
+            notes.add(cut + ": nothing that is drawn reads further");
     }
     notes.moveTo(out.notes);
 }
@@ -285,7 +303,7 @@ void checkHeader(const Bytes& bytes) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}, {}, {}, {}};
+    Document result{{}, Resources(folder), {}, {}, {}, {}, {}, {}};
     Json buffers, images;
     {
         Json document = documentOf(bytes, container);
@@ -301,6 +319,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
             if (isBuilt(name))
                 result.notes.push_back(fmt::format("{}: {} is not read there: left out",
                                                    where.empty() ? "the document" : where, name));
+        result.broken_meshes = std::move(found.broken_meshes);
         result.left_out = std::move(found.extensions);
         std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
         buffers = taken(document, "buffers");
@@ -314,6 +333,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
             result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;
     }
     loadBuffers(buffers, bytes, container.binary, result);
+    noteCutViews(result);
     listImages(images, result.model);
     return result;
 }

@@ -7,7 +7,9 @@
 
 #include <tiny_gltf.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -24,7 +26,8 @@ struct Document {
     MaterialExtras material_extras;
     ImageLights image_lights;
     std::set<std::string> left_out;  // extensions that the file uses and that are not read
-    std::vector<std::string> notes;  // what was repaired or left out, one line each
+    std::map<std::size_t, std::string> broken_meshes = {};  // why a mesh was left out
+    std::vector<std::string> notes;                         // what was repaired or left out, one line each
 };
 
 // Loads a file. Nothing in it is trusted before it is checked: the container's lengths, the size and nesting

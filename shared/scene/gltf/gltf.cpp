@@ -85,7 +85,8 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     if (chosen >= 0)
         scene.environment = gltf::readImageLight(document.image_lights, static_cast<std::size_t>(chosen),
                                                  document.model, document.resources, scene.notes);
-    gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
+    gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), document.broken_meshes,
+                     scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;
     gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
@@ -108,7 +109,9 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
             }
         };
     };
-    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes, tally); };
+    const auto meshes = [&] {
+        scene.meshes = gltf::readMeshes(model, scene, document.broken_meshes, meshNotes, tally);
+    };
     const std::vector<bool> lightmaps = gltf::lightmapsAlone(scene);
     const auto images = [&] { gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally); };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -39,6 +40,8 @@ std::vector<MeshUse> usesOf(std::size_t meshes, const Scene& scene) {
 
 struct Task {
     std::size_t mesh, primitive;
+    std::string fault = {};  // why it cannot be drawn; empty: it can
+    std::vector<std::string> notes = {};
     std::string who() const { return fmt::format("mesh {}, primitive {}", mesh, primitive); }
 };
 
@@ -46,13 +49,28 @@ const tinygltf::Primitive& fileOf(const tinygltf::Model& model, const Task& task
     return model.meshes[task.mesh].primitives[task.primitive];
 }
 
+// Runs what reads a primitive, which is left out where it throws.
+template <class Read>
+void attempt(Task& task, const Read& read) {
+    if (!task.fault.empty()) return;
+    try {
+        read();
+    } catch (const std::runtime_error& e) {
+        task.fault = e.what();
+        const std::string who = task.who();
+        task.notes = {task.fault.starts_with(who)
+                          ? task.fault + ": left out"
+                          : fmt::format("{}: left out, it needs {}", who, task.fault)};
+    }
+}
+
 // Checks the decoded size from counts alone, before anything is decoded.
-void checkSize(const tinygltf::Model& model, const std::vector<Task>& tasks) {
+void checkSize(const tinygltf::Model& model, std::vector<Task>& tasks) {
     std::size_t encoded = 0, decoded = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) encoded += buffer.data.size();
     const std::size_t most = FREE_DECODED_BYTES + encoded * DECODED_BYTES_PER_BYTE;
-    for (const Task& task : tasks) {
-        decoded += decodedBytes(model, fileOf(model, task), task.who());
+    for (Task& task : tasks) {
+        attempt(task, [&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
         if (decoded > most)
             throw std::runtime_error(fmt::format(
                 "{}: {} bytes of geometry up to here from {} bytes of buffers: at most {} are read",
@@ -76,36 +94,55 @@ std::vector<float> readWeights(const tinygltf::Mesh& mesh, std::size_t targets, 
 }  // namespace
 
 std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
+                             const std::map<std::size_t, std::string>& broken,
                              std::vector<std::string>& notes, Tally& tally) {
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);
     std::vector<Mesh> meshes(model.meshes.size());
     std::vector<Task> tasks;
+    std::map<std::size_t, std::string> faults;  // the first of each mesh that is drawn
+    const std::size_t before = notes.size();
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const tinygltf::Mesh& file = model.meshes[m];
         meshes[m].name = file.name;
-        if (!uses[m].drawn || file.primitives.empty()) continue;
+        if (!uses[m].drawn) continue;
+        if (const auto fault = broken.find(m); fault != broken.end()) {
+            faults.insert(*fault);
+            continue;
+        }
+        if (file.primitives.empty()) continue;
         const std::size_t targets = file.primitives[0].targets.size();
-        meshes[m].weights = readWeights(file, targets, fmt::format("mesh {}", m));
+        try {
+            meshes[m].weights = readWeights(file, targets, fmt::format("mesh {}", m));
+        } catch (const std::runtime_error& e) {
+            notes.push_back(fmt::format("{}: left out", faults.emplace(m, e.what()).first->second));
+            continue;
+        }
+        meshes[m].primitives.resize(file.primitives.size());
         for (std::size_t p = 0; p < file.primitives.size(); ++p) tasks.push_back({m, p});
     }
     checkSize(model, tasks);
 
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        if (uses[m].drawn) meshes[m].primitives.resize(model.meshes[m].primitives.size());
-    std::vector<std::vector<std::string>> found(tasks.size());
     const std::vector<bool> mapsThatTurn = normalMapsThatTurn(scene);
     forEachInParallel(tasks.size(), [&](std::size_t i) {
-        const Task& task = tasks[i];
+        Task& task = tasks[i];
         const PrimitiveUse use{scene.materials, mapsThatTurn, uses[task.mesh].joints,
                                meshes[task.mesh].weights.size()};
-        meshes[task.mesh].primitives[task.primitive] =
-            readPrimitive(model, fileOf(model, task), task.who(), use, found[i]);
+        attempt(task, [&] {
+            meshes[task.mesh].primitives[task.primitive] =
+                readPrimitive(model, fileOf(model, task), task.who(), use, task.notes);
+        });
         tally.oneMore();
     });
-    for (Mesh& mesh : meshes)
+    bool any = false;
+    for (Mesh& mesh : meshes) {
         std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
-    const std::size_t before = notes.size();
-    for (std::vector<std::string>& some : found) std::ranges::move(some, std::back_inserter(notes));
+        any = any || !mesh.primitives.empty();
+    }
+    for (Task& task : tasks) {
+        if (!task.fault.empty()) faults.emplace(task.mesh, task.fault);
+        std::ranges::move(task.notes, std::back_inserter(notes));
+    }
+    if (!any && !faults.empty()) throw std::runtime_error(faults.begin()->second);
     limitNotes(notes, before, "meshes");
     return meshes;
 }

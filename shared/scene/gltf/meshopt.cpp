@@ -49,7 +49,7 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     const int index = checkedIndex(indexIn(e, "buffer", -1, who), model.buffers.size(), who, "buffer");
     if (index < 0) failView(view, "names no buffer");
     const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(index)];
-    if (!missing(buffer).empty()) failView(view, missing(buffer));
+    if (buffer.data.empty() && !missing(buffer).empty()) failView(view, missing(buffer));
     const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
     const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)

@@ -113,6 +113,7 @@ void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& scene
         const tinygltf::Node& file = model.nodes[n];
         if (sceneNode[n] < 0 || file.weights.empty() || file.mesh < 0) continue;
         const std::string who = fmt::format("node {}", n);
+        if (model.meshes[static_cast<std::size_t>(file.mesh)].primitives.empty()) continue;  // left out
         const std::size_t targets = targetsOf(model, file);
         if (file.weights.size() != targets)
             fail(who, fmt::format("{} weights for {} morph target{}", file.weights.size(), targets,

@@ -176,6 +176,10 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
         camera.yfov = c.perspective.yfov;
         camera.near = c.perspective.znear;
         if (c.perspective.zfar != 0) camera.far = c.perspective.zfar;
+        if (c.perspective.aspectRatio < 0)
+            notes.add(fmt::format("{}: aspectRatio {}: not read", who, c.perspective.aspectRatio));
+        else
+            camera.aspect = c.perspective.aspectRatio;
         if (!(camera.yfov > 0 && camera.yfov < glm::pi<double>()))
             fail(who, fmt::format("yfov {} does not lie between 0 and pi", camera.yfov));
         if (!(camera.near > 0)) fail(who, fmt::format("znear {} is not above 0", camera.near));
@@ -187,6 +191,7 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
     } else if (c.type == "orthographic") {
         camera.orthographic = true;
         camera.ymag = std::abs(c.orthographic.ymag);
+        camera.xmag = std::abs(c.orthographic.xmag);
         camera.near = c.orthographic.znear;
         camera.far = c.orthographic.zfar;
         if (!(camera.ymag > 0)) fail(who, "ymag is 0");

@@ -155,25 +155,29 @@ Json emptyItem(std::string_view collection) {
 
 }  // namespace
 
-void leaveOutUnusable(Json& document, const References& references, NoteList& notes) {
+std::map<std::size_t, std::string> leaveOutUnusable(Json& document, const References& references,
+                                                    NoteList& notes) {
     std::set<std::int64_t> cameras, skins;
+    std::map<std::size_t, std::string> meshes;
     for (const References::Fault& fault : references.unusable()) {
         const bool light = fault.collection == "KHR_lights_punctual";
         Json& items = light ? document[lightsPlace()] : document[std::string(fault.collection)];
         items[fault.item] = emptyItem(fault.collection);
         if (fault.collection == "cameras") cameras.insert(static_cast<std::int64_t>(fault.item));
         if (fault.collection == "skins") skins.insert(static_cast<std::int64_t>(fault.item));
+        if (fault.collection == "meshes") meshes.emplace(fault.item, fault.line);
         notes.add(fault.cause ? fault.line + ": left out"
                               : fmt::format("{} {}: left out, it needs {}",
                                             light ? "light" : schema::itemOf(fault.collection), fault.item,
                                             fault.line));
     }
-    if ((cameras.empty() && skins.empty()) || !document.contains("nodes")) return;
+    if ((cameras.empty() && skins.empty()) || !document.contains("nodes")) return meshes;
     for (Json& node : document["nodes"]) {
         if (node.contains("camera") && cameras.contains(node["camera"].get<std::int64_t>()))
             node.erase("camera");
         if (node.contains("skin") && skins.contains(node["skin"].get<std::int64_t>())) node.erase("skin");
     }
+    return meshes;
 }
 
 }  // namespace diptych::gltf

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -20,9 +22,10 @@ void checkRules(std::string_view collection, nlohmann::json& item, const std::st
 // note; other strides that glTF does not allow mark the view as broken.
 void checkStrides(nlohmann::json& document, References& references, NoteList& notes);
 
-// Replaces broken items that no scene needs by empty ones (so that later items keep their indices), each
-// with a note. Nodes lose a broken camera or skin. Throws std::runtime_error with the first fault that
-// affects a scene.
-void leaveOutUnusable(nlohmann::json& document, const References& references, NoteList& notes);
+// Replaces broken items that no scene needs, and meshes, by empty ones (so that later items keep their
+// indices), each with a note. Nodes lose a broken camera or skin. Returns the faults of meshes by their
+// index. Throws std::runtime_error with the first fault that affects a scene otherwise.
+std::map<std::size_t, std::string> leaveOutUnusable(nlohmann::json& document, const References& references,
+                                                    NoteList& notes);
 
 }  // namespace diptych::gltf

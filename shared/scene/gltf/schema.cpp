@@ -236,7 +236,7 @@ private:
     }
 
     // Checks that an index refers to an existing item; without a collection any number is allowed. A broken
-    // skin or camera only removes it from its node.
+    // mesh, skin or camera only removes it from its node.
     void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
         if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
             wrong(value, key, "an index", where);
@@ -249,7 +249,7 @@ private:
                                key == one ? "" : fmt::format("{} names ", key), one, value.dump(), count));
         }
         value = static_cast<std::int64_t>(v);
-        if (!of.empty() && of != "skins" && of != "cameras")
+        if (!of.empty() && of != "skins" && of != "cameras" && of != "meshes")
             references.names(of, static_cast<std::size_t>(v));
     }
 
@@ -289,11 +289,11 @@ Schema applySchema(nlohmann::json& document) {
     Walk walk(document);
     walk.object(document, schema::document, {});
     checkStrides(document, walk.references, walk.notes);
-    leaveOutUnusable(document, walk.references, walk.notes);
+    std::map<std::size_t, std::string> meshes = leaveOutUnusable(document, walk.references, walk.notes);
     if (const auto used = document.find("extensionsUsed"); used != document.end())
         for (const Json& name : *used)
             walk.met_extensions.insert(oneLine(name.get_ref<const std::string&>()));
-    Schema found{std::move(walk.met_extensions), std::move(walk.misplaced), {}};
+    Schema found{std::move(walk.met_extensions), std::move(walk.misplaced), std::move(meshes), {}};
     walk.notes.moveTo(found.notes);
     return found;
 }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
 #include <map>
 #include <set>
 #include <string>
@@ -20,7 +21,8 @@ struct Schema {
     std::set<std::string> extensions;  // found in objects, or listed in extensionsUsed
     // Extension -> an object that has it although it is not read there.
     std::map<std::string, std::string> misplaced;
-    std::vector<std::string> notes;  // what was repaired or left out, one line each
+    std::map<std::size_t, std::string> broken_meshes;  // why each was left out; a node may name it
+    std::vector<std::string> notes;                    // what was repaired or left out, one line each
 };
 Schema applySchema(nlohmann::json& document);
 

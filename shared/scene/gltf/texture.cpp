@@ -135,6 +135,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;
+        std::string cut;            // why bytes lack at the end
         std::uint64_t decoded = 0;  // bytes
         bool radiance = false;
     };
@@ -144,7 +145,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             try {
                 run(i, all[i]);
             } catch (const std::runtime_error& e) {
-                fail(all[i].who, e.what());
+                fail(all[i].who, all[i].cut.empty() ? e.what() : all[i].cut);
             }
         });
     };
@@ -155,6 +156,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             fmt::format("image {}{}", imageOf[i], all[i].file.empty() ? "" : " (" + all[i].file + ")");
         all[i].bytes =
             image.bufferView >= 0 ? viewBytes(model, image.bufferView, all[i].who) : std::span(image.image);
+        if (image.bufferView >= 0) all[i].cut = cutOf(model, image.bufferView);
         if (all[i].bytes.empty())
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
         all[i].radiance = lightmaps[i] && isRadiancePicture(std::as_bytes(all[i].bytes));

@@ -31,8 +31,8 @@ void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::s
 // The extension's object, or nullptr.
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
-// The reason why a buffer's bytes are missing, for errors of whoever reads it: "buffer 1: a.bin: no such
-// file". Empty: they are there.
+// The reason why a buffer's bytes are missing, or the last of them, for errors of whoever reads it: "buffer
+// 1: a.bin: no such file". Empty: they are there.
 void setMissing(tinygltf::Buffer& buffer, std::string line);
 const std::string& missing(const tinygltf::Buffer& buffer);
 

@@ -49,7 +49,9 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::emissive_strength:
             return {1, 0, any};
         case AnimatedPart::light_range:
+        case AnimatedPart::camera_aspect:
         case AnimatedPart::camera_ymag:
+        case AnimatedPart::camera_xmag:
         case AnimatedPart::camera_far:
             return {1, thin, any};
         case AnimatedPart::light_inner_cone:

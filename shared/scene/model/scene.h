@@ -189,6 +189,8 @@ struct Camera {
     bool orthographic = false;
     double yfov = glm::radians(60.0);  // vertical
     double ymag = 1;                   // orthographic: half the height, m
+    double aspect = 0;                 // perspective: width over height of its frame; 0: the picture's
+    double xmag = 0;                   // orthographic: half the width, m; 0: as wide as the picture
     double near = 0.1;                 // m
     double far = std::numeric_limits<double>::infinity();
     int node = -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/posed.h"
 
+#include "shared/contract/posing.h"
 #include "shared/scene/model/tangent_space.h"
 #include "shared/scene/motion/morphed_tangents.h"
 
@@ -16,6 +17,22 @@
 namespace diptych {
 
 namespace {
+
+// The inverse transpose times the determinant; it exists also for singular matrices.
+glm::dmat3 cofactors(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+// The inverse transpose times the sign of the determinant, as long as posing.h lets one be.
+glm::dmat3 inverseTranspose(const glm::dmat3& m) {
+    double largest = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(m[c][r]));
+    if (!(largest > 0)) return glm::dmat3(0);
+    const glm::dmat3 axes = m / largest;
+    const double least = double{gpu::LEAST_DETERMINANT}, most = double{gpu::MOST_INVERSE};
+    return cofactors(axes) * std::min(1 / largest / std::max(std::abs(glm::determinant(axes)), least), most);
+}
 
 // Computes the posed vertices of one instance.
 class Posing {
@@ -80,17 +97,32 @@ public:
         if (!world_from_mesh_) return world_from_object_;
         glm::dmat4 sum(0);
         double whole = 0;
-        for (const JointSet& set : primitive_.joint_sets)
-            for (int i = 0; i < 4; ++i) {
-                const double weight = set.weights[vertex][i];
-                if (!(weight > 0)) continue;
-                sum += weight * (*world_from_mesh_)[set.joints[vertex][i]];
-                whole += weight;
-            }
+        addJoints(vertex, [&](const glm::dmat4& joint, double weight) {
+            sum += weight * joint;
+            whole += weight;
+        });
         return sum / whole;
     }
 
+    // A normal in world axes, of any length and not on the front's side yet.
+    glm::dvec3 turned(std::size_t vertex, const glm::dvec3& normal, bool blended) const {
+        if (blended || !world_from_mesh_) return cofactors(glm::dmat3(worldFrom(vertex))) * normal;
+        glm::dvec3 sum(0);
+        addJoints(vertex, [&](const glm::dmat4& joint, double weight) {
+            sum += weight * (inverseTranspose(glm::dmat3(joint)) * normal);
+        });
+        return sum;
+    }
+
 private:
+    template <class Add>
+    void addJoints(std::size_t vertex, const Add& add) const {
+        for (const JointSet& set : primitive_.joint_sets)
+            for (int i = 0; i < 4; ++i)
+                if (const double weight = set.weights[vertex][i]; weight > 0)
+                    add((*world_from_mesh_)[set.joints[vertex][i]], weight);
+    }
+
     const Primitive& primitive_;
     const glm::dmat4 world_from_object_;
     const std::vector<glm::dmat4>* world_from_mesh_;  // by joint; nullptr: not skinned
@@ -108,11 +140,6 @@ glm::dvec3 placed(const glm::dvec4& p) {
 glm::dvec3 safeUnit(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0);
-}
-
-// The inverse transpose times the determinant; it exists also for singular matrices.
-glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
 void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::uint32_t>& indices,
@@ -156,7 +183,8 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, con
     return result;
 }
 
-PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance& instance) {
+PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance& instance,
+                            bool blended_normals) {
     const Posing posing(scene, pose, instance);
     const Primitive& primitive = posing.primitive();
     const double handedness = glm::determinant(glm::dmat3(instance.world_from_object)) < 0 ? -1 : 1;
@@ -170,10 +198,9 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     if (instance.map_turned) result.bitangents = mirroredSign(scene.materials[material].normal_texture, map);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
-        const glm::dmat3 axes(world);
         result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));
-        result.normals[v] = handedness * safeUnit(cofactors(axes) * posing.normal(v));
-        result.tangents[v] = safeUnit(axes * result.tangents[v]);
+        result.normals[v] = handedness * safeUnit(posing.turned(v, posing.normal(v), blended_normals));
+        result.tangents[v] = safeUnit(glm::dmat3(world) * result.tangents[v]);
     }
     if (primitive.flat) makeFlat(result.positions, primitive.indices, handedness, result.normals);
     for (int set = 0; set < 2; ++set)

@@ -74,7 +74,9 @@ void move(Camera& camera, const Values& values) {
         return number.has_value();
     };
     set(camera.yfov, AnimatedPart::camera_yfov);
+    set(camera.aspect, AnimatedPart::camera_aspect);
     set(camera.ymag, AnimatedPart::camera_ymag);
+    set(camera.xmag, AnimatedPart::camera_xmag);
     const bool near = set(camera.near, AnimatedPart::camera_near);
     const bool far = set(camera.far, AnimatedPart::camera_far);
     if (!near && !far) return;

@@ -21,6 +21,7 @@ struct Asked {
     glm::dvec3 ambient{0};
     Multiscatter multiscatter = Multiscatter::off;
     BaseLayer base_layer = BaseLayer::max;
+    SkinNormals skin_normals = SkinNormals::joints;
     Falloff falloff;
     Air air;
     std::vector<std::size_t> casters;
@@ -61,6 +62,7 @@ struct Asked {
                       .ambient = ambient,
                       .multiscatter = multiscatter,
                       .base_layer = base_layer,
+                      .skin_normals = skin_normals,
                       .falloff = falloff,
                       .air = air,
                       .casters = casters,
@@ -114,6 +116,7 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"ambient", [](Asked& a) { a.ambient.b = 0.1; }},
         {"multiscatter", [](Asked& a) { a.multiscatter = Multiscatter::fdez; }},
         {"base layer", [](Asked& a) { a.base_layer = BaseLayer::component; }},
+        {"normals of skins", [](Asked& a) { a.skin_normals = SkinNormals::blended; }},
         {"range window", [](Asked& a) { a.falloff.window = RangeWindow::squared; }},
         {"spot cone", [](Asked& a) { a.falloff.cone = SpotFalloff::smoothstep; }},
         {"molecules", [](Asked& a) { a.air.molecules.scattering.b = 1e-5; }},

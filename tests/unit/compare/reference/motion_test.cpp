@@ -106,6 +106,31 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     }
 }
 
+// Half of a joint at rest and half of one that is half as wide, by hand: see Posed.ANormalIsTheMean...
+TEST(ReferenceMotion, NormalsOfSkinsGoByEachJointOrByTheirMean) {
+    Scene scene = patch();
+    Primitive& p = scene.meshes[0].primitives[0];
+    p.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
+    p.joint_sets = {
+        {std::vector<glm::u16vec4>(4, {0, 1, 0, 0}), std::vector<glm::vec4>(4, {0.5f, 0.5f, 0, 0})}};
+    scene.skins = {{"", {1, 2}, {glm::mat4(1), glm::mat4(1)}, -1}};
+    scene.nodes[0].skin = 0;
+    scene.nodes[2].parent_from_node[0].x = 0.5;
+    const Pose pose = poseAt(scene, 0);
+    for (const auto& [normals, expected] : {std::pair{SkinNormals::joints, glm::vec3(1.5f, 0, 1)},
+                                            {SkinNormals::blended, glm::vec3(4, 0, 3)}}) {
+        const Picture picture = draw({.scene = scene,
+                                      .pose = pose,
+                                      .view = fromAbove,
+                                      .lights = pose.lights,
+                                      .skin_normals = normals,
+                                      .mode = ReferenceMode::scene});
+        ASSERT_TRUE(isSurface(picture, left, row));
+        const glm::vec3 off = at(picture, gpu::DEBUG_normals, left, row) - glm::normalize(expected);
+        EXPECT_LT(glm::length(off), 1e-6) << nameOf(normals);
+    }
+}
+
 // The patch turns from dark to white, and begins to glow.
 TEST(ReferenceMotion, MaterialsAreThoseOfTheTime) {
     Scene scene = patch();

@@ -142,6 +142,12 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     EXPECT_EQ(frame.background, (std::array<float, 3>{0.25f, 0.5f, 0.75f}));
     EXPECT_EQ(frame.notes, scene.notes);
     EXPECT_EQ(frame.counters.lights, 3u);
+    view.view.width = view.view.height = 90;
+    view.view.wider_frame = 2;
+    EXPECT_EQ(
+        describedFrame(scene, view, settings).notes.back(),
+        "the camera frames 2:1, and the picture is 1:1: more is seen above and below, so that nothing is "
+        "cropped");
 }
 
 // A floor under a sky, which is sampled: its uncertainty relative to each pixel is that of 999 in a thousand

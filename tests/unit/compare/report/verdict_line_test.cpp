@@ -197,6 +197,26 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
     }
 }
 
+// Light on 5 % of what is in view is a picture; on less, black decides the verdict.
+TEST(VerdictLine, SaysThatHardlyAnythingIsLit) {
+    for (const int shown : {9, 10}) {
+        std::vector<Frame> frames = bothFrames();
+        for (Frame& frame : frames) {
+            frame.settings.size = {40, 5};
+            for (auto* images : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+                for (auto& [mode, image] : *images) {
+                    Image wide(40, 5, image.components);
+                    for (int i = 0; i < 200; ++i)
+                        for (int c = 0; c < image.components && (mode != litMode || i < shown); ++c)
+                            wide.at(i % 40, i / 40, c) = image.at(1, 2, c);
+                    image = std::move(wide);
+                }
+        }
+        EXPECT_EQ(reportWith(frames, {}).comparisons.at(0).emptiness,
+                  shown == 9 ? "only 4.5 % of what is in view is lit" : "");
+    }
+}
+
 TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     std::vector<Frame> frames;
     for (const char* scene : {"a.glb", "b.glb", "c.glb"})

@@ -57,6 +57,7 @@ std::vector<Settings> severalSettings() {
     add([](Settings& s) { s.time = -1.0 / 3.0; });
     add([](Settings& s) { s.animation = "-run `it's` $1"; });
     add([](Settings& s) { s.skinning = Skinning::vertex; });
+    add([](Settings& s) { s.skin_normals = SkinNormals::blended; });
     add([](Settings& s) { s.env = "-sky.exr"; });
     add([](Settings& s) { s.env = ""; });
     add([](Settings& s) { s.ibl_intensity = 0.1f; });

@@ -38,6 +38,7 @@ Settings everythingChanged() {
     s.time = 1.0 / 3.0;
     s.animation = "walk \"fast\", \xc3\xa9";
     s.skinning = Skinning::vertex;
+    s.skin_normals = SkinNormals::blended;
     s.env = "sky \\ \xc3\xa9.exr";
     s.env_rotation = -30.5f;
     s.env_sun = true;
@@ -369,6 +370,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"textures", "exact"},
         {"textures", "packed"},
         {"specular-albedo", "fit"},
+        {"skin-normals", "blended"},
         {"base-layer", "component"},
         {"spot-cone", "smoothstep"},
         {"range-window", "squared"},

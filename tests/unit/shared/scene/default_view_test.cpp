@@ -263,6 +263,28 @@ TEST(DefaultView, HasTheSunBehindIt) {
     }
 }
 
+// The first camera's, where it is at 0 s, whichever is asked for and whenever.
+TEST(DefaultView, HasTheSunBehindTheScenesFirstCamera) {
+    Scene scene = closedRoom();
+    scene.cameras.resize(2);
+    scene.cameras[0].node = static_cast<int>(scene.nodes.size());
+    scene.cameras[1].world_from_camera = lookAt({1, 2, 1}, {2, 1, 1});
+    scene.nodes.emplace_back().transform = 0;
+    scene.transforms = {{}};
+    Animation turn;
+    turn.keyframes = {{Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 1, 0, 0}, 4}};
+    turn.channels = {{scene.cameras[0].node, 0, AnimatedPart::rotation}};
+    scene.animations = {turn};
+    ASSERT_LT(poseAt(scene, 1).cameras.at(0).world_from_camera[2].z, -0.9) << "it turns";
+    const glm::dvec3 expected = defaultSun({0, 0, 1}).direction;
+    for (const double seconds : {0.0, 1.0})
+        for (const char* camera : {"", "1", "eye=1,1,1 target=2,1,1"}) {
+            const SceneView view = makeSceneView(scene, {seconds, camera, 64, 36, "", 0});
+            ASSERT_EQ(view.lights.size(), 1u);
+            EXPECT_EQ(view.lights[0].direction, expected) << camera << " at " << seconds;
+        }
+}
+
 TEST(DefaultView, OfHostileScenesIsFinite) {
     const float huge = 9e17f;
     std::vector<std::pair<const char*, Scene>> scenes(5);

@@ -4,6 +4,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/shapes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 using namespace diptych;
@@ -246,6 +248,48 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
     }
     EXPECT_NE(viewFault("Second on", scene).find("; did you mean second one?"), std::string::npos);
     EXPECT_EQ(viewFault("third", scene).find("did you mean"), std::string::npos);
+}
+
+// By hand: in front of a camera whose frame is F:1, the frame's corners at depth d are (+-F h, +-h), h being
+// ymag or d tan(yfov / 2). All are in a picture of any shape, at its left and right edges or at its top and
+// bottom; a picture that is not narrower keeps the camera's height to the bit.
+TEST(MakeView, AllThatACameraFramesIsInThePicture) {
+    constexpr double yfov = 0.7, ymag = 1.5;
+    for (const bool orthographic : {false, true})
+        for (const double frame : {0.0, 0.25, 1.0, 16.0 / 9, 3.0})
+            for (const auto& [width, height] : {std::pair{160, 90}, {90, 160}, {100, 100}}) {
+                Scene scene = squareAt({0, 0, 0});
+                Camera& camera = scene.cameras.emplace_back();
+                camera.orthographic = orthographic;
+                camera.yfov = yfov;
+                camera.ymag = ymag;
+                camera.far = 100;
+                (orthographic ? camera.xmag : camera.aspect) = frame * (orthographic ? ymag : 1);
+                const View view = viewOf(scene, "", width, height);
+                const std::string what = fmt::format(
+                    "{} {}:1 in {}x{}", orthographic ? "parallels" : "perspective", frame, width, height);
+                const double picture = static_cast<double>(width) / height;
+                const bool wider = frame > picture;
+                EXPECT_EQ(view.wider_frame, wider ? frame : 0) << what;
+                EXPECT_EQ(view.camera.yfov == yfov && view.camera.ymag == ymag, !wider) << what;
+                for (const double depth : {1.0, 40.0}) {
+                    const double half = orthographic ? ymag : depth * std::tan(yfov / 2);
+                    const glm::dvec4 corner =
+                        view.clipFromWorld() *
+                        glm::dvec4((frame > 0 ? frame : picture) * half, half, -depth, 1);
+                    const double x = corner.x / corner.w, y = -corner.y / corner.w;
+                    EXPECT_NEAR(std::max(x, y), 1, 1e-12) << what;
+                    EXPECT_GT(std::min(x, y), 0) << what;
+                }
+                // What is made of the view is not widened again.
+                Scene again = scene;
+                again.cameras = {view.camera};
+                EXPECT_EQ(viewOf(again, "", width, height).clipFromWorld(), view.clipFromWorld()) << what;
+            }
+    // A ratio that a file holds in float32 is the picture's.
+    Scene rounded = squareAt({0, 0, 0});
+    rounded.cameras.emplace_back().aspect = double{16.0f / 9.0f};
+    EXPECT_EQ(viewOf(rounded, "", 640, 360).wider_frame, 0);
 }
 
 TEST(MakeView, ExplicitCamera) {

@@ -41,10 +41,10 @@ struct PointerFile : GltfFile {
                 {{"specularTexture", texture}, {"specularColorTexture", texture}}}}}}};
         json["images"] = {{{"uri", onePixel}}};
         json["textures"] = {{{"source", 0}}};
-        json["cameras"] = {
-            {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.5}, {"zfar", 10}}}},
-            {{"type", "orthographic"},
-             {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 10}}}}};
+        json["cameras"] = {{{"type", "perspective"},
+                            {"perspective", {{"yfov", 1}, {"aspectRatio", 1}, {"znear", 0.5}, {"zfar", 10}}}},
+                           {{"type", "orthographic"},
+                            {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 10}}}}};
         json["extensions"]["KHR_lights_punctual"]["lights"] = {
             {{"type", "spot"}, {"range", 5}, {"spot", {{"innerConeAngle", 0.125}, {"outerConeAngle", 0.5}}}},
             {{"type", "directional"}}};
@@ -115,10 +115,14 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
          [](const Scene&, const Pose& p) { return std::vector<double>{p.lights.at(2).outer_cone}; }},
         {"/cameras/0/perspective/yfov", 1,
          [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(0).yfov}; }},
+        {"/cameras/0/perspective/aspectRatio", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(0).aspect}; }},
         {"/cameras/0/perspective/znear", 1,
          [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(0).near}; }},
         {"/cameras/1/orthographic/ymag", 1,
          [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(1).ymag}; }},
+        {"/cameras/1/orthographic/xmag", 1,
+         [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(1).xmag}; }},
         {"/cameras/1/orthographic/znear", 1,
          [](const Scene&, const Pose& p) { return std::vector<double>{p.cameras.at(1).near}; }},
         {m + "pbrMetallicRoughness/baseColorFactor", 4,
@@ -368,8 +372,6 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/nodes//scale", nothing},
         {"/nodes/99999999999999999999/scale", nothing},
         {"/nodes/0/matrix", nothing},
-        {"/cameras/0/perspective/aspectRatio", nothing},
-        {"/cameras/1/orthographic/xmag", nothing},
         {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", nothing},
         {"/materials/0/doubleSided", nothing},
         {"/materials/0/extras/a", nothing},
@@ -377,6 +379,7 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/materials/1/alphaCutoff", "the file has 1 of them"},
         {"/meshes/0/weights/2", "there are 2 morph targets"},
         {"/cameras/0/orthographic/znear", "the camera is perspective"},
+        {"/cameras/0/orthographic/xmag", "the camera is perspective"},
         {"/cameras/1/perspective/yfov", "the camera is orthographic"},
     };
     for (const auto& [pointer, fault] : cases) {
@@ -391,6 +394,8 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
     const std::tuple<const char*, const char*, std::function<void(PointerFile&)>> changed[] = {
         {"/cameras/0/perspective/zfar", "the camera has no zfar",
          [](PointerFile& f) { f.json["cameras"][0]["perspective"].erase("zfar"); }},
+        {"/cameras/0/perspective/aspectRatio", "the camera has no aspectRatio",
+         [](PointerFile& f) { f.json["cameras"][0]["perspective"].erase("aspectRatio"); }},
         {"/extensions/KHR_lights_punctual/lights/0/range", "the light has no range",
          [](PointerFile& f) { f.json["extensions"]["KHR_lights_punctual"]["lights"][0].erase("range"); }},
         {"/materials/0/normalTexture/scale", "the material has no such texture",

@@ -141,6 +141,22 @@ TEST(GltfDraco, StripsAreTriangles) {
     expectSurface(f.only(scene), 2, 0, 0);
 }
 
+TEST(GltfDraco, AMeshWhoseStreamIsBrokenIsLeftOutBesideOthers) {
+    GltfFile f = compressed(encoded(2));
+    extensionOf(f)["attributes"]["POSITION"] = 77;
+    const int positions = f.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
+    f.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+    f.json["nodes"].push_back({{"mesh", 1}});
+    f.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = f.load();
+    EXPECT_TRUE(scene.meshes.at(0).primitives.empty());
+    EXPECT_EQ(scene.meshes.at(1).primitives.size(), 1u);
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_TRUE(scene.notes[0].starts_with("mesh 0, primitive 0: KHR_draco_mesh_compression: "))
+        << scene.notes[0];
+    EXPECT_TRUE(scene.notes[0].ends_with(": the mesh is left out")) << scene.notes[0];
+}
+
 TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
     const DracoStream s = encoded(2);
     draco::PointCloud cloud;

@@ -30,7 +30,7 @@ TEST(GltfLoading, WrongNumbersAreRefusedByName) {
         {"accessor 0: 3 vertices", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }},
         {"accessor 0: byteOffset is 18446744073709551600, not at most",
          [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 18446744073709551600u; }},
-        {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 37; }},
+        {"bufferView 0: 36 bytes from 4 on", [](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 4; }},
         {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
         {"bufferView 0: buffer 1", [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }},
         {"stride of 8", [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }},

@@ -219,7 +219,8 @@ TEST(GltfMeshopt, Quaternions) {
     e["filter"] = tinygltf::Value(std::string("QUATERNION"));
     view.extensions["EXT_meshopt_compression"] = tinygltf::Value(e);
     std::vector<std::string> notes;
-    gltf::decompress(model, {}, notes);
+    std::map<std::size_t, std::string> broken;
+    gltf::decompress(model, {}, broken, notes);
     EXPECT_TRUE(notes.empty());
     EXPECT_EQ(model.bufferViews[0].buffer, 1);
     EXPECT_TRUE(model.bufferViews[0].extensions.empty());

@@ -91,8 +91,9 @@ TEST(GltfMotion, MorphTargetsThatDoNotFitAreRefusedInOneLine) {
     MorphedFile f;
     f.json["meshes"][0]["primitives"].push_back(f.primitive());
     f.json["meshes"][0]["primitives"][1]["targets"].erase(1);
-    EXPECT_PRED2(ends, f.error(),
-                 "mesh 0, primitive 1: 1 morph targets, but the mesh's first primitive has 2");
+    EXPECT_TRUE(mentions(f.load().notes,
+                         "mesh 0, primitive 1: 1 morph targets, but the mesh's first "
+                         "primitive has 2: left out"));
     f = {};
     f.json["meshes"][0]["weights"] = {1};
     EXPECT_PRED2(ends, f.error(), "mesh 0: 1 weights for 2 morph targets");

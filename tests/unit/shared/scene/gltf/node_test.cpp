@@ -111,7 +111,9 @@ TEST(GltfNode, LightsStandAtTheOriginOfTheirNode) {
 TEST(GltfNode, Cameras) {
     GltfFile f = GltfFile::triangle();
     f.json["cameras"] = {
-        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.5}}}, {"name", "wide"}},
+        {{"type", "perspective"},
+         {"perspective", {{"yfov", 0.7}, {"aspectRatio", 2.5}, {"znear", 0.5}}},
+         {"name", "wide"}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}}};
     f.json["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}},
                        {{"camera", 1}, {"name", "plan"}},
@@ -124,6 +126,8 @@ TEST(GltfNode, Cameras) {
     EXPECT_TRUE(std::isinf(pose.cameras[0].far));
     EXPECT_EQ(pose.cameras[1].name, "plan");
     EXPECT_TRUE(pose.cameras[1].orthographic);
+    EXPECT_EQ(pose.cameras[0].aspect, 2.5);
+    EXPECT_EQ(pose.cameras[1].xmag, 2);
     EXPECT_EQ(pose.cameras[1].ymag, 3);
     EXPECT_EQ(pose.cameras[1].far, 9);
 }
@@ -152,6 +156,10 @@ TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
         {perspective(1, 2, 2), "camera 0: zfar 2 is not beyond znear 2: taken as none", true, none},
         {perspective(1, 2, -1), "camera 0: zfar -1 is not beyond znear 2: taken as none", true, none},
         {perspective(1, 2, 0), "camera 0: zfar 0: taken as none", true, none},
+        {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", -2}, {"znear", 1}}}},
+         "camera 0: aspectRatio -2: not read",
+         true,
+         none},
         {orthographic(1, 0, 0, 9), "camera 0: ymag is 0: left out", false, 0},
         {orthographic(1, 1, -1, 9), "camera 0: znear -1 is negative: left out", false, 0},
         {orthographic(1, 1, 9, 9), "camera 0: zfar 9 is not beyond znear 9: left out", false, 0},
@@ -173,6 +181,7 @@ TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
         if (!c.stays) continue;
         EXPECT_EQ(scene.cameras.at(0).far, c.far) << c.note;
         EXPECT_EQ(scene.cameras[0].ymag, scene.cameras[0].orthographic ? 3 : 1);
+        EXPECT_GE(scene.cameras[0].aspect, 0);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Deviations from the specification that are common in real files: the scene is drawn, with a note.
+#include "shared/scene/motion/pose.h"
 #include "tests/support/gltf_maker.h"
 
 #include <fmt/format.h>
@@ -164,6 +165,86 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
     }
 }
 
+// A mesh or a primitive with a fault is left out where something else is drawn, and refused where it is all
+// there is.
+TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
+    struct Case {
+        const char* line;  // the fault; of mesh 1
+        const char* note;
+        std::function<void(GltfFile&, Json& mesh)> change;
+    };
+    const auto primitive = [](Json& mesh) -> Json& { return mesh["primitives"][0]; };
+    const Case cases[] = {
+        {"accessor 1: 300 vertices of 12 bytes end at 3600, past bufferView 1 (36 bytes)",
+         "mesh 1, primitive 0: left out, it needs accessor 1: 300 vertices of 12 bytes end at 3600, past "
+         "bufferView 1 (36 bytes)",
+         [](GltfFile& f, Json&) { f.json["accessors"][1]["count"] = 300; }},
+        {"accessor 1: componentType 7 is none of glTF's",
+         "mesh 1: left out, it needs accessor 1: componentType 7 is none of glTF's",
+         [](GltfFile& f, Json&) { f.json["accessors"][1]["componentType"] = 7; }},
+        {"mesh 1, primitive 0: attributes: POSITION names accessor 99, but the file has 2",
+         "mesh 1, primitive 0: attributes: POSITION names accessor 99, but the file has 2: left out",
+         [&](GltfFile&, Json& mesh) { primitive(mesh)["attributes"]["POSITION"] = 99; }},
+        {"mesh 1, primitive 0: index 1 of its indices is 9, past its 3 vertices",
+         "mesh 1, primitive 0: index 1 of its indices is 9, past its 3 vertices: left out",
+         [&](GltfFile& f, Json& mesh) {
+             primitive(mesh)["indices"] = f.accessor<std::uint8_t>({0, 9, 2}, UBYTE, "SCALAR", 1);
+         }},
+        {"mesh 1, primitive 0: NORMAL: 2 elements for 3 positions",
+         "mesh 1, primitive 0: NORMAL: 2 elements for 3 positions: left out",
+         [&](GltfFile& f, Json& mesh) {
+             primitive(mesh)["attributes"]["NORMAL"] =
+                 f.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
+         }},
+        {"mesh 1: 2 weights for 0 morph targets", "mesh 1: 2 weights for 0 morph targets: left out",
+         [](GltfFile&, Json& mesh) {
+             mesh["weights"] = {1, 0};
+         }},
+        {"buffer 1: gone.bin: no such file",
+         "mesh 1, primitive 0: left out, it needs buffer 1: gone.bin: no such file",
+         [](GltfFile& f, Json&) {
+             f.json["buffers"].push_back({{"byteLength", 36}, {"uri", "gone.bin"}});
+             f.json["bufferViews"][1] = {{"buffer", 1}, {"byteLength", 36}};
+         }},
+    };
+    for (const Case& c : cases) {
+        GltfFile f = GltfFile::triangle();
+        const int positions = f.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
+        f.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+        f.json["nodes"].push_back({{"mesh", 1}, {"name", "faulty"}});
+        f.json["scenes"][0]["nodes"] = {0, 1};
+        f.written();
+        Json mesh = f.json["meshes"][1];
+        c.change(f, mesh);
+        f.json["meshes"][1] = mesh;
+        const std::string buffers = f.json["buffers"].dump();
+        f.written();  // with what the change has added
+        if (f.json["buffers"].size() != Json::parse(buffers).size())
+            f.json["buffers"].push_back(Json::parse(buffers)[1]);
+        const Scene scene = loadAsIs(f);
+        EXPECT_EQ(std::ranges::count(scene.notes, c.note), 1) << c.note << "\n" << Json(scene.notes).dump(1);
+        EXPECT_EQ(f.only(scene).positions, corners) << c.note;
+        EXPECT_EQ(scene.meshes.at(1).primitives.size(), 0u) << c.note;
+        EXPECT_EQ(poseAt(scene, 0).instances.size(), 1u) << c.note;
+        f.json["scenes"][0]["nodes"] = {1};
+        EXPECT_EQ(errorAsIs(f), c.line);
+    }
+    // One of two primitives.
+    GltfFile f = GltfFile::triangle();
+    f.json["meshes"][0]["primitives"].push_back(f.primitive());
+    f.primitive()["indices"] = f.accessor<std::uint8_t>({0, 1, 7}, UBYTE, "SCALAR", 1);
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.notes,
+              Lines{"mesh 0, primitive 0: index 2 of its indices is 7, past its 3 vertices: left out"});
+    EXPECT_EQ(f.only(scene).positions, corners);
+    // A node's own weights of a mesh that is left out are no fault of their own.
+    GltfFile w = GltfFile::triangle();
+    w.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 7}}}}}}});
+    w.json["nodes"].push_back({{"mesh", 1}, {"weights", {1}}});
+    w.json["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_EQ(w.error(), "");
+}
+
 // What depends on a broken part is broken as well: an animation over a broken accessor over a broken view.
 TEST(GltfRepair, WhatNeedsABrokenThingIsLeftOutWithIt) {
     GltfFile f = GltfFile::triangle();
@@ -325,6 +406,35 @@ TEST(GltfRepair, FallbackBuffersMayBeMissing) {
                   uri ? Lines{"buffer 1: scene.fallback.bin: no such file: nothing that is drawn reads it"}
                       : Lines{});
     }
+}
+
+// Indices of 6 bytes, padded to 8 at the end of the buffer: the padding is counted, and not written.
+TEST(GltfRepair, PaddingThatIsNotThereIsNotNeeded) {
+    GltfFile f = GltfFile::triangle();
+    f.primitive()["indices"] = f.accessor<std::uint16_t>({2, 1, 0}, USHORT, "SCALAR", 1);
+    f.written();
+    ASSERT_EQ(f.data.size(), 42u);
+    const std::vector<glm::vec3> turned{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}};
+    f.json["bufferViews"][1]["byteLength"] = 8;
+    Scene scene = loadAsIs(f);
+    EXPECT_EQ(scene.notes,
+              Lines{"bufferView 1: 8 bytes from 36 on end past buffer 0 (42 bytes): nothing that is "
+                    "drawn reads further"});
+    EXPECT_EQ(f.only(scene).positions, turned);
+    f.json["buffers"][0]["byteLength"] = 44;
+    scene = loadAsIs(f);
+    EXPECT_EQ(scene.notes,
+              Lines{"buffer 0: holds 42 bytes of the 44 that its byteLength names: nothing that is "
+                    "drawn reads the others"});
+    EXPECT_EQ(f.only(scene).positions, turned);
+    // A byte that is drawn is needed.
+    write("a buffer.bin", f.data.substr(0, 41));
+    EXPECT_EQ(errorAsIs(f), "buffer 0: holds 41 bytes of the 44 that its byteLength names");
+    f.json["buffers"][0]["byteLength"] = 41;
+    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes from 36 on end past buffer 0 (41 bytes)");
+    // None of a view's is there.
+    f.json["bufferViews"][1]["byteOffset"] = 41;
+    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes from 41 on end past buffer 0 (41 bytes)");
 }
 
 // An empty view of an empty buffer is valid and empty.

@@ -143,6 +143,50 @@ TEST(Posed, NormalsMoveByTheInverseTranspose) {
     expectNear(v.normals[2], glm::normalize(glm::dvec3(1, 0, 1)), "not", 1e-7);
 }
 
+// Vertex 1 follows both joints by half, by hand. At rest and at half the length along x: inverse transposes
+// of 1 and (2, 1, 1), whose mean takes (1, 0, 1) to (1.5, 0, 1); the mean of the matrices is (0.75, 1, 1),
+// whose inverse takes it to (4/3, 0, 1). At rest and twice as large, turned from +Z to +X: half the inverse
+// of the latter counts, which takes +Z to (0.5, 0, 1); cofactors would be (4, 0, 1).
+TEST(Posed, ANormalIsTheMeanOfWhatEachJointMakesOfIt) {
+    const glm::dmat4 squashed = glm::scale(glm::dmat4(1), {0.5, 1, 1}),
+                     larger = turned(quarter, Y) * glm::scale(glm::dmat4(1), glm::dvec3(2));
+    const auto normals = [](const glm::dmat4& second, const glm::vec3& rest, bool blended) {
+        Scene scene = skinned(glm::dmat4(1), second);
+        only(scene).normals.assign(3, rest);
+        const Pose pose = poseAt(scene, 0);
+        return posedVertices(scene, pose, pose.instances.at(0), blended).normals;
+    };
+    const glm::vec3 slope = glm::normalize(glm::vec3(1, 0, 1));
+    expectNear(normals(squashed, slope, false)[1], glm::normalize(glm::dvec3(1.5, 0, 1)), "joints", 1e-7);
+    expectNear(normals(squashed, slope, true)[1], glm::normalize(glm::dvec3(4, 0, 3)), "blended", 1e-7);
+    expectNear(normals(larger, Z, false)[1], glm::normalize(glm::dvec3(0.5, 0, 1)), "joints");
+    // The mean of the matrices has the columns (0.5, 0, -1), (0, 1.5, 0), (1, 0, 0.5).
+    expectNear(normals(larger, Z, true)[1], glm::normalize(glm::dvec3(1, 0, 0.5)), "blended");
+    for (const std::size_t one : {0u, 2u}) {
+        expectNear(normals(squashed, slope, false)[one], normals(squashed, slope, true)[one], "one joint");
+        expectNear(normals(larger, Z, false)[one], normals(larger, Z, true)[one], "one joint");
+    }
+    // Mirrored as a whole, both stay on the front's side.
+    const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {1, 1, -1});
+    for (const bool blended : {false, true}) {
+        Scene scene = skinned(mirror, mirror * squashed);
+        only(scene).normals.assign(3, slope);
+        const Pose pose = poseAt(scene, 0);
+        EXPECT_LT(posedVertices(scene, pose, pose.instances.at(0), blended).normals[1].z, 0);
+    }
+}
+
+// A joint of scale 0 has no normal to add, and one that flattens has the last word.
+TEST(Posed, JointsWithoutAnInverseLeaveNoNaN) {
+    const glm::vec3 slope = glm::normalize(glm::vec3(1, 0, 1));
+    for (const auto& [scale, expected] :
+         {std::pair{glm::dvec3(0), glm::dvec3(slope)}, {glm::dvec3(1, 1, 0), Z}}) {
+        Scene scene = skinned(glm::dmat4(1), glm::scale(glm::dmat4(1), scale));
+        only(scene).normals.assign(3, slope);
+        expectNear(posed(scene).normals[1], expected, "half and half", 1e-7);
+    }
+}
+
 // Mirrored by its joints: the triangle's orientation is reversed, and its front is still on the same side.
 TEST(Posed, MirroredJointsKeepTheFront) {
     const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {-1, 1, 1});
