@@ -63,8 +63,7 @@ double largestExponent(bool half) {
 }
 
 MomentMaps::MomentMaps(Device& device)
-    : device_(device),
-      layout_(makeSetLayout(device, momentTypes)),
+    : layout_(makeSetLayout(device, momentTypes)),
       sampler_(makeNearestSampler(device)),
       sets_(device, layout_, momentTypes, SETS_OF_LAYER * gpu::MAX_CASCADES) {
     const VkDescriptorSetLayout layout = layout_;

@@ -53,7 +53,6 @@ public:
                        std::uint32_t layers, const Request& request);
 
 private:
-    Device& device_;
     OwnedDescriptorSetLayout layout_;
     OwnedPipelineLayout pipeline_layout_;
     OwnedSampler sampler_;

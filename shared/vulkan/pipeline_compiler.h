@@ -18,7 +18,7 @@ namespace diptych {
 struct PipelineKey;
 struct PipelineParts;
 struct ShaderModule;
-struct Variant;
+class Variant;
 
 class PipelineCompiler {
 public:
