@@ -64,8 +64,7 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
     result.environment = EnvironmentLight::isLit(seen.environment, settings);
     // What is not shaded per pixel cannot be shadowed.
-    if (const std::optional<CastingSun> sun = castingSun(lights, result, settings))
-        result.importance[sun->light] = Importance::important;
+    if (const std::optional<CastingSun> sun = castingSun(lights, result, settings)) result.base = sun->light;
     return result;
 }
 
