@@ -578,7 +578,7 @@ struct DrawingThread::State {
         next->camera = cameraOf(view.view);
         next->view = view.view;
         next->lights = view.lights;
-        next->plan = planLines(view, order.subject.settings.skinning);
+        next->plan = planLines(view, order.subject.settings);
         if (!passing) next->depth = now.at(right)->channels.at(depthMode);
         next->paths = paths;
         next->made_in_ms = msSince(start);
