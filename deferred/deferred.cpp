@@ -91,6 +91,27 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
     });
 }
 
+// What is drawn over the solid surfaces that are lit, and what becomes of it.
+void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, ImageRef lit) {
+    addBackground(passes, inputs, images.depth, lit);
+    addTransparent(passes, inputs, images.depth, lit);
+    images.lit_samples = lit;
+    images.lit = addResolve(passes, inputs, lit);
+    inputs.shadow.addMarks(passes, inputs, images.depth);
+}
+
+// Whether nothing solid is in view: then there is no G-buffer, and nothing to light.
+bool hasNothingSolid(const FrameInputs& inputs) {
+    return inputs.draws.solids().empty();
+}
+void addCleared(PassList& passes, const FrameInputs& inputs, FrameImages& images) {
+    const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
+    passes.draw("clear").color(lit, Load::clear).depth(images.depth, Load::clear).record([](VkCommandBuffer) {
+    });
+    inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
+    addRest(passes, inputs, images, lit);
+}
+
 }  // namespace
 
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
@@ -98,6 +119,10 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     addGeometryPasses(passes, inputs);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = sceneDepth(passes, inputs);
+    if (hasNothingSolid(inputs)) {
+        addCleared(passes, inputs, images);
+        return images;
+    }
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
         if (format == VK_FORMAT_UNDEFINED) continue;
@@ -124,23 +149,20 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
                             groups);
     }
     addFurtherGroups(passes, inputs, shaded, further, lit);
-    addBackground(passes, inputs, images.depth, lit);
-    addTransparent(passes, inputs, images.depth, lit);
-    images.lit_samples = lit;
-    images.lit = addResolve(passes, inputs, lit);
-    inputs.shadow.addMarks(passes, inputs, images.depth);
+    addRest(passes, inputs, images, lit);
     return images;
 }
 
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
+    const bool solid = !hasNothingSolid(inputs);
     // The frame's own G-buffer holds geometric normals only if shadows need them.
-    if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
-        request.modes.end())
+    if (solid && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
+                     request.modes.end())
         addGBuffer(passes, inputs, frame, true);
     const FrameImages shaded = forLighting(frame);
-    const LightBatch last = addEarlierLighting(passes, inputs, shaded);
+    const LightBatch last = solid ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
     for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
@@ -148,8 +170,11 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
             images.push_back(image);
         Variant variant = lightingVariant(inputs);
         variant.set(gpu::FEATURE_captures, group.images);
-        addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
-                            group.formats, last, inputs.samples);
+        if (solid)
+            addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
+                                group.formats, last, inputs.samples);
+        else
+            pass.record([](VkCommandBuffer) {});
         addTransparentCapture(passes, inputs, frame.depth, images);
     }
     return images;

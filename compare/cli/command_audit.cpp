@@ -6,6 +6,7 @@
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/cli/audit_opening.h"
+#include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
 #include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
@@ -15,11 +16,18 @@
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace diptych::cli {
 
@@ -57,6 +65,23 @@ Json fileFacts(const std::string& scene) {
     if (error) return nullptr;
     return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
 }
+
+// A folder of this command alone, removed at its end.
+struct TrialFolder {
+    std::filesystem::path path;
+
+    TrialFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "diptych-audit-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
+        path = name;
+    }
+    ~TrialFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    TrialFolder(const TrialFolder&) = delete;
+    TrialFolder& operator=(const TrialFolder&) = delete;
+};
 
 class Auditor {
 public:
@@ -155,8 +180,27 @@ private:
             },
             required));
         stage.at(1, fmt::format("{}: reduce what fails", quantity.name));
-        audit::addFailures(audit_.quantities.back(), subject, measurer, opened_.folder(), audit_.scenes);
+        const TrialFolder folder;
+        std::vector<std::string> device;
+        if (!options_.device.empty()) device = {"--device", options_.device};
+        const audit::Trial trial{folder.path, std::move(device), [&](std::vector<std::string> words) {
+                                     return compareFails(std::move(words), folder.path);
+                                 }};
+        audit::addFailures(audit_.quantities.back(), subject, measurer, trial, opened_.folder(),
+                           audit_.scenes);
         opened_.print(audit::inWords(audit_.quantities.back()));
+    }
+
+    // Runs a command that would be printed, as it would be typed.
+    bool compareFails(std::vector<std::string> words, const std::filesystem::path& folder) const {
+        const std::string out = (folder / "report").string();
+        words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
+        try {
+            return runCommand(parseCommandLine(words)) == 1;
+        } catch (const std::runtime_error& error) {
+            say(options_, fmt::format("{}: shows nothing: {}", words.back(), error.what()));
+            return false;
+        }
     }
 
     static std::optional<audit::Step> keptStep(const KeptFolder& kept, const std::string& name,

@@ -74,8 +74,8 @@ int runCompare(const Options& given) {
     const std::unique_ptr<Device> other = againstDevice(options);
     say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     KeptReferences kept(folder, true);
-    RenderOptions render = judgedOptions(renderOptions(options), options.settings,
-                                         isTraced(settings, baseline), other != nullptr, options.twice);
+    RenderOptions render = judgedOptions(renderOptions(options), settings, isTraced(settings, baseline),
+                                         other != nullptr, options.twice);
     render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
         return kept.open(key, floats);
     };

@@ -28,19 +28,17 @@ namespace diptych::cli {
 
 namespace {
 
-// Settings that choose what is seen.
-constexpr std::string_view ofTheView[] = {"size", "camera",       "time",   "animation",
-                                          "env",  "scene-lights", "lights", "seed"};
-
 // The other path, and what --test names.
-Settings testOf(const Options& options, std::string& name) {
-    Settings test = options.settings;
-    if (options.test.empty())
-        test.path = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
-    else
-        test.path = options.baseline;
+Settings testOf(const Options& options, const Settings& baseline, std::string& name) {
+    if (!options.test.empty() && options.sides.any())
+        throw std::runtime_error(
+            "--test: --deferred and --forward-plus say what the two pictures are; give no --test");
+    const Path other = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
+    Settings test = options.sides.of(options.settings, options.test.empty() ? other : options.baseline);
+    for (const SettingDifference& of : settingDifferences(baseline, test))
+        name += fmt::format(" --{} {}", of.option, of.test);
     for (const auto& [option, value] : options.test) {
-        if (std::ranges::find(ofTheView, option) != std::end(ofTheView))
+        if (std::ranges::find(viewOptions(), std::string_view(option)) != viewOptions().end())
             throw std::runtime_error(
                 fmt::format("--test {}={}: both pictures are of one view of one scene", option, value));
         test.set(option, value);
@@ -51,8 +49,6 @@ Settings testOf(const Options& options, std::string& name) {
         throw std::runtime_error(
             "--test path=reference: explain swaps what the two paths share; use deferred or "
             "forward_plus");
-    Settings baseline = options.settings;
-    baseline.path = options.baseline;
     if (test == baseline)
         throw std::runtime_error("--test: both pictures have the same Settings; name one that differs");
     if (const auto problem = test.problem()) throw std::runtime_error(*problem);
@@ -98,8 +94,7 @@ int explainScene(const Options& options) {
         throw std::runtime_error(fmt::format("--scene {}: is of two EXR files; here it is {}",
                                              options.scene_file, options.scenes.front()));
     ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
-    Settings baseline = options.settings;
-    baseline.path = options.baseline;
+    const Settings baseline = options.sides.of(options.settings, options.baseline);
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
     const bool external = !options.renderers.empty();
     if (external && (options.renderers.size() > 1 || !options.test.empty()))
@@ -111,10 +106,12 @@ int explainScene(const Options& options) {
             "--against-device {}: an explanation is of two pictures; give no --renderer and no --test",
             options.against_device));
     if (across) checkAgainstDevice(options, {baseline});
-    const Settings test = external || across ? baseline : testOf(options, of.test);
+    const Settings test = external || across ? baseline : testOf(options, baseline, of.test);
     if (external) of.test = options.renderers.front().name;
-    std::vector<std::string> again = withWords(
-        explainWords(of.scene, options.settings, options.baseline, options.test), options.renderer_words);
+    std::vector<std::string> again =
+        withWords(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
+                            options.renderer_words),
+                  wordsOf(options.sides));
     if (across)
         again = withOption(withOption(std::move(again), "--against-device", options.against_device),
                            "--device", options.device.empty() ? "0" : options.device);
@@ -123,7 +120,9 @@ int explainScene(const Options& options) {
     if (!external && !across)
         of.commands.push_back({"The test by itself", commandOf("render", of.scene, test)});
     if (options.test.empty() && !external)
-        of.commands.push_back({"Every channel of both", commandOf("compare", of.scene, baseline)});
+        of.commands.push_back(
+            {"Every channel of both",
+             shellLine(withWords(commandWords("compare", of.scene, baseline), wordsOf(options.sides)))});
     const PictureChoice picture = pictureChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, of.scene);

@@ -285,6 +285,7 @@ Options::Pixel pixelOf(const std::string& words) {
 // What each word means together with the others.
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
+    options.sides = readSides(parsed.sides, options.settings);
     options.cameras = parsed.cameras.empty() ? std::vector{options.settings.camera} : parsed.cameras;
     options.camera_given = !options.settings.camera.empty();
     const auto isGiven = [&](std::string_view option) {
@@ -432,8 +433,9 @@ Options parseCommandLine(const std::vector<std::string>& given) {
 }
 
 Options parseReported(const std::vector<std::string>& words) {
-    constexpr std::array taken{"--baseline", "--tolerances", "--against-device", "--device",
-                               "--mask",     "--ids",        "--ignore-edges",   "--crop"};
+    constexpr std::array taken{"--baseline", "--tolerances",  "--against-device", "--device",
+                               "--mask",     "--ids",         "--ignore-edges",   "--crop",
+                               "--deferred", "--forward-plus"};
     constexpr std::array flags{"--allow-noise", "--strict", "--allow-empty"};
     constexpr std::array left_out{"-o", "--renderer"};
     const auto isOneOf = [](const auto& options, const std::string& name) {

@@ -383,6 +383,17 @@ void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
         ->group(picture_group);
 }
 
+// Settings of one path.
+void addSides(CLI::App& app, ParsedOptions& parsed) {
+    for (std::size_t side = 0; side < drawn_paths.size(); ++side)
+        app.add_option(
+               sideOption(drawn_paths.at(side)), parsed.sides.at(side),
+               fmt::format("Settings of {} alone, as assign=every,shadows=off", nameOf(drawn_paths.at(side))))
+            ->type_name("NAME=VALUE,...")
+            ->allow_extra_args(false)
+            ->group(pixel_group);
+}
+
 void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
     app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
@@ -502,6 +513,8 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                            : "draw the baseline's path on this device, and explain what differs")
             ->type_name("INDEX|NAME")
             ->group(device_group);
+
+    if (command == "compare" || command == "explain" || command == "view") addSides(app, parsed);
 
     // view understands the options of every compare, so that one line can be given to either.
     if (command == "compare" || command == "view") {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,7 @@ struct ParsedOptions {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
+    std::array<std::string, 2> sides;  // of drawn_paths: NAME=VALUE,...
     std::vector<std::string> test;
     std::vector<std::string> renderers;  // NAME=FILE.json
     std::optional<std::string> times;

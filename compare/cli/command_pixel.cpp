@@ -69,6 +69,7 @@ int runPixel(const Options& options) {
                                          .reference = settings[0],
                                          .device = reportDevice(device),
                                          .rules = rules,
+                                         .light_differs = compare.light_differs,
                                          .progress = stage.part(0.1, 1)});
     checkValidation(device);
     wipeProgress();

@@ -179,7 +179,7 @@ int runPlan(const Options& options) {
         const ScenePlan result{
             scene.name,
             view.needs,
-            planLines(view, settings.front().skinning),
+            planLines(view, settings.front()),
             describedFrame(scene, view, settings.front()).notes,
             planPaths(device, views, settings),
             options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{},

@@ -140,6 +140,7 @@ int runView(const Options& given) {
     viewer::ViewerOptions view;
     view.subject.scene = options.scenes.front();
     view.subject.settings = options.settings;
+    view.subject.sides = options.sides;
     // Places in the picture, and pictures beside it, are of the size that compare would draw.
     view.size_given =
         options.size_given || options.pixel || options.selection.any() || !options.baseline_file.empty();
@@ -163,8 +164,7 @@ int runView(const Options& given) {
         throw std::runtime_error(fmt::format(
             "--pixel {},{}: outside the picture; --size sets how large it is", view.pixel->x, view.pixel->y));
     for (const Path path : drawn_paths) {
-        Settings settings = withoutReference(view.subject.settings);
-        settings.path = path;
+        const Settings settings = options.sides.of(withoutReference(view.subject.settings), path);
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
     }
     // What is wrong with the command is said before a window opens; what goes wrong later, in it.

@@ -67,7 +67,7 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
                 Settings settings = options.settings;
                 settings.camera = camera;
                 settings.time = time;
-                settings.path = path;
+                settings = options.sides.of(settings, path);
                 // A path drawn beside the reference gets no Setting that only the reference reads.
                 if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
                     settings = withoutReference(settings);

@@ -53,7 +53,7 @@ public:
           compare_(compareOptions(options)),
           items_(itemsOf(options, settings)),
           kept_(folder, "scenes", resumeKey(options, settings)),
-          render_(judgedOptions(renderOptions(options), options.settings, isTraced(settings, {}),
+          render_(judgedOptions(renderOptions(options), settings, isTraced(settings, {}),
                                 !options.against_device.empty(), options.twice)),
           progress_(progressOutput(options)),
           device_(deviceOptions(options)),

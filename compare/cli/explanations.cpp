@@ -128,6 +128,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
     if (!file) {
         std::vector<std::string> words =
             explainWords(right.scene, external ? left.settings : right.settings, left.settings.path, {});
+        if (!external) words = withWords(std::move(words), wordsOf(options.sides));
         if (external)
             words = withOption(std::move(words), "--renderer",
                                fmt::format("{}={}", right.name, right.origin.file));

@@ -12,6 +12,7 @@
 #include "compare/verdict/selection.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/settings.h"
+#include "shared/frame/sides.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -64,7 +65,8 @@ struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
     std::string command;  // "compare"
     std::vector<std::string> scenes{"builtin:gallery"};
-    Settings settings;  // settings.camera is the first of cameras, settings.time that of times
+    Settings settings;   // settings.camera is the first of cameras, settings.time that of times
+    SideSettings sides;  // compare, explain, view: what one path has on top of these
     std::vector<std::string> cameras{""};  // one Frame each, of every scene and path
     std::vector<double> times{0.0};        // compare: s, one Frame each, of every scene, camera and path
     int frames = 1;                        // render: so many pictures, the first at settings.time,

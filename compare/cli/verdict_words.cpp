@@ -75,9 +75,11 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
         addFlags(words, options);
         return words.words;
     }
+    const std::vector<std::string> sides = wordsOf(options.sides);
     words.add("--baseline", options.baseline_file.string(), std::string());
     words.add("--against-device", options.against_device, std::string());
     if (!options.against_device.empty()) words.add("--device", options.device, std::string());
+    words.words.insert(words.words.end(), sides.begin(), sides.end());
     addSelection(words, options.selection);
     if (options.allow_noise) words.words.emplace_back("--allow-noise");
     addFlags(words, options);
@@ -93,6 +95,8 @@ CompareOptions compareOptions(const Options& options) {
     compare.allow_empty = options.allow_empty;
     compare.required = options.channels;
     compare.words = wordsOfWhatCounts(options);
+    compare.light_differs = lightDifferences(options.sides.of(options.settings, drawn_paths[0]),
+                                             options.sides.of(options.settings, drawn_paths[1]));
     if (options.tolerances.empty()) return compare;
     compare.rules = readRules(options.tolerances);
     std::vector<std::string> known;

@@ -4,6 +4,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
 #include "compare/render/frame_facts.h"
+#include "compare/verdict/channel_diff.h"
 #include "compare/verdict/encoding_use.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -112,7 +113,8 @@ public:
           frames_{renderer.draw(question.baseline, drawingOf(question.progress.part(0, 0.3))),
                   renderer.draw(question.test, drawingOf(question.progress.part(0.3, 0.6)))},
           covered_(coverage(frames_[0], frames_[1])),
-          pair_{frames_[0], frames_[1], view_.needs, covered_, question.device.bitExact()},
+          pair_{frames_[0], frames_[1], view_.needs, covered_, question.device.bitExact(),
+                nullptr,    nullptr,    nullptr,     nullptr,  question.light_differs},
           pixel_(static_cast<std::size_t>(question.y) *
                      static_cast<std::size_t>(question.baseline.size.width) +
                  static_cast<std::size_t>(question.x)) {
@@ -184,6 +186,7 @@ private:
                     most ? rule->because
                          : rule->origin + " bounds no single pixel: " + conditionText(rule->fail)};
         }
+        if (isInformative(mode, pair_)) return informativeTolerance(pair_);
         Tolerance tolerance = derivedTolerance(mode, pair_);
         if (const auto allowed = encodingAllowed(mode, pair_, pixel_);
             allowed && question_.baseline.gbuffer != GBufferEncoding::full) {
@@ -215,7 +218,7 @@ private:
         step.differs = differs(onePixel(*images[0], pixel_), onePixel(*images[1], pixel_));
         step.tolerance = toleranceOf(mode);
         step.explained = encodingExplains(mode, pair_, pixel_);
-        const bool judged = ruleFor(question_.rules, mode.name) == nullptr;
+        const bool judged = ruleFor(question_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
         step.beyond = !(step.difference <= step.tolerance.max) || (judged && step.explained == false);
         story_.steps.push_back(std::move(step));
     }
@@ -329,23 +332,53 @@ private:
         }
     }
 
+    // Lights by object are in harmonics, too, which are made of all of them: none can be drawn alone.
+    static bool isByObject(const Settings& settings) { return settings.assign == Assignment::per_object; }
+
+    // What lobes reflect less the environment's share, as the one term of all lights.
+    void takeLightsTogether(const std::array<Rgb3, 2>& environment) {
+        std::array<Rgb3, 2> values{};
+        for (std::size_t side = 0; side < 2; ++side)
+            values.at(side) =
+                plus(plus(colorOf(side, gpu::DEBUG_lit_diffuse), colorOf(side, gpu::DEBUG_lit_specular)),
+                     environment.at(side), -1);
+        std::vector<std::size_t> all(view_.lights.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::optional<Rgb3> truth = Rgb3{};
+        double uncertainty = 0;
+        for (const std::size_t i : all)
+            if (truth && i < reference_.lights.size()) {
+                truth = plus(*truth, rgb(reference_.lights[i].all()));
+                uncertainty += reference_.lights[i].uncertainty;
+            } else {
+                truth.reset();
+            }
+        add(PixelTerm::Kind::other_lights, std::move(all), values, truth, uncertainty);
+    }
+
     void takeTerms() {
         std::array<LightTerms, 2> alone{renderer_.lightTerms(question_.baseline, false),
                                         renderer_.lightTerms(question_.test, false)};
         takeLists(alone);
-        takeLightTerms(alone);
+        const bool together = isByObject(question_.baseline) || isByObject(question_.test);
+        if (!together) takeLightTerms(alone);
+        std::array<Rgb3, 2> environment{};
         const auto both = [&](gpu::uint mode) { return std::array{colorOf(0, mode), colorOf(1, mode)}; };
         const reference::Shading& rest = reference_.without_lights;
         if (view_.environment && question_.baseline.ibl_intensity > 0) {
-            std::array<Rgb3, 2> values{};
             for (std::size_t side = 0; side < 2; ++side) {
                 const Settings& settings = side == 0 ? question_.baseline : question_.test;
                 LightTerms with = renderer_.lightTerms(settings, true);
-                values.at(side) = with.at({}, question_.x, question_.y);
+                environment.at(side) = with.at({}, question_.x, question_.y);
+                // Without the harmonics, which no light's own blackness darkens.
+                if (isByObject(settings))
+                    environment.at(side) =
+                        plus(environment.at(side), alone.at(side).at({}, question_.x, question_.y), -1);
             }
-            add(PixelTerm::Kind::environment, {}, values,
+            add(PixelTerm::Kind::environment, {}, environment,
                 rgb(rest.reflected.diffuse + rest.reflected.specular), rest.uncertainty);
         }
+        if (together && !view_.lights.empty()) takeLightsTogether(environment);
         const auto takeChannel = [&](PixelTerm::Kind kind, gpu::uint mode, const Rgb3& nothing) {
             const std::array<Rgb3, 2> values = both(mode);
             const Rgb3 reference = referenceOf(mode);

@@ -30,6 +30,7 @@ struct PixelQuestion {
     Settings reference;             // of the same view
     ReportDevice device;            // that they are drawn on
     std::span<const Rule> rules{};  // in place of the derived tolerances
+    std::string light_differs{};    // as CompareOptions::light_differs
     Stage progress{};
 };
 

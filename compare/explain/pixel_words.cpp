@@ -117,7 +117,9 @@ std::string titleOf(const PixelStory& story, const PixelTerm& term) {
         case PixelTerm::Kind::light:
             return lightTitle(story, term.lights.front());
         case PixelTerm::Kind::other_lights:
-            return fmt::format("{} other light{}", term.lights.size(), term.lights.size() == 1 ? "" : "s");
+            return fmt::format("{}{} light{}", term.lights.size(),
+                               term.lights.size() == story.lights.size() ? "" : " other",
+                               term.lights.size() == 1 ? "" : "s");
         case PixelTerm::Kind::environment:
             return "environment";
         case PixelTerm::Kind::ambient:
@@ -200,6 +202,9 @@ std::string listWords(const PixelStory& story) {
                                 same ? "both paths evaluate" : story.names.at(side) + " evaluates",
                                 lists.at(side).size(), story.lights.size(), nameOf(settings.assign),
                                 lists.at(side).empty() ? "" : ": ", fmt::join(lists.at(side), ", "));
+        else if (settings.assign == Assignment::per_object)
+            text += fmt::format("{}: its lights are those of the object (--assign per_object)\n",
+                                story.names.at(side));
         else
             text += fmt::format(
                 "{}: which lights its list holds is not told: what was read is not as long as light_count "
@@ -260,6 +265,10 @@ std::string residualText(const PixelStory& story) {
 std::string howTermsWereMade(const PixelStory& story) {
     const std::size_t all = story.lights.size(), alone = story.drawn_alone;
     if (all == 0) return "there are no lights\n";
+    for (const Settings& settings : story.settings)
+        if (settings.assign == Assignment::per_object)
+            return "lights by object are in harmonics, too, which are made of all of them: they are one "
+                   "term\n";
     std::string text = fmt::format("{} of {} lights drawn alone by both paths", alone, all);
     if (alone > 0) text += ", all others black in the same lists and shadow maps";
     if (alone == lightsDrawnAlone)

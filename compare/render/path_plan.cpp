@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
+#include "shared/scene/lights/casters.h"
 
 #include <fmt/format.h>
 
@@ -22,17 +23,37 @@ SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views,
     return {settings.msaa, bytes.geometry, bytes.all};
 }
 
+Requirements::Line shadowLine(const SceneView& view, const Settings& settings) {
+    constexpr const char* what = "shadows";
+    if (settings.shadows == Shadows::off) return {false, what, "--shadows off: no map, no pass"};
+    const bool sun = brightestSun(view.lights).has_value();
+    const std::size_t local = localCasting(view.lights, settings.shadow_lights).lights.size();
+    if (!sun && local == 0)
+        return {false, what, "no light casts: there is no sun, and no point or spot that is asked to"};
+    std::string casting = sun ? "the brightest sun" : "";
+    if (local > 0)
+        casting += fmt::format("{}{} point{} or spot{}", sun ? " and " : "", local, local == 1 ? "" : "s",
+                               local == 1 ? "" : "s");
+    return {true, what,
+            fmt::format("{} cast{}: --shadows {}", casting, (sun ? 1 : 0) + local == 1 ? "s" : "",
+                        nameOf(settings.shadows))};
+}
+
 }  // namespace
 
-std::vector<Requirements::Line> planLines(const SceneView& view, Skinning skinning) {
+std::vector<Requirements::Line> planLines(const SceneView& view, const Settings& settings) {
     std::vector<Requirements::Line> lines = view.needs.lines();
     for (Requirements::Line& line : lines) {
         if (view.default_sun && line.what == "directional lights")
             line.why = "the default sun, added because the scene has no light";
         if (line.modelled && line.what == "skins and morph targets")
-            line.why += skinning == Skinning::compute ? ", posed once a frame by kernels"
-                                                      : ", posed by the vertex shader of every draw";
+            line.why += settings.skinning == Skinning::compute ? ", posed once a frame by kernels"
+                                                               : ", posed by the vertex shader of every draw";
     }
+    lines.push_back(shadowLine(view, settings));
+    lines.push_back({settings.haze, "haze",
+                     settings.haze ? "--haze on: air scatters light between the viewer and all that is seen"
+                                   : "--haze off: there is no air"});
     return lines;
 }
 

@@ -12,8 +12,9 @@
 namespace diptych {
 
 // What the scene of a view needs modelled and what is left out, each with its reason in words. The sun that
-// the tool adds to an unlit scene is not the scene's, and what poses vertices is chosen by `skinning`.
-std::vector<Requirements::Line> planLines(const SceneView& view, Skinning skinning);
+// the tool adds to an unlit scene is not the scene's; what poses vertices, shadows and haze are chosen by
+// `settings`.
+std::vector<Requirements::Line> planLines(const SceneView& view, const Settings& settings);
 
 // What a pixel takes in images, with so many samples.
 struct SampledBytes {

@@ -64,8 +64,7 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
     result.environment = EnvironmentLight::isLit(seen.environment, settings);
     // What is not shaded per pixel cannot be shadowed.
-    if (const std::optional<CastingSun> sun = castingSun(lights, result, settings))
-        result.importance[sun->light] = Importance::important;
+    if (const std::optional<CastingSun> sun = castingSun(lights, result, settings)) result.base = sun->light;
     return result;
 }
 
@@ -126,7 +125,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
               settings.msaa, settings.cull, draws),
       posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
-              {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
+              {listsOf(settings.assign), kernelOf(settings.light_kernel, device), !draws.blended().empty()},
               objectPixelLights(settings),
               readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::table),
       environment(device, shared.uploader, shared.environments, scene.environment, scene.background,
@@ -151,7 +150,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
-          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, draws, settings),
+          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings),
           .gbuffer = gbuffer,
           .lighting = settings.lighting,
           .depth = depthStorage(settings.depth_format),

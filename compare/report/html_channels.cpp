@@ -146,7 +146,8 @@ private:
 
     std::string because() const {
         const std::string decides =
-            !channel_.rule.empty() ? fmt::format("Rule of {}", markup(channel_.rule))
+            channel_.verdict == Verdict::informative ? std::string("Informative")
+            : !channel_.rule.empty()                 ? fmt::format("Rule of {}", markup(channel_.rule))
             : channel_.encoding_use || channel_.device_use
                 ? fmt::format("Tolerance of each pixel's own, {} at most", number(channel_.tolerance.max))
                 : fmt::format("Tolerance {}", number(channel_.tolerance.max));

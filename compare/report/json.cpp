@@ -145,6 +145,8 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         found[std::string(feature.feature)] = feature.found;
         for (const VisualCheck& check : feature.checks) checks.push_back(jsonOf(feature, check));
     }
+    Json differing = Json::object();
+    for (const SettingDifference& of : comparison.differing) differing[of.option] = {of.baseline, of.test};
     return {
         {"scene", baseline.scene},
         {"camera", jsonOf(baseline.camera)},
@@ -153,6 +155,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"verdict", comparison.passed() ? "pass" : "fail"},
         {"covered_pixels", comparison.coverage.count},
         {"command", comparison.command},
+        {"differing_settings", differing},
         {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
         {"after_blending", comparison.after_blending ? jsonOf(*comparison.after_blending) : Json(nullptr)},
         {"failures", comparison.failures},

@@ -130,7 +130,7 @@ private:
                 ? fmt::format("{} {}, limit {}", channel.criterion->figure,
                               number(channel.criterion->measured), number(channel.criterion->limit))
                 : "nothing bounded";
-        if (channel.verdict == Verdict::pass)
+        if (channel.verdict != Verdict::fail)
             return fmt::format("      <system-out>{}{}\n</system-out>\n", warning, markup(limit));
         const ChannelStats& s = channel.stats;
         return failure("difference", channel.reason,

@@ -78,7 +78,8 @@ Frame frameFrom(const Place& json) {
     return frame;
 }
 
-constexpr Verdict verdicts[] = {Verdict::pass, Verdict::fail, Verdict::forward_only, Verdict::deferred_only};
+constexpr Verdict verdicts[] = {Verdict::pass, Verdict::fail, Verdict::forward_only, Verdict::deferred_only,
+                                Verdict::informative};
 
 Json summaryOf(const Comparison& comparison) {
     Json channels = Json::array(), checks = Json::array();

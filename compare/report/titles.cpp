@@ -48,7 +48,10 @@ std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison) {
     std::vector<const ChannelDiff*> channels;
     for (const ChannelDiff& channel : comparison.channels) channels.push_back(&channel);
     const auto rank = [](const ChannelDiff* c) {
-        return c->verdict == Verdict::fail ? 0 : c->verdict == Verdict::pass ? 1 : 2;
+        return c->verdict == Verdict::fail          ? 0
+               : c->verdict == Verdict::informative ? 1
+               : c->verdict == Verdict::pass        ? 2
+                                                    : 3;
     };
     std::ranges::stable_sort(channels, {}, rank);
     return channels;
@@ -185,12 +188,14 @@ std::string hardlyAnything(const Report& report) {
 }  // namespace
 
 std::string verdictLine(const Report& report) {
-    std::size_t compared = 0, alone_on_a_side = 0, failing = 0;
+    std::size_t compared = 0, informative = 0, alone_on_a_side = 0, failing = 0;
     std::vector<std::string> others, channels, places;
     for (const Comparison& comparison : report.comparisons) {
         for (const std::string& failure : comparison.failures) addOnce(others, failure);
         for (const ChannelDiff& channel : comparison.channels) {
-            ++(isCompared(channel.verdict) ? compared : alone_on_a_side);
+            ++(channel.verdict == Verdict::informative ? informative
+               : isCompared(channel.verdict)           ? compared
+                                                       : alone_on_a_side);
             if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
         failing += !comparison.passed();
@@ -205,9 +210,12 @@ std::string verdictLine(const Report& report) {
         return fmt::format("{}FAIL: {}{}", errors, alone, hardlyAnything(report));
     if (failing == 0)
         return fmt::format(
-            "{}pass: {}{} within tolerance{}{}", errors,
+            "{}pass: {}{} within tolerance{}{}{}", errors,
             compared == 1 ? "the one compared channel" : fmt::format("all {} compared channels", compared),
             (all == 1 ? "" : fmt::format(" of {} comparisons", all)) + (compared == 1 ? " is" : " are"),
+            informative == 0
+                ? ""
+                : fmt::format(", and {} of light decide nothing: the paths' Settings differ", informative),
             alone_on_a_side == 0 ? "" : fmt::format(" ({} more on one side alone)", alone_on_a_side),
             hardlyAnything(report));
     // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.

@@ -160,16 +160,20 @@ void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
 // Judges by the derived tolerance.
 void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
-    if (pair.across) {
+    if (isInformative(mode, pair)) {
+        channel.tolerance = informativeTolerance(pair);
+    } else if (pair.across) {
         channel.device_use = deviceUse(mode, pair);
         channel.tolerance = deviceTolerance(mode, pair, *channel.device_use);
     } else {
         judgePaths(channel, pair, allowNoise);
     }
-    channel.criterion = criterionOf(channel, pair, measurement);
-    setShare(*channel.criterion, pair.coverage);
-    channel.reason = faultOf(channel);
-    leadWithNonfinite(channel, pair);
+    if (!isInformative(mode, pair)) {
+        channel.criterion = criterionOf(channel, pair, measurement);
+        setShare(*channel.criterion, pair.coverage);
+        channel.reason = faultOf(channel);
+        leadWithNonfinite(channel, pair);
+    }
     // What this program drew must be what it may be at all, whatever it is compared with.
     for (const Frame* frame : {&pair.baseline, &pair.test}) {
         if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
@@ -202,8 +206,22 @@ std::string_view nameOf(Verdict verdict) {
             return "forward-only";
         case Verdict::deferred_only:
             return "deferred-only";
+        case Verdict::informative:
+            return "informative";
     }
     return "?";
+}
+
+bool isInformative(const DebugMode& mode, const FramePair& pair) {
+    // Blocks 20 to 40: light lists, shadows, terms of lit.
+    return !pair.light_differs.empty() && (isLit(mode.number) || (mode.number >= 20 && mode.number < 50));
+}
+
+Tolerance informativeTolerance(const FramePair& pair) {
+    return {std::numeric_limits<double>::infinity(),
+            fmt::format("the two sides are lit by other Settings ({}), so that it decides nothing; a rule of "
+                        "--tolerances judges it",
+                        pair.light_differs)};
 }
 
 double usedShare(const ChannelDiff& channel) {
@@ -224,11 +242,14 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
                                    pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
     channel.figures = measurement.all();
-    if (const Rule* rule = ruleFor(rules, mode.name))
+    const Rule* const rule = ruleFor(rules, mode.name);
+    if (rule)
         judge(channel, *rule, measurement);
     else
         judge(channel, pair, measurement, allowNoise);
-    channel.verdict = channel.reason.empty() ? Verdict::pass : Verdict::fail;
+    channel.verdict = !channel.reason.empty()              ? Verdict::fail
+                      : !rule && isInformative(mode, pair) ? Verdict::informative
+                                                           : Verdict::pass;
     return channel;
 }
 

@@ -22,12 +22,13 @@
 
 namespace diptych {
 
-enum class Verdict { pass, fail, forward_only, deferred_only };
+// informative: decides nothing, as both sides are lit by other Settings.
+enum class Verdict { pass, fail, forward_only, deferred_only, informative };
 // Both Frames have the channel.
 constexpr bool isCompared(Verdict verdict) {
-    return verdict == Verdict::pass || verdict == Verdict::fail;
+    return verdict == Verdict::pass || verdict == Verdict::fail || verdict == Verdict::informative;
 }
-std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only", "deferred-only"
+std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only", "deferred-only", "informative"
 
 struct ChannelDiff {
     const DebugMode* mode = nullptr;
@@ -56,6 +57,11 @@ struct ChannelDiff {
 
 // The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.
 double usedShare(const ChannelDiff& channel);
+
+// Whether a channel is of light, and the pair's sides are lit by other Settings: without a rule for it, it is
+// shown and decides nothing.
+bool isInformative(const DebugMode& mode, const FramePair& pair);
+Tolerance informativeTolerance(const FramePair& pair);
 
 // The channel of both Frames of the pair, judged by the last of `rules` that names it, or else by the
 // tolerance derived for it. `allowNoise`: on a GPU, what two runs of a path differ by is added to that.

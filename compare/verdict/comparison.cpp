@@ -103,10 +103,21 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
 void readBlending(const FramePair& pair, std::span<const Rule> rules, Comparison& comparison) {
     const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
     if (!pair.baseline.isRequested(lit.number) || !pair.test.isRequested(lit.number)) return;
+    if (isInformative(lit, pair) && !ruleFor(rules, lit.name)) return;
     comparison.after_blending = afterBlending(pair);
     if (!comparison.after_blending) return;
     const std::string fault = faultOf(*comparison.after_blending);
     if (!fault.empty()) (ruleFor(rules, lit.name) ? comparison.notes : comparison.failures).push_back(fault);
+}
+
+// Notes what two paths do not share.
+void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
+    for (const Frame* frame : {&left, &right})
+        if (isReferenceFrame(*frame) || frame->origin.external || !frame->origin.file.empty()) return;
+    comparison.differing = settingDifferences(left.settings, right.settings);
+    if (!comparison.differing.empty())
+        comparison.notes.push_back(fmt::format("{} and {} have Settings of their own: {}", left.name,
+                                               right.name, inWords(comparison.differing)));
 }
 
 // The forward+ Frame of this pair's scene and camera that tells what its encoding may do.
@@ -239,6 +250,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                    explaining(report, left, right),
                    options.texels ? &*options.texels : nullptr,
                    options.across};
+    if (!options.across) pair.light_differs = options.light_differs;
+    noteSides(left, right, comparison);
     std::optional<SurfaceGrid> grid;
     if (options.across) {
         pair.grid = &grid.emplace(pair);

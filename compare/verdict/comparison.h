@@ -12,6 +12,7 @@
 #include "compare/verdict/rules.h"
 #include "compare/verdict/selection.h"
 #include "shared/frame/frame.h"
+#include "shared/frame/sides.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Comparison {
     std::vector<std::string>
         failures;  // in addition to the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;               // what a reader must know although it is no failure
+    std::vector<SettingDifference> differing;     // of two paths: Settings that they do not share
     std::optional<AfterBlending> after_blending;  // where something is blended; a failure has its own line
     // Why the verdict says little: the pictures show hardly anything, or hardly a pixel was judged closely.
     std::string emptiness;
@@ -79,6 +81,9 @@ struct CompareOptions {
     bool allow_empty = false;  // pictures that show nothing, or hardly anything, are what is wanted
     // What the device makes of texels of 8 bits, which a reference in mode scene grants it.
     std::optional<TextureSampling> texels{};
+    // Settings by which the two paths are lit otherwise, in words (lightDifferences()): without rules,
+    // channels of light then decide nothing. Empty: they are lit alike.
+    std::string light_differs{};
     // One path on two devices; outlives the comparison.
     const AcrossDevices* across = nullptr;
     Stage progress{};  // of comparing

@@ -7,6 +7,8 @@
 #include "shared/material/texture_probe.h"
 #include "shared/scene/requirements.h"
 
+#include <string_view>
+
 namespace diptych {
 
 struct AcrossDevices;  // across_devices.h
@@ -30,6 +32,9 @@ struct FramePair {
     // One path on two devices, with its neighbours; else nullptr.
     const AcrossDevices* across = nullptr;
     const SurfaceGrid* grid = nullptr;
+
+    // As CompareOptions::light_differs; empty: both are lit alike.
+    std::string_view light_differs = {};
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };

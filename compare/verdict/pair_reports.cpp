@@ -19,8 +19,8 @@
 
 namespace diptych {
 
-RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across,
-                            Twice twice) {
+RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
+                            bool across, Twice twice) {
     render.through_gbuffer = true;
     render.twice = twice;
     render.environment_errors = true;
@@ -37,7 +37,7 @@ RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool
     if (across)
         for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
             helpers.push_back(static_cast<int>(mode));
-    if (settings.shadows != Shadows::off)
+    if (std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; }))
         for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
             helpers.push_back(static_cast<int>(mode));
     for (const int mode : helpers)

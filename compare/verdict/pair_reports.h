@@ -6,6 +6,7 @@
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace diptych {
 // What must be drawn of a path for a verdict on the channels of `render`: with what its G-buffer's encoding
 // makes of them, drawn twice, and with channels that nobody asked for but that tell which pixels count.
 // `traced`: some comparison is with a reference in mode scene; `across`: of two devices.
-RenderOptions judgedOptions(RenderOptions render, const Settings& settings, bool traced, bool across = false,
-                            Twice twice = Twice::lit);
+RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
+                            bool across = false, Twice twice = Twice::lit);
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
 // drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `checks`: one per pair,

@@ -390,8 +390,7 @@ struct DrawingThread::State {
 
     Settings settingsOf(Path path, const Size& size) const {
         const Size& full = order.subject.settings.size;
-        Settings settings = withoutReference(order.subject.settings);
-        settings.path = path;
+        Settings settings = order.subject.sides.of(withoutReference(order.subject.settings), path);
         settings.size = size;
         // Shadow maps cost what they cost however small the picture is, so they shrink with it.
         settings.shadow_size = std::max(std::min(settings.shadow_size, leastShadowSize),
@@ -579,7 +578,7 @@ struct DrawingThread::State {
         next->camera = cameraOf(view.view);
         next->view = view.view;
         next->lights = view.lights;
-        next->plan = planLines(view, order.subject.settings.skinning);
+        next->plan = planLines(view, order.subject.settings);
         if (!passing) next->depth = now.at(right)->channels.at(depthMode);
         next->paths = paths;
         next->made_in_ms = msSince(start);
@@ -618,8 +617,10 @@ struct DrawingThread::State {
         const Settings& settings = order.subject.settings;
         RenderOptions render = channelOptions(everyChannel());
         render.requested = everyChannel();
-        render = judgedOptions(std::move(render), settings, settings.reference_mode == ReferenceMode::scene,
-                               false, Twice::none);
+        const std::array both_settings{settingsOf(drawn_paths[0], settings.size),
+                                       settingsOf(drawn_paths[1], settings.size)};
+        render = judgedOptions(std::move(render), both_settings,
+                               settings.reference_mode == ReferenceMode::scene, false, Twice::none);
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
             if (judged_of == both && drawn == both && has(everyChannel())) {
@@ -628,12 +629,13 @@ struct DrawingThread::State {
             }
             render.progress =
                 stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-            pair.push_back(renderer->draw(settingsOf(drawn_paths.at(i), settings.size), render));
+            pair.push_back(renderer->draw(both_settings.at(i), render));
         }
         auto next = std::make_shared<Judged>();
         next->subject = both;
         const SceneView& view = views->at(viewRequest(pair[0].settings));
         CompareOptions compare = options.compare;
+        compare.light_differs = lightDifferences(both_settings[0], both_settings[1]);
         compare.progress = Stage(comparing, "verdict").part(0.8, 1);
         heed();
         const Against against = judgedAgainst();
@@ -682,7 +684,9 @@ struct DrawingThread::State {
                                .reference = referenceSettings(settings),
                                .device = reportDevice(*device),
                                .rules = options.compare.rules,
+                               .light_differs = {},
                                .progress = stage("this pixel")};
+        question.light_differs = lightDifferences(question.baseline, question.test);
         auto next =
             std::make_shared<Story>(Story{both, *order.pixel, pixelStory(*renderer, *views, question), {}});
         next->words = inWords(next->story);

@@ -83,7 +83,9 @@ const std::string& sceneOf(const InterfaceState& state) {
 }
 
 std::string renderCommand(const InterfaceState& state) {
-    std::vector<std::string> words = commandWords("render", sceneOf(state), state.subject.settings);
+    std::vector<std::string> words =
+        commandWords("render", sceneOf(state),
+                     state.subject.sides.of(state.subject.settings, state.subject.settings.path));
     if (state.look.mode != static_cast<int>(gpu::DEBUG_lit))
         words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.mode).name));
     if (state.look.exposure)
@@ -104,6 +106,10 @@ std::string compareCommand(const InterfaceState& state) {
 }
 
 void setOption(InterfaceState& state, const std::string& option, const std::string& word) {
+    if (state.subject.sides.names(option)) {
+        state.problem = fmt::format("--deferred and --forward-plus say what {} is", option);
+        return;
+    }
     try {
         state.edited.set(option, word);
         state.problem.clear();
@@ -117,8 +123,7 @@ void setOption(InterfaceState& state, const std::string& option, const std::stri
         return;
     }
     for (const Path path : drawn_paths) {
-        Settings settings = withoutReference(state.edited);
-        settings.path = path;
+        const Settings settings = state.subject.sides.of(withoutReference(state.edited), path);
         if (const auto problem = settings.problem()) {
             state.problem = *problem;
             return;

@@ -5,6 +5,7 @@
 #include "compare/picture/picture.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/settings.h"
+#include "shared/frame/sides.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct Subject {
     std::string scene;  // as on the command line
     int reading = 0;    // rises when the scene is to be read again
     Settings settings;
+    SideSettings sides;  // what one path has on top of them
     bool operator==(const Subject&) const = default;
 };
 

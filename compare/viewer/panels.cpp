@@ -171,8 +171,7 @@ void settingRow(InterfaceState& state, const Field& field) {
     const bool usual = value == Settings().valueOf(option);
     std::string unread;
     for (const Path path : drawn_paths) {
-        Settings settings = state.edited;
-        settings.path = path;
+        const Settings settings = state.subject.sides.of(state.edited, path);
         if (const std::string_view why = ignoredBecause(settings, option); !why.empty())
             unread += fmt::format("{}{} does not read it: {}", unread.empty() ? "" : "; ", nameOf(path), why);
     }
@@ -188,6 +187,10 @@ void settingRow(InterfaceState& state, const Field& field) {
         ImGui::TextColored(faint, "--%s %s; usually %s", option.c_str(), accepted.c_str(),
                            Settings().valueOf(option).empty() ? "empty" : Settings().valueOf(option).c_str());
         if (!unread.empty()) ImGui::TextColored(faint, "%s", unread.c_str());
+        if (state.subject.sides.names(option))
+            for (const Path path : drawn_paths)
+                ImGui::TextColored(faint, "%s has %s", std::string(nameOf(path)).c_str(),
+                                   state.subject.sides.of(state.edited, path).valueOf(option).c_str());
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
     }

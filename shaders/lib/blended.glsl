@@ -20,7 +20,7 @@ BlendedFragment blendedFragment() {
     cutOut(base_color);
     Surface s = surfaceFromMaterial(base_color);
     s.geometric_normal = quantiseGeometricNormal(s.geometric_normal);
-    Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, middleDepth()));
+    Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, middleDepth(), true));
     float covers = coverageOf(base_color), opacity = opacityOf(s, base_color);
     if (!on(feature_transmission)) return BlendedFragment(lit(radiance) * covers, covers, covers > 0.0);
     vec3 haze = radiance.haze;

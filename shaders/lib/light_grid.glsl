@@ -17,6 +17,9 @@ uint cellOf(vec2 pixel, float depth) {
     return (slice * grid.tiles.y + tile.y) * grid.tiles.x + tile.x;
 }
 
+// Tiled: the list of what is blended in a tile, from that of what is solid (LightGrid::lists).
+uint listInFront(uint list) { return grid.tiles.x * grid.tiles.y + list; }
+
 // View depths of a slice, m, a little wider than sliceOf() can round; the first begins at the camera and the
 // last has no end.
 vec2 sliceDepths(uint slice) {

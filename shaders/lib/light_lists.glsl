@@ -81,24 +81,23 @@ struct PixelLights {
 // The list of a pixel at a view depth, m. With several samples a pixel a triangle that is hidden in some of
 // them may be shaded farther away than the farthest surface that is seen in the tile: there the list is that
 // of all lights, which follows the tiles' ones.
-uint listAt(vec2 pixel, float depth) {
+uint listAt(vec2 pixel, float depth, bool blended) {
     uint list = cellOf(pixel, depth);
-    if (feature_light_lists == LISTS_TILED && feature_samples > 1) {
-        uint all = grid.tiles.x * grid.tiles.y;
-        list = depth > uintBitsToFloat(listed[all + 1u + list]) ? all : list;
-    }
+    if (feature_light_lists == LISTS_TILED && blended) list = listInFront(list);
+    if (feature_light_lists == LISTS_TILED && feature_samples > 1)
+        list = depth > uintBitsToFloat(listed[grid.lists + 1u + list]) ? grid.lists : list;
     return list;
 }
 
-// `pixel`: gl_FragCoord.xy; z: the reversed depth.
-PixelLights lightsAt(vec2 pixel, float z) {
+// `pixel`: gl_FragCoord.xy; z: the reversed depth; of a surface that is `blended` over solid ones.
+PixelLights lightsAt(vec2 pixel, float z, bool blended) {
     if (on(feature_object_lights)) {
         ObjectLights object = object_lights[constants.draw];
         return PixelLights(
             0u, LightListHead(object.local_begin, object.point_end, object.spot_end, object.area_end));
     }
     if (feature_light_lists != LISTS_NONE) {
-        uint list = listAt(pixel, viewDepth(z));
+        uint list = listAt(pixel, viewDepth(z), blended);
         uvec4 head = headTexel(list);
         return PixelLights(list, LIGHT_LIST_HEAD_OF_TEXEL(head));
     }
@@ -106,6 +105,8 @@ PixelLights lightsAt(vec2 pixel, float z) {
     uint areas = view.rect_light_count + view.disc_light_count + view.tube_light_count;
     return PixelLights(0u, LightListHead(0u, points, spots, spots + areas));
 }
+
+PixelLights lightsAt(vec2 pixel, float z) { return lightsAt(pixel, z, false); }
 
 // Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
 uint lightCount(PixelLights lights) {
@@ -115,7 +116,7 @@ uint lightCount(PixelLights lights) {
 }
 bool listOverflowed(PixelLights lights) {
     bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
-                  lights.list == grid.tiles.x * grid.tiles.y;
+                  lights.list == grid.lists;
     return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u &&
            !tooFar;
 }

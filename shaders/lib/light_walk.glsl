@@ -42,4 +42,11 @@ bool reachesCell(LightBound bound, uvec2 tile, uint slice) {
     return reaches(bound, cellBounds(tile, cellDepths(tile.y * grid.tiles.x + tile.x, slice)));
 }
 
+// With lights_in_front a tile has two lists. The light is tested for that of what is blended first, and where
+// it is in that one for that of what is solid, whose depths begin with the nearest of them (Harada, McKee and
+// Yang 2013, "Forward+: A Step Toward Film-Style Shading in Real Time", GPU Pro 4).
+bool reachesInFront(LightBound bound, uvec2 tile) {
+    return reaches(bound, cellBounds(tile, tile_depths[listInFront(tile.y * grid.tiles.x + tile.x)]));
+}
+
 #endif

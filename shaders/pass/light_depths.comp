@@ -4,8 +4,9 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 // The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
-// the larger one where nothing was drawn. With lights_in_front from the viewer on, and to any depth where a
-// pixel shows the background. One workgroup for each tile, one thread for four pixels.
+// the larger one where nothing was drawn. With lights_in_front also those of what is blended: from the viewer
+// on, and to any depth where a pixel shows the background. One workgroup for each tile, one thread for four
+// pixels.
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/reversed_depth.glsl"
@@ -20,22 +21,22 @@ ivec2 size() { return multisampled() ? textureSize(depth_samples) : textureSize(
 const float NO_DEPTH = 2.0;
 // Reversed depths as the bits of floats; of floats that are not negative the bits order as the values do.
 shared uint nearest, deepest;
+shared uint farthest;  // the same of all pixels: 0 where one shows the background
 
-void add(float z, inout float near, inout float deep) {
+void add(float z, inout float near, inout float deep, inout float far) {
     near = max(near, z);
-    // 0: nothing was drawn there, which counts where something may be blended. A constant, so that without it
-    // no code is left.
-    float beyond = on(feature_lights_in_front) ? -1.0 : 0.0;
-    deep = z > beyond ? min(deep, z) : deep;
+    deep = z > 0.0 ? min(deep, z) : deep;
+    if (on(feature_lights_in_front)) far = min(far, z);
 }
 
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
         nearest = 0u;
         deepest = floatBitsToUint(NO_DEPTH);
+        if (on(feature_lights_in_front)) farthest = floatBitsToUint(NO_DEPTH);
     }
     barrier();
-    float near = 0.0, deep = NO_DEPTH;
+    float near = 0.0, deep = NO_DEPTH, far = NO_DEPTH;
     uint side = 1u << grid.tile_shift;
     // In a tile of more pixels than the workgroup covers at once, each thread steps by LIGHT_TILE pixels
     // along both axes.
@@ -51,17 +52,17 @@ void main() {
                 ivec2 right = min(p + ivec2(1, 0), last), below = min(p + ivec2(0, 1), last);
                 int s = 0;
                 do {
-                    add(reversedDepth(texelFetch(depth_samples, p, s).r), near, deep);
-                    add(reversedDepth(texelFetch(depth_samples, right, s).r), near, deep);
-                    add(reversedDepth(texelFetch(depth_samples, below, s).r), near, deep);
-                    add(reversedDepth(texelFetch(depth_samples, min(p + 1, last), s).r), near, deep);
+                    add(reversedDepth(texelFetch(depth_samples, p, s).r), near, deep, far);
+                    add(reversedDepth(texelFetch(depth_samples, right, s).r), near, deep, far);
+                    add(reversedDepth(texelFetch(depth_samples, below, s).r), near, deep, far);
+                    add(reversedDepth(texelFetch(depth_samples, min(p + 1, last), s).r), near, deep, far);
                 } while (++s < int(feature_samples));
             } else {
                 vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
-                add(reversedDepth(z.x), near, deep);
-                add(reversedDepth(z.y), near, deep);
-                add(reversedDepth(z.z), near, deep);
-                add(reversedDepth(z.w), near, deep);
+                add(reversedDepth(z.x), near, deep, far);
+                add(reversedDepth(z.y), near, deep, far);
+                add(reversedDepth(z.z), near, deep, far);
+                add(reversedDepth(z.w), near, deep, far);
             }
         }
     } while (++i < steps * steps);
@@ -72,14 +73,18 @@ void main() {
         atomicMax(nearest, floatBitsToUint(near));
         atomicMin(deepest, floatBitsToUint(deep));
     }
+    if (on(feature_lights_in_front)) {
+        far = subgroupMin(far);
+        if (subgroupElect()) atomicMin(farthest, floatBitsToUint(far));
+    }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         bool drawn = nearest > 0u;
         float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
         float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
-        float endless = deepest > 0u ? largest : MAX_BOUND_RADIUS;
-        least = on(feature_lights_in_front) ? 0.0 : least;
-        largest = on(feature_lights_in_front) ? endless : largest;
-        tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] = vec2(least, largest);
+        uint tile = gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x;
+        tile_depths[tile] = vec2(least, largest);
+        if (on(feature_lights_in_front))
+            tile_depths[listInFront(tile)] = vec2(0.0, farthest > 0u ? largest : MAX_BOUND_RADIUS);
     }
 }

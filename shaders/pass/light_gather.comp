@@ -17,7 +17,7 @@ void main() {
     uint in_tile = candidates[tileWord(word, number)];
     uint run = (grid.slices + gl_NumWorkGroups.z - 1u) / gl_NumWorkGroups.z;
     uint slice = gl_WorkGroupID.z * run, end = in_tile != 0u ? min(slice + run, grid.slices) : 0u;
-    uint left = 0u, reached = 0u;
+    uint left = 0u, reached = 0u, in_front = 0u;
     while (slice < end) {
         // A loop of its own, of a few instructions, passes slices without candidates.
         while (slice < end && left == 0u) {
@@ -29,9 +29,16 @@ void main() {
             left ^= bit;
             LightBound bound = boundOf(word * 32u + uint(findLSB(bit)));
             uvec2 columns = columnsOfLight(bound, tile.y, slabOf(slice));
-            if (columns.x <= tile.x && tile.x < columns.y && reachesCell(bound, tile, slice)) reached |= bit;
+            bool within = columns.x <= tile.x && tile.x < columns.y;
+            if (on(feature_lights_in_front)) {
+                within = within && reachesInFront(bound, tile);
+                if (within) in_front |= bit;
+            }
+            if (within && reachesCell(bound, tile, slice)) reached |= bit;
             if (left == 0u) {
                 if (reached != 0u) masks[maskWord(word, slice * tiles + number)] = reached;
+                if (on(feature_lights_in_front) && in_front != 0u)
+                    masks[maskWord(word, listInFront(number))] = in_front;
                 reached = 0u;
                 ++slice;
             }

@@ -20,8 +20,13 @@ void main() {
         uint slice = slices.x + i / height, row = rect.z + i % height;
         uvec2 columns = columnsOfLight(bound, row, slabOf(slice));
         uint end = min(columns.y, rect.y);
-        for (uint column = max(columns.x, rect.x); column < end; ++column)
-            if (reachesCell(bound, uvec2(column, row), slice))
-                atomicOr(masks[maskWord(word, (slice * grid.tiles.y + row) * grid.tiles.x + column)], bit);
+        for (uint column = max(columns.x, rect.x); column < end; ++column) {
+            uint list = (slice * grid.tiles.y + row) * grid.tiles.x + column;
+            if (on(feature_lights_in_front)) {
+                if (!reachesInFront(bound, uvec2(column, row))) continue;
+                atomicOr(masks[maskWord(word, listInFront(list))], bit);
+            }
+            if (reachesCell(bound, uvec2(column, row), slice)) atomicOr(masks[maskWord(word, list)], bit);
+        }
     }
 }

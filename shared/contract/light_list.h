@@ -27,8 +27,9 @@ struct LightGrid {
     uint slices;         // of depth; 1 where tiled
     float slice_offset;  // m: slice = (bits of (depth + offset) - bits of offset) >> shift, as integers, at
     uint slice_shift;    //   most slices - 1: steps that grow with depth and are exact to tell, without a log
-    uint lists;          // one a cell: tiles.x * tiles.y * slices
-    uint list_stride;    // lists of one row of the masks: a multiple of four
+    uint lists;        // one a cell: tiles.x * tiles.y * slices; of tiles with lights_in_front as many again
+                       //   behind them, of what is blended: from the viewer on
+    uint list_stride;  // lists of one row of the masks: a multiple of four
     uint local_lights;
     uint first_local;    // directional lights before them
     uint point_end;      // numbers of points are below it,
@@ -105,7 +106,7 @@ CONTRACT_END
     X(0,  BOUNDS,      texel_buffer,   "LightBound[local_lights], three texels each")                     \
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
-    X(3,  TILE_DEPTHS, storage_buffer, "vec2[tiles]: least and largest view depth drawn there, m")        \
+    X(3,  TILE_DEPTHS, storage_buffer, "vec2[lists]: least and largest view depth of a tile's list, m")    \
     X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
     X(6,  HEADS,       storage_buffer, "LightListHead[lists + 1]: the last one of all local lights")      \

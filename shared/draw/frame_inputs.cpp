@@ -57,7 +57,7 @@ bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings) {
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, const DrawList& draws, const Settings& settings) {
+                     const GBufferLayout& gbuffer, const Settings& settings) {
     Variant variant;
     gpu::uint area = 0;
     if (lights.rect > 0) area |= gpu::AREA_RECTS;
@@ -75,7 +75,6 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_multiscatter, multiscatterOf(settings.multiscatter))
         .set(gpu::FEATURE_fitted_albedo,
              readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::fit)
-        .set(gpu::FEATURE_lights_in_front, !draws.blended().empty())
         .set(gpu::FEATURE_samples, settings.msaa > 1 ? static_cast<gpu::uint>(settings.msaa) : 0)
         .set(gpu::FEATURE_tonemapped_resolve, settings.resolve == Resolve::tonemapped)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic)

@@ -86,7 +86,7 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 
 // The features that are the same for all draws of a frame; shared/contract/features.h says which those are.
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, const DrawList& draws, const Settings& settings);
+                     const GBufferLayout& gbuffer, const Settings& settings);
 // Whether any pixel asks what a specular lobe reflects of light from everywhere.
 bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings);
 

@@ -20,7 +20,8 @@ inline constexpr std::string_view exponents =
 inline constexpr std::string_view needs_shadows = "has no meaning without --shadows";
 inline constexpr std::string_view needs_cascades =
     "has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4";
-inline constexpr std::string_view needs_reference = "has no meaning without --path reference";
+inline constexpr std::string_view needs_reference =
+    "has no meaning without a reference (--path reference, compare: --baseline reference)";
 inline constexpr std::string_view every_light = "the reference evaluates every light";
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
 inline constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
@@ -519,7 +520,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "resolve",
                 .help = "mean of a pixel's samples: of their radiance, or weighted by 1 / (1 + the largest "
                         "component)",
-                .default_only = {"has no meaning without --msaa 4 or --path reference",
+                .default_only = {"has no meaning without --msaa 4 or a reference",
                                  [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
                 .ignored = {.reference = "the reference takes one sample of a pixel",
                             .unless = row::hasReferenceSamples},

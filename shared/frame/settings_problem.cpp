@@ -2,6 +2,8 @@
 // Which Settings can be rendered, and in words why the others cannot.
 #include "shared/frame/settings.h"
 
+#include "shared/frame/setting_rows.h"
+
 #include <fmt/format.h>
 
 namespace diptych {
@@ -18,8 +20,9 @@ std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
 
 std::optional<std::string> deferredKnowsNoObjects(const Settings& s) {
     if (s.path != Path::deferred || s.assign != Assignment::per_object) return {};
-    return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which "
-           "object a pixel is of; use --path forward_plus";
+    return "--assign per_object has no meaning for deferred: its G-buffer does not say which object a pixel "
+           "is "
+           "of; use --path forward_plus, or where both paths are drawn --forward-plus assign=per_object";
 }
 
 std::optional<std::string> tilesNeedDepths(const Settings& s) {

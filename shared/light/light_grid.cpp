@@ -217,7 +217,7 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
     return pairs;
 }
 
-gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
+gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
                              std::uint64_t buffer_bytes) {
     gpu::LightGrid grid{};
@@ -237,7 +237,7 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
-        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices;
+        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices * (in_front ? 2 : 1);
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };
@@ -247,7 +247,7 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     };
     while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
-    const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds);
+    const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds) * (in_front ? 2 : 1);
     // Evaluating a packet of four lights costs as much as three packets of one, so wide packets pay for long
     // lists.
     grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;

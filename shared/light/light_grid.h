@@ -21,7 +21,8 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
 // Clustered tiles and slices have the sizes that cost least for the given lights by the device's `costs`, in
 // making lists and at pixels together; Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward
 // Shading", with bounds from the projection alone as in Persson 2013, "Practical Clustered Shading".
-gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
+// `in_front`: tiles have two lists each (LightGrid::lists).
+gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
                              std::uint64_t buffer_bytes);
 

@@ -67,11 +67,12 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
                        const View& view, const GpuLights& lights)
     : device_(device), layouts_(layouts), choice_(choice) {
     if (lights.local() == 0) choice_.lists = gpu::LISTS_NONE;
+    choice_.in_front = choice_.in_front && choice_.lists == gpu::LISTS_TILED;
     std::vector<gpu::LightBound> bounds;
     std::vector<gpu::uint> all;
     if (any()) {
         bounds = lightBounds(lights, view);
-        grid_ = makeLightGrid(choice_.lists, view, lights, bounds, device.profile().costs,
+        grid_ = makeLightGrid(choice_.lists, choice_.in_front, view, lights, bounds, device.profile().costs,
                               std::min(std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes));
         all = listOfAll(grid_);
     }
@@ -123,7 +124,8 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
         buffer("used words of light masks", std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
-    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec2));
+    tile_depths_ =
+        buffer("tile depths", choice_.lists == gpu::LISTS_TILED ? grid_.lists : 0, sizeof(gpu::vec2));
     overflow_ = buffer("light list overflow", 1, 4);
     overflow_seen_ = GpuBuffer(device, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                MemoryUse::readback);
@@ -146,7 +148,8 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
 void LightLists::specialise(Variant& variant) const {
     variant.set(gpu::FEATURE_light_lists, choice_.lists)
         .set(gpu::FEATURE_list_width, any() ? grid_.width : 1)
-        .set(gpu::FEATURE_addressed_lights, addressed_);
+        .set(gpu::FEATURE_addressed_lights, addressed_)
+        .set(gpu::FEATURE_lights_in_front, choice_.in_front);
 }
 
 void LightLists::bind(DescriptorSets& frame) const {

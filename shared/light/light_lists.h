@@ -51,6 +51,7 @@ public:
     struct Choice {
         gpu::uint lists = gpu::LISTS_NONE;  // LISTS_*; none: buffers to bind and no pass
         ListKernel kernel = ListKernel::scatter;
+        bool in_front = false;  // tiled, and something is blended: FEATURE_lights_in_front
     };
 
     // `frame_set` of addPasses() must hold View and what this binds. Throws std::runtime_error where memory
@@ -63,7 +64,7 @@ public:
     // Whether shaders read lights and lists by their addresses, as one of these has more texels than a texel
     // buffer of the device.
     bool addressed() const { return addressed_; }
-    void specialise(Variant& variant) const;  // light_lists, list_width, addressed_lights
+    void specialise(Variant& variant) const;  // light_lists, list_width, addressed_lights, lights_in_front
 
     // Writes the bindings LIGHT_GRID, LIST_HEADS, LIST_INDICES and LIST_COUNTS of a frame's set.
     void bind(DescriptorSets& frame) const;
@@ -80,7 +81,8 @@ public:
     std::uint64_t bytes() const;
     // The local lights that the last frame's list at a pixel holds, as their places in GpuLights::lights, in
     // ascending order; empty without lists. `depth`: what the pixel shows, view depth, m. Reads back. A
-    // surface of several samples that lies behind its tile's depths has another list, that of all lights.
+    // surface of several samples that lies behind its tile's depths has another list, that of all lights, and
+    // so has a tile's blended surface.
     std::vector<gpu::uint> lightsAt(int x, int y, float depth) const;
     // What the last frame left, for tests: heads, then all numbers of the index buffer.
     const GpuBuffer& heads() const { return heads_; }

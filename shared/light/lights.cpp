@@ -2,6 +2,7 @@
 #include "shared/light/lights.h"
 
 #include "shared/contract/constants.h"
+#include "shared/scene/lights/casters.h"
 #include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
@@ -86,6 +87,12 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
     };
     const auto take = [&](LightKind kind, std::uint32_t& count) { takeThose(kind, false, count); };
     take(LightKind::directional, result.directional);
+    for (std::size_t i = 0; i < result.directional; ++i) {
+        const auto strength = [&](std::size_t light) { return strengthOf(lights[result.sources[light]]); };
+        if (result.importance[i] != Importance::not_important &&
+            (!result.base || strength(i) > strength(*result.base)))
+            result.base = i;
+    }
     takeThose(LightKind::point, true, result.casting_points);
     result.point = result.casting_points;
     take(LightKind::point, result.point);

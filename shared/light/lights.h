@@ -5,6 +5,7 @@
 #include "shared/contract/light.h"
 #include "shared/scene/model/scene.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct GpuLights {
     std::vector<gpu::AreaLight> area_lights;  // and the null light's
     std::vector<Importance> importance;       // of all but the null light
     std::vector<std::size_t> sources;         // of the same: its place among the lights it was made of
-    bool environment = false;                 // an environment lights the scene beside them
-    glm::vec3 ambient{0};                     // W/(sr m^2), from everywhere
+    // --assign per_object: the directional light that is always shaded per pixel, the brightest one that is
+    // not marked not_important; the sun that casts, where one does.
+    std::optional<std::size_t> base;
+    bool environment = false;  // an environment lights the scene beside them
+    glm::vec3 ambient{0};      // W/(sr m^2), from everywhere
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
     std::uint32_t casting_points = 0, casting_spots = 0;  // the first of their kind
     std::uint32_t area() const { return rect + disc + tube; }

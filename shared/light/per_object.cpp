@@ -9,9 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace diptych {
 
@@ -74,6 +74,38 @@ ObjectPlace widened(ObjectPlace object) {
     return object;
 }
 
+// The shares of lights in a group that has room for `room` of `members`, or in a better one, by light: those
+// that they have in better ones are `taken`. Puts the brightest in front, of equals those that come first in
+// the scene: `sources` says where a light stands there. Equal is what is so in float32: double's rounding
+// ranks nothing.
+std::vector<double> sharesIn(std::vector<std::size_t>& members, std::size_t room,
+                             std::span<const double> brightness, std::span<const std::size_t> sources,
+                             std::span<const double> taken) {
+    if (members.size() <= room) return std::vector<double>(brightness.size(), 1.0);
+    const auto key = [&](std::size_t i) { return std::pair(-static_cast<float>(brightness[i]), sources[i]); };
+    std::ranges::nth_element(members, members.begin() + static_cast<std::ptrdiff_t>(room), {}, key);
+    const double threshold = brightness[members[room]];  // of the first without room
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < brightness.size(); ++i)
+        shares.push_back(std::max(taken[i], fade(brightness[i], threshold)));
+    // What the brighter ones leave is for those that are exactly as bright.
+    double left = static_cast<double>(room);
+    std::vector<std::size_t> equal;
+    for (const std::size_t i : members)
+        if (static_cast<float>(brightness[i]) == static_cast<float>(threshold))
+            equal.push_back(i);
+        else
+            left -= shares[i] - taken[i];
+    if (equal.size() < 2) return shares;
+    std::ranges::sort(equal, {}, [&](std::size_t i) { return sources[i]; });
+    for (const std::size_t i : equal) {
+        const double more = std::clamp(left, 0.0, 1 - taken[i]);
+        shares[i] = taken[i] + more;
+        left -= more;
+    }
+    return shares;
+}
+
 }  // namespace
 
 double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object) {
@@ -109,41 +141,30 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
     const std::size_t count = lights.count();
     std::vector<double> brightness(count);
     for (std::size_t i = 0; i < count; ++i) brightness[i] = brightnessAt(lights, i, object);
-    const auto importance = [&](std::size_t i) { return lights.importance[i]; };
-
-    // The k-th brightest, from 0; no light at all where there are fewer.
-    const auto ranked = [](std::vector<double>& values, std::size_t k) {
-        if (k >= values.size()) return 0.0;
-        std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(k), std::greater<>());
-        return values[k];
-    };
-    std::vector<double> byRank, suns;
+    std::vector<std::size_t> ranked, others;
     for (std::size_t i = 0; i < count; ++i) {
-        if (importance(i) != Importance::automatic) continue;
-        byRank.push_back(brightness[i]);
-        if (i < lights.directional) suns.push_back(brightness[i]);
+        if (!(brightness[i] > 0)) continue;
+        if (lights.importance[i] == Importance::automatic) ranked.push_back(i);
+        if (lights.importance[i] == Importance::not_important) others.push_back(i);
     }
-    const double noPixel = ranked(byRank, pixels), noBase = ranked(suns, 1);
-    // Who is left when the pixels have theirs.
-    std::vector<double> others(
-        byRank.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(pixels, byRank.size())),
-        byRank.end());
-    for (std::size_t i = 0; i < count; ++i)
-        if (importance(i) == Importance::not_important) others.push_back(brightness[i]);
-    const double noVertex = ranked(others, vertexLights);
+    const std::vector<double> none(count);
+    std::vector<double> pixel = sharesIn(ranked, pixels, brightness, lights.sources, none);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool always = lights.importance[i] == Importance::important || i == lights.base;
+        if (always) pixel[i] = 1;
+        if (!always && lights.importance[i] == Importance::not_important) pixel[i] = 0;
+    }
+    // Those that are left when the pixels have theirs.
+    if (pixels < ranked.size())
+        others.insert(others.end(), ranked.begin() + static_cast<std::ptrdiff_t>(pixels), ranked.end());
+    const std::vector<double> either = sharesIn(others, vertexLights, brightness, lights.sources, pixel);
 
     std::vector<LightShares> shares(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (!(brightness[i] > 0)) continue;
-        double pixel = importance(i) == Importance::important ? 1 : 0;
-        if (importance(i) == Importance::automatic) {
-            pixel = fade(brightness[i], noPixel);
-            if (i < lights.directional) pixel = std::max(pixel, fade(brightness[i], noBase));
-        }
-        const double either = std::max(pixel, fade(brightness[i], noVertex));
         // Vertices know no area lights.
-        const double vertex = areaOf(lights, i) ? 0 : either - pixel;
-        shares[i] = {pixel, vertex, 1 - (pixel + vertex)};
+        const double vertex = areaOf(lights, i) ? 0 : either[i] - pixel[i];
+        shares[i] = {pixel[i], vertex, 1 - (pixel[i] + vertex)};
     }
     return shares;
 }

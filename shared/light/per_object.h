@@ -38,8 +38,9 @@ struct LightShares {
 };
 
 // `pixels`: lights per pixel. By marks (Light::importance) an important light is shaded per pixel wherever it
-// reaches, beside those that `pixels` has room for; one that is not important never. The brightest
-// directional light is shaded per pixel even if there is no room.
+// reaches, beside those that `pixels` has room for; one that is not important never. GpuLights::base is
+// shaded per pixel even if there is no room. Lights that are exactly as bright as the first one without room
+// fill what is left of it, in the scene's order.
 std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object,
                                      std::uint32_t pixels);
 

@@ -32,7 +32,7 @@ RenderOptions drawnOptions() {
     RenderOptions options;
     for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
     options.runs = 0;
-    options = judgedOptions(options, {}, false, true, Twice::none);
+    options = judgedOptions(options, std::vector<Settings>(1), false, true, Twice::none);
     return options;
 }
 

@@ -81,11 +81,12 @@ struct Lists {
     std::vector<std::vector<gpu::uint>> lists;  // lights in their order
 };
 
-// `nearer`: factor applied to the picture's depths before they are drawn.
+// `nearer`: factor applied to the picture's depths before they are drawn. `in_front`: something is blended.
 Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
-              double nearer = 1) {
+              double nearer = 1, bool in_front = false) {
     KernelFrame frame(probeDevice(), view);
-    LightLists made(probeDevice(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel}, view, lights);
+    LightLists made(probeDevice(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel, in_front},
+                    view, lights);
     made.bind(frame.sets());
     Pipelines pipelines(probeDevice(), VK_NULL_HANDLE);
     PassList passes(probeDevice(), width, height);
@@ -250,6 +251,40 @@ TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
     EXPECT_GT(all.only_background, 3);
     EXPECT_GT(all.part_background, 10);
     EXPECT_EQ(all.empty, all.only_background) << "nothing to light";
+}
+
+// Where something is blended a tile has a second list, from the viewer on, and without an end where a pixel
+// shows the background; that of what is solid is the same as ever.
+TEST(TileLists, OfWhatIsBlendedReachFromTheViewer) {
+    const View view = plainView(width, height);
+    const Depths depths = randomDepths(34);
+    const std::vector<Light> lights = randomLights(34);
+    const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
+    const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
+    const Lists solid = listsOf(view, depths, gpu, ListKernel::scatter);
+    const std::size_t tiles = solid.lists.size();
+    for (const ListKernel kernel : {ListKernel::scatter, ListKernel::gather}) {
+        const Lists both = listsOf(view, depths, gpu, kernel, 1, true);
+        ASSERT_EQ(both.lists.size(), 2 * tiles);
+        Count count;
+        std::size_t longer = 0;
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 7; ++x) {
+                const std::size_t tile = static_cast<std::size_t>(y * 7 + x);
+                EXPECT_EQ(both.lists[tile], solid.lists[tile]) << x << "," << y;
+                TileCell cell = cellOf(view, depths, x, y);
+                cell.cell.z.x = 0;
+                if (cell.background) cell.cell.z.y = 1e6;
+                const std::vector<gpu::uint>& blended = both.lists[tiles + tile];
+                hold(count, blended, lights, bounds, cell.cell);
+                EXPECT_TRUE(std::ranges::includes(blended, solid.lists[tile]));
+                longer += blended.size() > solid.lists[tile].size();
+            }
+        EXPECT_EQ(count.missed, 0);
+        EXPECT_GT(count.meeting, 1000);
+        EXPECT_EQ(count.far_kept, 0);
+        EXPECT_GT(longer, tiles / 2) << "the second test leaves lights out";
+    }
 }
 
 // Negative control: lists for a picture that is 1 % nearer lack lights of this one.

@@ -62,6 +62,19 @@ void expectListsAreTold(const json& story) {
     }
 }
 
+// Lights by object cannot be drawn one by one; what they add is told all the same.
+TEST(PixelTool, LightsByObjectAreOneTerm) {
+    const Folder folder;
+    for (const std::string scene : {"builtin:points", "builtin:furnace"}) {
+        const json story = storyOf(
+            folder, scene + " --size 64x36 --forward-plus assign=per_object,pixel-lights=2 --pixel 30,24");
+        expectTermsAddUp(story);
+        const json& lights = named(story["terms"], "kind", "other_lights");
+        EXPECT_EQ(lights["lights"].size(), story["lights"].size());
+        EXPECT_GT(lights["difference"], 0) << "and they are not the same lights";
+    }
+}
+
 TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
     const Folder folder;
     for (const std::string scene : {"builtin:gallery", "builtin:points", "builtin:areas"}) {

@@ -9,12 +9,16 @@
 
 namespace diptych {
 
+double strengthOf(const Light& light) {
+    return luminance(glm::dvec3(light.color)) * double{light.intensity};
+}
+
 std::optional<std::size_t> brightestSun(std::span<const Light> lights) {
     std::optional<std::size_t> brightest;
     double most = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (lights[i].kind != LightKind::directional) continue;
-        const double brightness = luminance(glm::dvec3(lights[i].color)) * double{lights[i].intensity};
+        const double brightness = strengthOf(lights[i]);
         if (brightness > most) {
             most = brightness;
             brightest = i;
@@ -31,9 +35,7 @@ int shadowTiles(const Light& light) {
 }
 
 LocalCasting localCasting(std::span<const Light> lights, int brightest) {
-    const auto intensity = [&](std::size_t i) {
-        return luminance(glm::dvec3(lights[i].color)) * double{lights[i].intensity};
-    };
+    const auto intensity = [&](std::size_t i) { return strengthOf(lights[i]); };
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if ((lights[i].kind == LightKind::point || lights[i].kind == LightKind::spot) && intensity(i) > 0 &&

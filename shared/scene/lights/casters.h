@@ -13,6 +13,8 @@ namespace diptych {
 
 // Of the directional lights the one with the most luminance, the first of several; nothing where none shines.
 std::optional<std::size_t> brightestSun(std::span<const Light> lights);
+// By which lights of one kind are compared: the luminance of color x intensity.
+double strengthOf(const Light& light);
 
 // How many tiles of the atlas of local shadows a point or a spot takes (shared/contract/local_shadow.h): one
 // for a spot whose cone fits a face; else one for each face that it may reach.

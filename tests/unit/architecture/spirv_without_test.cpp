@@ -59,12 +59,32 @@ std::vector<Without> withouts() {
           "forward_capture.frag", "forward_shade.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
-         {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},
+         {{"shaders/pass/light_depths.comp", "    if (on(feature_lights_in_front)) far = min(far, z);\n"},
           {"shaders/pass/light_depths.comp",
-           "        float endless = deepest > 0u ? largest : MAX_BOUND_RADIUS;\n"
-           "        least = on(feature_lights_in_front) ? 0.0 : least;\n"
-           "        largest = on(feature_lights_in_front) ? endless : largest;\n"}},
-         {"light_depths.comp"}},
+           "        if (on(feature_lights_in_front)) farthest = floatBitsToUint(NO_DEPTH);\n"},
+          {"shaders/pass/light_depths.comp",
+           "    if (on(feature_lights_in_front)) {\n"
+           "        far = subgroupMin(far);\n"
+           "        if (subgroupElect()) atomicMin(farthest, floatBitsToUint(far));\n"
+           "    }\n"},
+          {"shaders/pass/light_depths.comp",
+           "        if (on(feature_lights_in_front))\n"
+           "            tile_depths[listInFront(tile)] = vec2(0.0, farthest > 0u ? largest : "
+           "MAX_BOUND_RADIUS);\n"},
+          {"shaders/pass/light_scatter.comp",
+           "            if (on(feature_lights_in_front)) {\n"
+           "                if (!reachesInFront(bound, uvec2(column, row))) continue;\n"
+           "                atomicOr(masks[maskWord(word, listInFront(list))], bit);\n"
+           "            }\n"},
+          {"shaders/pass/light_gather.comp",
+           "            if (on(feature_lights_in_front)) {\n"
+           "                within = within && reachesInFront(bound, tile);\n"
+           "                if (within) in_front |= bit;\n"
+           "            }\n"},
+          {"shaders/pass/light_gather.comp",
+           "                if (on(feature_lights_in_front) && in_front != 0u)\n"
+           "                    masks[maskWord(word, listInFront(number))] = in_front;\n"}},
+         {"light_depths.comp", "light_gather.comp", "light_scatter.comp"}},
     };
 }
 

@@ -38,6 +38,7 @@ TEST(VerdictWords, OfCompareAreThoseThatWereGiven) {
              VerdictWordList{"--tolerances", "t.json", "--baseline", "b.exr"},
              {"--mask", "m.png", "--ids", "1,3", "--ignore-edges", "2", "--crop", "1,2,30x40"},
              {"--allow-noise", "--strict"},
+             {"--deferred", "shadows=evsm,ambient=1,0,0", "--forward-plus", "shadows=pcf,ambient=0,0,0"},
              {"--allow-empty"},
          })
         EXPECT_EQ(wordsAgain({"compare", "builtin:points"}, said), said);

@@ -72,7 +72,7 @@ TEST(HostMemory, IsAboutWhatCommandsTake) {
         RenderOptions options = channels(m.all);
         if (m.compare) {
             settings.push_back(settingsOf(Path::forward_plus, m.size, m.msaa));
-            options = judgedOptions(options, settings[0], false, false);
+            options = judgedOptions(options, settings, false, false);
         }
         const double estimate =
             m.scene +

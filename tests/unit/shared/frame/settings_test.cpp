@@ -504,10 +504,10 @@ TEST(Settings, LightsByObjectAreForwardPlussAlone) {
     EXPECT_EQ(s.problem().value_or("none"), "--pixel-lights -1: is at least 0");
     s.pixel_lights = 4;
     s.path = Path::deferred;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--assign per_object has no meaning with --path deferred: its G-buffer does not say which "
-              "object a pixel "
-              "is of; use --path forward_plus");
+    EXPECT_EQ(
+        s.problem().value_or("none"),
+        "--assign per_object has no meaning for deferred: its G-buffer does not say which object a pixel is "
+        "of; use --path forward_plus, or where both paths are drawn --forward-plus assign=per_object");
 }
 
 TEST(Settings, TheReferenceHasMoreThanThePaths) {
@@ -528,8 +528,10 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     }
     s.spp = 1;
     s.path = Path::deferred;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--reference-mode scene has no meaning without --path reference; use surface");
+    EXPECT_EQ(
+        s.problem().value_or("none"),
+        "--reference-mode scene has no meaning without a reference (--path reference, compare: --baseline "
+        "reference); use surface");
 }
 
 // The reference traces shadows and samples lights: Settings of particular techniques for these do not affect

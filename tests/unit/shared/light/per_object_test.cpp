@@ -300,6 +300,82 @@ TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
     for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(shares[i].pixel, 0);
     lights[6].importance = Importance::not_important;
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[0].pixel, 0);
+    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[1].pixel, 1) << "then the next one is the base";
+    // One that casts is the base whatever it is marked as, and no other sun is one beside it.
+    GpuLights casting = fromEye(lights);
+    casting.base = 0;
+    EXPECT_EQ(lightShares(casting, unitBox, 0)[0].pixel, 1);
+    EXPECT_EQ(lightShares(casting, unitBox, 0)[1].pixel, 0);
+}
+
+// Whatever other suns there are, it has no part per vertex or in harmonics.
+TEST(PerObject, TheBaseIsWholeBesideSunsAsBright) {
+    for (const float second : {1.0f, 0.999f, 0.5f})
+        for (const std::uint32_t pixels : {0u, 1u, 3u}) {
+            std::vector<Light> lights = row(6);  // brighter
+            lights.push_back(sun(second));
+            lights.push_back(sun(1));
+            const GpuLights all = fromEye(lights);
+            const std::size_t base = second < 1 ? 1 : 0;
+            EXPECT_EQ(all.base, base) << second;
+            const std::vector<LightShares> shares = lightShares(all, unitBox, pixels);
+            EXPECT_EQ(shares[base].pixel, 1) << second << " " << pixels;
+            EXPECT_EQ(shares[1 - base].pixel, 0) << "the next has no place of its own";
+        }
+}
+
+// Of lights alike as many are in a group as it has room for, the first of the scene.
+TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
+    std::vector<Light> suns(64, sun(2)), lamps(64, point({0, 3, 4}, 5));
+    for (const std::vector<Light>& lights : {suns, lamps})
+        for (const std::uint32_t pixels : {1u, 4u, 9u}) {
+            const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, pixels);
+            for (std::size_t i = 0; i < shares.size(); ++i) {
+                EXPECT_EQ(shares[i].pixel, i < pixels ? 1 : 0) << i;
+                EXPECT_EQ(shares[i].vertex, i >= pixels && i < pixels + 4 ? 1 : 0) << i;
+                EXPECT_EQ(shares[i].harmonics, i >= pixels + 4 ? 1 : 0) << i;
+            }
+        }
+    // A spot before points that are as bright: kinds are sorted, ranks are not.
+    std::vector<Light> mixed(3, point({0, 0, 3}, 4));
+    mixed.insert(mixed.begin(), mixed[0]);
+    mixed[0].kind = LightKind::spot;
+    mixed[0].direction = {0, 0, -1};
+    mixed[0].outer_cone = 1.5f;
+    mixed[0].inner_cone = 1.4f;
+    const GpuLights all = fromEye(mixed);
+    ASSERT_EQ(all.sources, (std::vector<std::size_t>{1, 2, 3, 0}));
+    ASSERT_EQ(brightnessAt(all, 0, unitBox), brightnessAt(all, 3, unitBox));
+    const std::vector<LightShares> shares = lightShares(all, unitBox, 2);
+    EXPECT_EQ(shares[3].pixel, 1);
+    EXPECT_EQ(shares[0].pixel, 1);
+    EXPECT_EQ(shares[1].pixel, 0);
+    EXPECT_EQ(shares[2].pixel, 0);
+}
+
+// A lamp that becomes brighter than lights alike takes the place of the last of them bit by bit.
+TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
+    std::vector<LightShares> before;
+    double largest = 0, least = 1;
+    for (double candela = 0.5; candela < 12; candela *= 1.003) {
+        std::vector<Light> lights(8, sun(1));
+        lights.push_back(point({0, 0, 2}, static_cast<float>(candela)));
+        const GpuLights all = fromEye(lights);
+        const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
+        double sum = 0;
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            sum += shares[i].pixel;
+            if (before.empty()) continue;
+            for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics})
+                largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
+        }
+        EXPECT_NEAR(sum, 3, 1e-12) << candela;
+        EXPECT_EQ(shares[1].pixel, 1);
+        least = std::min(least, shares[2].pixel);
+        before = shares;
+    }
+    EXPECT_LT(largest, 0.01);
+    EXPECT_LT(least, 0.01) << "in the end the third sun has none";
 }
 
 TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {

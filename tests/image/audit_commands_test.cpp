@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// A command that an audit prints was tried, and is one that shows the failure.
+#include "compare/audit/failures.h"
+#include "compare/audit/quantities.h"
+#include "tests/image/square.h"
+#include "tests/tool/run.h"
+
+namespace diptych::tests {
+namespace {
+
+using audit::Case;
+using audit::Quantity;
+using audit::Series;
+using audit::Subject;
+
+// Pictures are four times as bright as they should be where the lamp has 4 cd or more: a fault that the
+// program itself has not.
+audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subject) {
+    static const Quantity brightness{
+        .name = "brightness",
+        .unit = "cd",
+        .what = "the lamp's intensity",
+        .magnitudes = {1, 8},
+        .usual = [](const Subject&) { return 1.0; },
+        .lacks = [](const Subject&) { return std::string(); },
+        .push = [](Case& pushed, const Subject&,
+                   double candela) { pushed.scene.lights[0].intensity = static_cast<float>(candela); }};
+    measurer.plant({.picture = [](const Case& drawn, Frame& frame) {
+        if (drawn.scene.lights[0].intensity < 4) return;
+        for (float& value : frame.channels.at(lit).data) value *= 4;
+    }});
+    return audit::auditQuantity(brightness, subject, [&](std::span<const Series> series, double magnitude) {
+        return measurer.measure(brightness, series, magnitude);
+    });
+}
+
+TEST(AuditCommands, AreThoseThatShowTheFailure) {
+    Scene scene = square();
+    Light lamp;
+    lamp.position = {0, 0, 1};
+    lamp.intensity = 1;
+    scene.lights = {lamp};
+    Settings settings = unshadowed();
+    settings.size = {16, 9};
+    const Subject subject = audit::makeSubject(scene, settings);
+    audit::Measurer measurer(device(), subject, {});
+    const audit::QuantityAudit whole = faultyAudit(measurer, subject);
+    const Folder folder;
+    std::vector<std::string> tried;
+    const auto failureOf = [&](const char* shows) {
+        tried.clear();
+        audit::QuantityAudit copy = whole;
+        std::map<std::string, std::string> files;
+        audit::addFailures(copy, subject, measurer,
+                           {folder.path(),
+                            {"--device", "0"},
+                            [&](const std::vector<std::string>& words) {
+                                std::string line;
+                                for (const std::string& word : words) {
+                                    line += word + " ";
+                                    if (word.ends_with(".gltf") || word.ends_with(".json")) {
+                                        EXPECT_TRUE(fs::exists(word)) << word;
+                                        EXPECT_TRUE(word.starts_with(folder.path().string())) << word;
+                                    }
+                                }
+                                tried.push_back(line);
+                                return line.find(shows) != line.npos;
+                            }},
+                           "out", files);
+        EXPECT_EQ(files.size(), 2u);
+        EXPECT_EQ(copy.failures.size(), 1u);
+        return copy.failures.at(0);
+    };
+    const audit::Failure light = failureOf("--baseline reference");
+    EXPECT_EQ(tried.size(), 1u);
+    EXPECT_NE(light.command.find(" out/brightness.gltf"), std::string::npos) << light.command;
+    EXPECT_NE(light.command.find("--lights out/brightness.lights.json"), std::string::npos) << light.command;
+    EXPECT_NE(light.command.find("--device 0"), std::string::npos) << light.command;
+    EXPECT_EQ(light.command.find("--reference-mode"), std::string::npos);
+    const audit::Failure surfaces = failureOf("--reference-mode scene");
+    EXPECT_EQ(tried.size(), 2u);
+    EXPECT_NE(surfaces.command.find("--reference-mode scene"), std::string::npos) << surfaces.command;
+    const audit::Failure none = failureOf("nothing");
+    EXPECT_EQ(none.command, "");
+    EXPECT_NE(none.words.find("compare grants as much and passes it"), std::string::npos) << none.words;
+    EXPECT_EQ(none.scene, "brightness.gltf") << "the scene is there all the same";
+}
+
+}  // namespace
+}  // namespace diptych::tests

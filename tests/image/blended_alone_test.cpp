@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Where all that is in view is blended, deferred has no G-buffer and the picture that forward+ has.
+#include "compare/render/path_plan.h"
+#include "tests/image/square.h"
+
+#include <algorithm>
+
+namespace diptych::tests {
+namespace {
+
+// A pane before the background, under a sun and a lamp; with a wall behind it or without.
+Scene blendedPane(bool wall) {
+    Scene scene = square();
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color = {0.8f, 0.4f, 0.2f, 0.5f};
+    if (wall) {
+        scene.materials.push_back({});
+        scene.meshes.push_back(scene.meshes[0]);
+        scene.meshes[1].primitives[0].material = 1;
+        scene.nodes.push_back({"wall", -1, glm::translate(glm::dmat4(1), {0.3, 0, -1}), 1});
+    }
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {0, -0.6, -0.8};
+    Light lamp;
+    lamp.position = {0.5, 0.5, 0.5};
+    lamp.intensity = 3;
+    scene.lights = {sun, lamp};
+    return scene;
+}
+
+std::vector<std::string> deferredPasses(const Scene& scene, const Settings& settings) {
+    SceneViews views(scene);
+    return planPaths(device(), views, {settings}).front().passes;
+}
+
+TEST(BlendedAlone, HasNoGBufferAndTheSamePicture) {
+    for (const bool wall : {false, true}) {
+        const Scene scene = blendedPane(wall);
+        for (const char* change : {"", "msaa=4", "lighting=compute", "assign=tiled", "haze=on"}) {
+            Settings settings = smallPicture(GBufferEncoding::full);
+            settings.size = {48, 27};
+            const std::string words = change;
+            if (!words.empty())
+                settings.set(words.substr(0, words.find('=')), words.substr(words.find('=') + 1));
+            settings.path = Path::deferred;
+            const std::vector<std::string> passes = deferredPasses(scene, settings);
+            EXPECT_EQ(std::ranges::count(passes, "G-buffer"), wall ? 1 : 0) << words;
+            Settings forward = settings;
+            forward.path = Path::forward_plus;
+            RenderOptions options;
+            options.channels = std::vector<int>{lit, static_cast<int>(gpu::DEBUG_material_id), albedo,
+                                                static_cast<int>(gpu::DEBUG_depth),
+                                                static_cast<int>(gpu::DEBUG_geometric_normal)};
+            options.runs = 0;
+            const std::vector<Frame> frames = drawAll(scene, {settings, forward}, options);
+            for (const int mode : options.channels)
+                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                    << words << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
+            const Image& picture = frames[0].channels.at(lit);
+            EXPECT_GT(*picture.pixel(picture.pixels() / 2), 0) << "the pane is seen";
+            EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Paths with Settings of their own: where these change light, channels of light decide nothing.
+#include "compare/report/json.h"
+#include "compare/report/parts.h"
+#include "compare/report/titles.h"
+#include "shared/frame/sides.h"
+#include "tests/support/report_maker.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+constexpr int informedLit = static_cast<int>(gpu::DEBUG_lit);
+
+// Both paths, forward+ with lights by object, and `wrong` channels that differ.
+Report informedReport(const std::vector<gpu::uint>& wrong, std::vector<Rule> rules = {}, bool told = true) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].settings.assign = Assignment::per_object;
+    for (const gpu::uint mode : wrong) frames[1].channels.at(static_cast<int>(mode)).at(1, 2, 0) += 0.25f;
+    CompareOptions options;
+    options.rules = std::move(rules);
+    if (told) options.light_differs = lightDifferences(frames[0].settings, frames[1].settings);
+    return makeReport(std::move(frames), std::vector<Requirements>(2), {"a CPU", "1.0", "cpu"}, options);
+}
+
+const ChannelDiff& informedChannel(const Report& report, int mode) {
+    for (const ChannelDiff& channel : report.comparisons[0].channels)
+        if (channel.mode->number == mode) return channel;
+    throw std::out_of_range("no such channel");
+}
+
+TEST(Informative, LightDecidesNothingAndSurfacesDo) {
+    const Report light =
+        informedReport({gpu::DEBUG_lit, gpu::DEBUG_lit_specular, gpu::DEBUG_shadow_visibility});
+    EXPECT_TRUE(light.passed()) << verdictLine(light);
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_ambient, gpu::DEBUG_shadow_visibility})
+        EXPECT_EQ(informedChannel(light, static_cast<int>(mode)).verdict, Verdict::informative);
+    EXPECT_EQ(informedChannel(light, static_cast<int>(gpu::DEBUG_albedo)).verdict, Verdict::pass);
+    EXPECT_GT(informedChannel(light, informedLit).stats.max, 0.1) << "but it is measured";
+    EXPECT_FALSE(informedReport({gpu::DEBUG_albedo}).passed());
+    EXPECT_FALSE(informedReport({gpu::DEBUG_shadow_visibility}, {}, false).passed()) << "without being told";
+    // What cannot be, is a fault whatever it is compared with.
+    EXPECT_FALSE(
+        informedReport({gpu::DEBUG_transmittance, gpu::DEBUG_transmittance, gpu::DEBUG_transmittance})
+            .passed());
+}
+
+TEST(Informative, ARuleForLitJudgesIt) {
+    const std::vector<Rule> rules =
+        rulesFromJson(R"({ "rules": [ { "channel": "lit", "max": 0.01, "because": "close" } ] })", "r.json");
+    EXPECT_TRUE(informedReport({}, rules).passed());
+    EXPECT_EQ(informedChannel(informedReport({}, rules), informedLit).verdict, Verdict::pass);
+    EXPECT_FALSE(informedReport({gpu::DEBUG_lit}, rules).passed());
+}
+
+TEST(Informative, TheReportSaysWhatDiffers) {
+    const Report report = informedReport({gpu::DEBUG_lit});
+    EXPECT_EQ(verdictLine(report),
+              "pass: all 14 compared channels are within tolerance, and 8 of light decide nothing: the "
+              "paths' Settings differ (4 more on one side alone)");
+    const std::string said =
+        "deferred and forward_plus have Settings of their own: --assign clustered and per_object";
+    EXPECT_EQ(countOf(reportTable(report), said), 1u) << reportTable(report);
+    const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+    const auto& comparison = json["comparisons"][0];
+    EXPECT_EQ(comparison["differing_settings"], (nlohmann::json{{"assign", {"clustered", "per_object"}}}));
+    for (const auto& channel : comparison["channels"])
+        if (channel["name"] == "lit") {
+            EXPECT_EQ(channel["verdict"], "informative");
+            EXPECT_NE(std::string(channel["because"]).find("--assign clustered and per_object"),
+                      std::string::npos);
+        }
+    EXPECT_EQ(nlohmann::json::parse(
+                  reportJson(reportOf(bothFrames()), nullptr))["comparisons"][0]["differing_settings"],
+              nlohmann::json::object());
+}
+
+}  // namespace
+}  // namespace diptych
