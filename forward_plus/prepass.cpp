@@ -113,7 +113,7 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, const Devic
         (static_cast<double>(overdraw.triangles) * costs.triangle + fragments * costs.depth) * 1e-6;
     const bool on = saved > cost;
     return {on, fmt::format(
-                    "--prepass auto is {}: {:.2f} fragments a covered pixel; the pre-pass would take about "
+                    "--prepass auto is {}: {:.2f} fragments per covered pixel; the pre-pass would take about "
                     "{:.2g} ms on {} device and save {:.2g} ms of shading",
                     on ? "on" : "off", covered > 0 ? fragments / covered : 0.0, cost,
                     device.software ? "this CPU" : "this GPU", saved)};
@@ -128,8 +128,8 @@ std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings&
     if (inputs.samples > 1 && inputs.device.profile().shades_failed_samples) {
         inputs.prepass = false;
         return {
-            "--prepass auto is off: with several samples a pixel this CPU device shades what the depth test "
-            "leaves nothing of, too"};
+            "--prepass auto is off: with multisampling this CPU device also shades fragments that fail the "
+            "depth test"};
     }
     const PrepassChoice choice =
         choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),

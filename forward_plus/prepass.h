@@ -23,7 +23,7 @@ struct Overdraw {
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height);
 
 // Whether the pre-pass costs less than the shading that it saves, by figures measured on a CPU device
-// (estimated for others), and the reason in words: "--prepass auto is on: 2.1 fragments a covered pixel;
+// (estimated for others), and the reason in words: "--prepass auto is on: 2.1 fragments per covered pixel;
 // ...". `lights`: about as many as are evaluated at a pixel.
 struct PrepassChoice {
     bool on = true;

@@ -294,8 +294,7 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
     const bool many = std::ranges::any_of(
         result.series, [](const SeriesHeld& of) { return of.held.aside > of.held.most_aside; });
     if (spoil || !many || tied() <= result.series.front().held.covered / 100) return result;
-    result.lacks =
-        fmt::format("{} pixels show surfaces that lie in one another, of which either may be seen", tied());
+    result.lacks = fmt::format("{} pixels show surfaces that coincide, where either may be seen", tied());
     result.series.clear();
     return result;
 }

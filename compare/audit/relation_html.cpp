@@ -4,6 +4,7 @@
 #include "compare/page/page.h"
 #include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -65,8 +66,7 @@ std::string picturesOf(const RelationHeld& of, const SeriesHeld& series) {
     for (const auto& [name, words] :
          {std::pair{"given", "as it is"}, {"changed", "changed"}, {"used", "error / allowed"}})
         out += fmt::format(
-            "<figure><img src=\"{0}-{1}.png\" alt=\"{2}\"><figcaption>{2}, {3}</figcaption>"
-            "</figure>",
+            "<figure><img src=\"{0}-{1}.png\" alt=\"{2}\"><figcaption>{2}, {3}</figcaption></figure>",
             pictureStem(*of.relation, series), name, words, markup(series.series.words()));
     return out + "</div>";
 }
@@ -75,9 +75,9 @@ std::string channelsOf(const SeriesHeld& series) {
     std::string out;
     for (const ChannelHeld& channel : series.held.channels) {
         if (channel.beyond == 0) continue;
-        out += fmt::format("<li>{}: {} pixels beyond what is allowed; the worst at {},{}: {} of {}</li>",
-                           debugMode(channel.mode).name, channel.beyond, channel.x, channel.y,
-                           page::number(channel.error), page::number(channel.allowed));
+        out += fmt::format("<li>{}: {} beyond what is allowed; the worst at {},{}: {} of {}</li>",
+                           debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
+                           channel.y, page::number(channel.error), page::number(channel.allowed));
     }
     if (series.held.aside > series.held.most_aside)
         out += fmt::format("<li>{} pixels show another surface; {} at most may</li>", series.held.aside,
@@ -92,8 +92,7 @@ std::string channelsOf(const SeriesHeld& series) {
 std::string sectionOfRelation(const RelationHeld& of, const ReportDevice& device) {
     const Relation& relation = *of.relation;
     std::string out = fmt::format(
-        "<div class=\"box\" id=\"{0}\"><h3>{1} {2}</h3><p>{3}.</p>"
-        "<p class=\"soft small\">{4}.</p>",
+        "<div class=\"box\" id=\"{0}\"><h3>{1} {2}</h3><p>{3}.</p><p class=\"soft small\">{4}.</p>",
         relation.name, breakable(relation.name), chip(verdictOf(of)), markup(relation.changes),
         markup(relation.because));
     if (!of.lacks.empty()) out += fmt::format("<p class=\"soft\">{}</p>", markup(of.lacks));
@@ -117,9 +116,10 @@ std::string sectionOfRelation(const RelationHeld& of, const ReportDevice& device
 std::string relationsHtml(const RelationAudit& audit, const std::vector<std::string>& files) {
     std::string out = fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: relations, {}</title>\n"
-        "<style>{}{}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{}{}</h1>"
-        "<p class=\"soft\">what must not change its picture; {}x{} on {} ({}); {}</p></header>\n",
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: relations, "
+        "{}</title>\n<style>{}{}</style></head>\n<body>\n<header><p "
+        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">what must not change its picture; {}x{} "
+        "on {} ({}); {}</p></header>\n",
         markup(audit.scene), page::style, auditStyle,
         fmt::format("<span class=\"verdict {0}\">{0}</span> ", audit.holds() ? "pass" : "fail"),
         breakable(audit.scene), audit.settings.size.width, audit.settings.size.height,

@@ -4,6 +4,7 @@
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -129,9 +130,9 @@ std::string inWords(const RelationHeld& held, const ReportDevice& device) {
                            asideInWords(of));
         for (const ChannelHeld& channel : of.held.channels)
             if (channel.beyond > 0)
-                out += fmt::format("        {}: {} pixels beyond, the worst at {},{}: {} of {}\n",
-                                   debugMode(channel.mode).name, channel.beyond, channel.x, channel.y,
-                                   page::number(channel.error), page::number(channel.allowed));
+                out += fmt::format("        {}: {} beyond, the worst at {},{}: {} of {}\n",
+                                   debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
+                                   channel.y, page::number(channel.error), page::number(channel.allowed));
     }
     return out + fmt::format("    {}\n", blameInWords(held, device));
 }

@@ -2,6 +2,7 @@
 #include "compare/audit/words.h"
 
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -137,14 +138,16 @@ std::string inWords(const QuantityAudit& audit) {
         out += "\n";
         for (std::size_t c = 0; c < audit.predicted.size(); ++c)
             if (const auto agree = agrees(audit, c, s); agree && !*agree)
-                out += fmt::format("        predicted for {}: {}: they do not agree\n", criteria[c].name,
-                                   rangeInWords(audit.predicted[c][s], audit));
+                out +=
+                    fmt::format("        predicted for {}: {}, which does not agree with the measurement\n",
+                                criteria[c].name, rangeInWords(audit.predicted[c][s], audit));
     }
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         for (const Step& step : audit.steps)
             if (const Outcome& outcome = step.outcomes[s]; outcome.nonfinite > 0) {
-                out += fmt::format("    {}: {} pixels are NaN or infinite at {}{}, the first at {},{}\n",
-                                   audit.series[s].words(), outcome.nonfinite,
+                out += fmt::format("    {}: {} NaN or infinite at {}{}, the first at {},{}\n",
+                                   audit.series[s].words(),
+                                   counted(static_cast<std::uint64_t>(outcome.nonfinite), "pixel"),
                                    magnitudeInWords(step.magnitude), unit, outcome.worst_x, outcome.worst_y);
                 break;
             }

@@ -4,6 +4,7 @@
 #include "shared/scene/builtin/builtin.h"
 
 #include "compare/render/sample_counts.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -377,7 +378,7 @@ std::string modeLabel(Path path, Assignment assign, const ModeParts& parts) {
 std::string skipName(const BenchSkip& skip) {
     std::string name = modeName(skip.path, skip.assign, skip.parts);
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
-    if (skip.lights) name += fmt::format(", {} lights", *skip.lights);
+    if (skip.lights) name += ", " + counted(*skip.lights, "light");
     if (skip.growth) name += fmt::format(", {:.6g} {}", skip.growth->value, nameOf(skip.growth->axis));
     return name;
 }

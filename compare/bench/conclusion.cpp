@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/conclusion.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -72,12 +73,13 @@ std::string Conclusion::inWords() const {
         return fmt::format("{} ({})", nameOf(s.path), assignLabel(s.assign, faster->parts));
     };
     std::string words = fmt::format(
-        "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long: the median ratio of {} pairs of "
-        "frames "
-        "drawn in turn, not that of the medians ({:.2f} to {:.2f} at {:.1f} % confidence)",
-        a.size.width, a.size.height, faster->counters.lights, mode(a), msText(faster->time.median), mode(b),
-        ratio.median, ratio.pairs, ratio.low, ratio.high, 100 * ratio.confidence);
-    if (!ratio.isSure()) return words + ": which of them is faster cannot be told; with more --runs it may";
+        "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {} drawn in turn; {:.2f} "
+        "to {:.2f} at {:.1f} % confidence)",
+        a.size.width, a.size.height, counted(faster->counters.lights, "light"), mode(a),
+        msText(faster->time.median), mode(b), ratio.median,
+        counted(static_cast<std::uint64_t>(ratio.pairs), "pair") + " of frames", ratio.low, ratio.high,
+        100 * ratio.confidence);
+    if (!ratio.isSure()) return words + "; which one is faster cannot be told, more --runs may help";
     if (!pass.empty())
         words += fmt::format("; the pass that differs most is {}: {} against {}", pass, passMs(faster_ms),
                              passMs(slower_ms));

@@ -47,7 +47,7 @@ std::string cause(const GrowthLine& line) {
         name = pass.name;
     }
     if (name.empty()) return {};
-    return fmt::format("; {:.0f} % of what is added is {}", 100 * most / all, name);
+    return fmt::format("; {:.0f} % of the added time is {}", 100 * most / all, name);
 }
 
 std::string lineInWords(const GrowthLine& line, const char* what, const std::vector<double>& amounts,

@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/renderer.h"
 #include "compare/render/sample_counts.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -49,22 +50,23 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
             skip.parts == partsOf(bench.options, settings) && skip.lights && *skip.lights < *group.lights)
-            return fmt::format("over --max-ms {:.6g} with {} lights already", bench.options.max_ms,
-                               *skip.lights);
+            return fmt::format("over --max-ms {:.6g} with {} already", bench.options.max_ms,
+                               counted(*skip.lights, "light"));
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
         if (row.requested_lights && isMode(row.settings, settings))
             measured.emplace_back(*row.requested_lights, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
-    return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
-                       measured[measured.size() - 2].first, measured.back().first, bench.options.max_ms);
+    return fmt::format("would take about {} ms, as estimated from {} and {} lights; --max-ms {:.6g}",
+                       msText(*predicted), measured[measured.size() - 2].first, measured.back().first,
+                       bench.options.max_ms);
 }
 
 // Why such a frame is another's, or none, on this device; empty where it is one of its own.
 std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
     if (std::ranges::find(samples, settings.msaa) == samples.end())
-        return fmt::format("the device draws no {} samples a pixel", settings.msaa);
+        return fmt::format("the device does not draw {} samples per pixel", settings.msaa);
     if (!needs.alpha_blend && settings.transparency != Transparency::off)
         return "no surface of the scene blends";
     return {};

@@ -2,6 +2,7 @@
 #include "compare/bench/growth.h"
 #include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -68,13 +69,14 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
         for (const BenchRow* r : series.rows) {
             const double px = x(static_cast<double>(r->counters.lights)), py = y(r->time.median);
             line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
-            marks += fmt::format(
-                "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
-                markup(fmt::format("{}, {} lights: {} ms ({} to {})",
-                                   modeLabel(series.path, series.assign, series.parts), r->counters.lights,
-                                   msText(r->time.median), msText(r->time.min), msText(r->time.max))),
-                svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
-                markAt(series.path, px, py));
+            marks +=
+                fmt::format("<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
+                            markup(fmt::format("{}, {}: {} ms ({} to {})",
+                                               modeLabel(series.path, series.assign, series.parts),
+                                               counted(r->counters.lights, "light"), msText(r->time.median),
+                                               msText(r->time.min), msText(r->time.max))),
+                            svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
+                            markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
         const auto [lx, ly] = legend.next();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -81,8 +82,8 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
     const auto x = [&](double ms) { return plotLeft + ms / most * (right - plotLeft); };
     Drawing drawing;
     drawing.text("name", plotTitleLeft, above + headHeight - 12,
-                 fmt::format("{}x{}, {} lights, {}", size.width, size.height, rows.front()->counters.lights,
-                             bench.scene));
+                 fmt::format("{}x{}, {}, {}", size.width, size.height,
+                             counted(rows.front()->counters.lights, "light"), bench.scene));
     const double step = stepOf(most);
     for (double tick = 0; tick <= most; tick += step) {
         drawing.line("grid", x(tick), above + headHeight, x(tick), bottom);
@@ -98,8 +99,8 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
         double from = 0;
         for (const PassTime& pass : row->passes) {
             drawing.add(fmt::format(
-                "<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"{:.2f}\" height=\"{}\"><title>{}"
-                "</title></rect>",
+                "<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"{:.2f}\" "
+                "height=\"{}\"><title>{}</title></rect>",
                 partOf(pass.name), svgNumber(x(from)), svgNumber(y), x(pass.ms) - plotLeft, barHeight,
                 page::markup(fmt::format("{}, {}: {} ms", label, pass.name, msText(pass.ms)))));
             from += pass.ms;

@@ -2,6 +2,7 @@
 #include "compare/bench/sample_table.h"
 
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,8 +40,8 @@ std::string timeInWords(const FrameTime& time) {
 }
 
 std::string title(const SampleTable& table) {
-    return fmt::format("{}, {}x{}, {} lights", table.scene, table.size.width, table.size.height,
-                       table.lights);
+    return fmt::format("{}, {}x{}, {}", table.scene, table.size.width, table.size.height,
+                       counted(table.lights, "light"));
 }
 
 std::string columnName(int samples) {
@@ -123,10 +124,10 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
         }
         const std::string paper =
             line.path == Path::deferred
-                ? fmt::format("; Billeter, Olsson and Assarsson's keeps {} B a sample, {} MiB", paperBytes,
+                ? fmt::format("; Billeter, Olsson and Assarsson's keeps {} B per sample, {} MiB", paperBytes,
                               fmt::join(theirs, ", "))
                 : "";
-        lines.push_back(fmt::format("{} keeps {} B a sample of {} with {} a pixel: {} MiB at 1920x1080{}",
+        lines.push_back(fmt::format("{} keeps {} B per sample of {} with {} per pixel: {} MiB at 1920x1080{}",
                                     nameOf(line.path), fmt::join(bytes, ", "),
                                     line.path == Path::deferred ? "G-buffer and depth" : "depth",
                                     fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
@@ -160,7 +161,7 @@ std::string sampleTablesHtml(const Bench& bench) {
     std::string out;
     for (const SampleTable& table : sampleTables(bench)) {
         out += fmt::format(
-            "<h2>Samples a pixel: {}</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th></th>",
+            "<h2>Samples per pixel: {}</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th></th>",
             page::markup(title(table)));
         for (const int samples : table.columns)
             out += fmt::format("<th class=\"n\" colspan=\"{}\">{}</th>", std::size(cellParts),

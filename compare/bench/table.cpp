@@ -4,6 +4,7 @@
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,7 @@ std::string benchTable(const Bench& bench, std::size_t first) {
 std::string kernelTable(const KernelReport& kernels) {
     std::string out = fmt::format(
         "\none listed point light at one pixel: the difference between lists of {} and of {} of {} lights, "
-        "{}x{}, "
-        "{} runs, {} threads\n{:<44}  {:>6}  {:>15}  {:>6}\n",
+        "{}x{}, {} runs, {} threads\n{:<44}  {:>6}  {:>15}  {:>6}\n",
         kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
         kernels.runs, kernels.threads, "kernel", "ns", "times the CPU's", "goal");
     for (const KernelRow& row : kernels.rows)
@@ -51,15 +51,16 @@ std::string benchEnd(const Bench& bench) {
         out += fmt::format("not timed: {}: {}\n", skipName(skip), skip.reason);
     for (const BenchRow& row : bench.rows)
         if (row.counters.nonfinite_pixels > 0)
-            out += fmt::format("{}, {} lights: {} pixels are not finite\n",
-                               modeName(row.settings.path, row.settings.assign, row.parts),
-                               row.counters.lights, row.counters.nonfinite_pixels);
+            out += fmt::format(
+                "{}, {}: {} not finite\n", modeName(row.settings.path, row.settings.assign, row.parts),
+                counted(row.counters.lights, "light"), counted(row.counters.nonfinite_pixels, "pixel"));
     for (const BenchRow& row : bench.rows)
         if (row.counters.unsorted.fragments > 0)
-            out +=
-                fmt::format("{}, {} lights: {} blended fragments of {} pixels found no room in their list\n",
-                            modeName(row.settings.path, row.settings.assign, row.parts), row.counters.lights,
-                            row.counters.unsorted.fragments, row.counters.unsorted.pixels);
+            out += fmt::format("{}, {}: {} of {} found no room in their list\n",
+                               modeName(row.settings.path, row.settings.assign, row.parts),
+                               counted(row.counters.lights, "light"),
+                               counted(row.counters.unsorted.fragments, "blended fragment"),
+                               counted(row.counters.unsorted.pixels, "pixel"));
     if (bench.kernels) out += kernelTable(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";

@@ -14,10 +14,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string inPercent(double ratio) {
-    return fmt::format("{:.1f} %", 100 * (ratio - 1));
-}
-
 // What it is in one scene.
 std::string figuresIn(const CommonCandidate& candidate, std::size_t scene, const ChoiceReport& first) {
     const InScene& in = candidate.scenes[scene];
@@ -28,14 +24,14 @@ std::string figuresIn(const CommonCandidate& candidate, std::size_t scene, const
 std::string slowdownInWords(const std::optional<Slowdown>& slower) {
     if (!slower) return "; the scene has no choice of its own";
     if (slower->low == slower->high) return "; its own choice";
-    return fmt::format("; takes {} more than its own choice ({} to {})", inPercent(slower->ratio),
-                       inPercent(slower->low), inPercent(slower->high));
+    return fmt::format("; against its own choice: {}",
+                       longerInWords(slower->ratio, slower->low, slower->high));
 }
 
 std::string commonStanding(const CommonReport& report, std::size_t i) {
     const Standing& standing = *report.choice.candidates[i].standing;
-    return fmt::format("{}: takes {} more over all ({} to {})", report.words[i], inPercent(standing.ratio),
-                       inPercent(standing.low), inPercent(standing.high));
+    return fmt::format("{}: over all scenes {}", report.words[i],
+                       longerInWords(standing.ratio, standing.low, standing.high));
 }
 
 nlohmann::ordered_json commonJson(const CommonReport& report) {
@@ -110,7 +106,7 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
         if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
             lines.push_back("runner-up: " + commonStanding(report, *choice.runner_up));
         for (const std::size_t i : choice.ties)
-            lines.push_back("as fast, as far as can be told: " + commonStanding(report, i));
+            lines.push_back("not measurably slower: " + commonStanding(report, i));
         if (choice.sure)
             lines.push_back(fmt::format("sure: every other contender is slower over all, at {:.0f} %",
                                         100 * toldApartConfidence));

@@ -32,7 +32,7 @@ std::string fewInWords(const Decider& decider, const std::string& chosen, const 
         if (at.value != decider.property.value)
             words.push_back(fmt::format("at {:.4g} {} takes {:.4g} ms and {} {:.4g}{}", at.value, chosen,
                                         at.ms[0], other, at.ms[1],
-                                        !at.isTold()        ? ", which is a tie as far as can be told"
+                                        !at.isTold()        ? ", which is not measurably different"
                                         : at.difference < 0 ? ": it wins there"
                                                             : ": it wins there neither"));
     return fmt::format("{}", fmt::join(words, "; "));
@@ -65,7 +65,7 @@ std::vector<std::string> inWords(const DecidersReport& report) {
     std::vector<std::string> lines{fmt::format(
         "What decided it, {} against {}{}: here {:.4g} ms against {:.4g}{}", report.chosen, report.other,
         report.other_fits ? "" : ", which does not fit and is compared by time alone", here.ms[0], here.ms[1],
-        here.isTold() ? "" : ", a tie as far as can be told")};
+        here.isTold() ? "" : ", not measurably different")};
     constexpr std::size_t told = 3;  // those that turn the choice come first; JSON has all
     for (std::size_t i = 0; i < std::min(told, report.deciders.properties.size()); ++i)
         lines.push_back("  " +

@@ -110,8 +110,8 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
                            page::breakable(report.scene));
     out += "<div class=\"choice\">" + choiceBox(report) + "<div class=\"box\">" +
            choicePlot(report, PlotPlace::page) +
-           "<p class=\"soft small\">A bar is the 99 % confidence interval of a time over the fastest's. The "
-           "line is the least error within a time.</p></div></div>\n";
+           "<p class=\"soft small\">A bar is the 99 % confidence interval of a time divided by the fastest "
+           "one's. The line is the smallest error within a time.</p></div></div>\n";
     if (report.deciders) {
         const std::vector<std::string> lines = inWords(*report.deciders);
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",
@@ -165,9 +165,9 @@ std::string choiceHtml(const Choices& choices, const std::vector<std::string>& f
     const std::string title = choices.all ? fmt::format("{} scenes", choices.scenes.size()) : first.scene;
     std::string out = fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: a choice, {}</title>\n"
-        "<style>{}{}{}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{}{}</h1>"
-        "<p class=\"soft\">{}; {}x{} on {} ({}); {}</p></header>\n",
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: a choice, "
+        "{}</title>\n<style>{}{}{}</style></head>\n<body>\n<header><p "
+        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">{}; {}x{} on {} ({}); {}</p></header>\n",
         markup(title), page::style, plotStyle, choiceStyle,
         choices.all ? "" : verdictOf(first.choice.chosen.has_value()), markup(title),
         markup(goalInWords(first)), first.given.size.width, first.given.size.height,

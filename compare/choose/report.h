@@ -70,6 +70,8 @@ std::string goalInWords(const ChoiceReport& report);
 std::string inWords(const ChoiceReport& report);
 // `first`: any of its scenes, which says the budget.
 std::string inWords(const CommonReport& report, const ChoiceReport& first);
+// "takes 3.1 % longer (-0.5 % to +6.8 %)", "takes 0.5 % less time (-1.2 % to +0.3 %)".
+std::string longerInWords(double ratio, double low, double high);
 // Of one candidate: time, error and memory.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
 const char* fateInWords(Fate fate);

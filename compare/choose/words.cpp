@@ -23,8 +23,7 @@ std::string percent(double ratio) {
 
 std::string standingOf(const ChoiceReport& report, std::size_t i) {
     const Standing& standing = *report.choice.candidates[i].standing;
-    return fmt::format("{}: takes {} more ({} to {})", report.words[i], percent(standing.ratio),
-                       percent(standing.low), percent(standing.high));
+    return fmt::format("{}: {}", report.words[i], longerInWords(standing.ratio, standing.low, standing.high));
 }
 
 std::vector<std::string> missesInWords(const ChoiceReport& report) {
@@ -46,13 +45,11 @@ std::vector<std::string> missesInWords(const ChoiceReport& report) {
 
 void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
     if (report.unseen.empty())
-        lines.push_back(
-            fmt::format("not checked on a camera that it was not chosen on: the scene has no other{}",
-                        report.cameras.size() > 1 ? "" : " one"));
+        lines.push_back(std::string("not checked from another camera: the scene has no other"));
     for (const UnseenCamera& camera : report.unseen)
-        lines.push_back(fmt::format("from {}, which it was not chosen on: {} {:.4g}{}", camera.camera,
+        lines.push_back(fmt::format("checked from {}, another camera: {} {:.4g}{}", camera.camera,
                                     report.figure, camera.error,
-                                    camera.holds ? "" : ", which is too much: give --camera for both"));
+                                    camera.holds ? "" : ", beyond the budget: give --camera for both"));
 }
 
 // How the chosen Settings compare with the best of the other path that were judged and fit, pass by pass.
@@ -62,7 +59,7 @@ std::string whyInWords(const ChoiceReport& report) {
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
     const std::optional<std::size_t> best = bestOfOtherPath(choice, report.budget);
-    if (!best) return "of the other path nothing that was judged fits";
+    if (!best) return "the other path: nothing that was judged fits";
     const Candidate& other = choice.candidates[*best];
     std::map<std::string, std::pair<double, double>> passes;  // chosen, other
     for (const PassTime& pass : chosen.passes) passes[pass.name].first += pass.ms;
@@ -74,12 +71,13 @@ std::string whyInWords(const ChoiceReport& report) {
             parts.emplace_back(-std::abs(ms.first - ms.second),
                                fmt::format("{} {:.3g} against {:.3g}", name, ms.second, ms.first));
     std::ranges::sort(parts);
-    std::string line = fmt::format("of the other path the {} that was drawn and fits, {}, takes {:.3g} ms",
+    std::string line = fmt::format("the other path: the {} that was judged and fits is {}, {:.3g} ms",
                                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.ms());
     if (!forSpeed)
         line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
                             chosen.judged->error);
-    for (std::size_t i = 0; i < parts.size(); ++i) line += (i == 0 ? "; passes " : ", ") + parts[i].second;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        line += (i == 0 ? "; passes, ms: " : ", ") + parts[i].second;
     return line;
 }
 
@@ -130,6 +128,11 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
 
 }  // namespace
 
+std::string longerInWords(double ratio, double low, double high) {
+    return fmt::format("takes {:.1f} % {} ({:+.1f} % to {:+.1f} %)", 100 * std::abs(ratio - 1),
+                       ratio < 1 ? "less time" : "longer", 100 * (low - 1), 100 * (high - 1));
+}
+
 std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
     std::string text = candidate.timings > 0 ? fmt::format("{:.4g} ms", candidate.ms()) : "not timed";
@@ -144,13 +147,13 @@ const char* fateInWords(Fate fate) {
         case Fate::slower:
             return "slower, not judged";
         case Fate::misses:
-            return "over the error or the memory";
+            return "over the error or memory budget";
         case Fate::too_slow:
             return "too slow";
         case Fate::fits:
             return "no better";
         case Fate::raced:
-            return "timed with the best";
+            return "timed against each other";
     }
     return "";
 }
@@ -162,7 +165,7 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
         lines.push_back("runner-up: " + standingOf(report, *choice.runner_up));
     for (const std::size_t i : choice.ties)
-        lines.push_back("as fast, as far as can be told: " + standingOf(report, i));
+        lines.push_back("not measurably slower: " + standingOf(report, i));
     if (choice.sure)
         lines.push_back(
             fmt::format("sure: every other contender is slower, at {:.0f} %", 100 * toldApartConfidence));

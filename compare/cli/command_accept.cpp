@@ -66,8 +66,8 @@ AllFailing failingOf(const Place& comparisons, const std::string& scene, const s
         }
         if (!comparison.has("failures") || !channel.empty()) continue;
         if (const std::vector<std::string> failures = comparison.at("failures").texts(); !failures.empty())
-            fail(fmt::format("{}: fails by what is no channel's and cannot be accepted: {}", name,
-                             failures.front()));
+            fail(fmt::format("{}: fails for a reason that belongs to no channel and cannot be accepted: {}",
+                             name, failures.front()));
     }
     if (!met) fail(fmt::format("accept {}: the report has no such scene", scene));
     if (all.empty())

@@ -54,7 +54,7 @@ void checkAuditOptions(const Options& options) {
         throw std::runtime_error("--path: an audit is of both paths, against the reference; leave it out");
     if (options.settings.msaa > 1)
         throw std::runtime_error(
-            "--msaa: an audit compares one sample a pixel, as its reference has; leave it out");
+            "--msaa: an audit compares one sample per pixel, as its reference has; leave it out");
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
 }
 

@@ -175,8 +175,8 @@ Frame readPicture(const Options& options, const std::string& file) {
     }
     if (isReferenceFrame(frame))
         throw std::runtime_error(
-            fmt::format("{}: is of the reference, which lights otherwise than the channels that "
-                        "explain swaps; give pictures of deferred or forward_plus",
+            fmt::format("{}: is of the reference, which lights otherwise than the channels that explain "
+                        "swaps; give pictures of deferred or forward_plus",
                         file));
     if (frame.settings.path == Path::reference)
         frame.settings.path = Path::forward_plus;  // of another renderer
@@ -189,14 +189,13 @@ int explainFiles(const Options& options) {
     const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
     if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
         throw std::runtime_error(
-            fmt::format("{} is of {}, {} of {}: an explanation is of one scene; --scene FILE "
-                        "says which, where both mean the same",
+            fmt::format("{} is of {}, {} of {}: an explanation is of one scene; --scene FILE says which, "
+                        "where both mean the same",
                         options.scenes[0], a.scene, options.scenes[1], b.scene));
     for (int i = 0; i < 3 && !a.scene.empty() && !b.scene.empty(); ++i)
         if (std::abs(a.camera.eye[i] - b.camera.eye[i]) > 1e-6 * (1 + std::abs(a.camera.eye[i])))
             throw std::runtime_error(
-                fmt::format("{} and {} are seen from different places: an explanation is of one "
-                            "view",
+                fmt::format("{} and {} are seen from different places: an explanation is of one view",
                             options.scenes[0], options.scenes[1]));
     if (!a.scene.empty() && !(options.settings == Settings()))
         note(options, "Settings are those of the files; those of the command line are not used");
@@ -204,7 +203,7 @@ int explainFiles(const Options& options) {
     for (const Frame* frame : {&a, &b})
         if (where.empty()) where = frame->scene;
     if (where.empty())
-        throw std::runtime_error(fmt::format("{}, {}: neither says of which scene it is; --scene FILE does",
+        throw std::runtime_error(fmt::format("{}, {}: neither names its scene; give --scene FILE",
                                              options.scenes[0], options.scenes[1]));
     std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
     if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);

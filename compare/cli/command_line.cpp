@@ -365,6 +365,13 @@ Options parseCommandLine(const std::vector<std::string>& given) {
         if (end != words.end()) options.submit.words.assign(end + 1, words.end());
         words.erase(end, words.end());
     }
+    // "--help all" prints every option, --help those that are used most.
+    bool every = false;
+    for (std::size_t i = 1; i < words.size(); ++i)
+        if (words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h")) {
+            words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
+            every = true;
+        }
     options.scenes.clear();
     ParsedOptions parsed;
 
@@ -381,7 +388,8 @@ Options parseCommandLine(const std::vector<std::string>& given) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(44);
     app.footer(
-        "Example: diptych compare builtin:gallery\nEach command has its own --help.\n"
+        "Example: diptych compare builtin:gallery\nEach command has its own --help, and --help all with "
+        "every option.\n"
         "Exit codes: 0 parity, 1 a difference beyond tolerance, 2 could not do it.");
     for (const Command& command : allCommands()) {
         CLI::App& sub = *app.add_subcommand(command.name, command.does);
@@ -413,7 +421,16 @@ Options parseCommandLine(const std::vector<std::string>& given) {
             throw std::runtime_error("a command is missing; see diptych --help");
         chosen = app.get_subcommands().front();
     } catch (const CLI::CallForHelp&) {
-        for (const CLI::App* sub : app.get_subcommands()) chosen = sub;
+        for (CLI::App* sub : app.get_subcommands()) {
+            chosen = sub;
+            const std::size_t more =
+                every ? 0
+                      : hideSeldomUsed(*sub,
+                                       *std::ranges::find(allCommands(), sub->get_name(), &Command::name));
+            if (more > 0)
+                sub->footer(fmt::format("{} more options: diptych {} --help all\n\n{}", more, sub->get_name(),
+                                        sub->get_footer()));
+        }
         options.help = chosen->help(chosen == &app ? "" : "diptych");
         return options;
     } catch (const CLI::CallForVersion& version) {

@@ -15,37 +15,45 @@ namespace {
 
 const Command commands[] = {
     {"compare", "Draws a scene through both paths and compares every channel: table, pictures, verdict",
-     "diptych compare helmet.glb --lights point:32 -o helmet-report"},
+     "diptych compare helmet.glb --lights point:32 -o helmet-report",
+     "gbuffer assign shadows lights camera size baseline tolerances out json"},
     {"render", "Draws one Frame: an EXR with every channel, and a PNG",
-     "diptych render helmet.glb --path deferred --debug normals -o normals.png"},
+     "diptych render helmet.glb --path deferred --debug normals -o normals.png",
+     "path debug channels lights shadows camera size time exposure out"},
     {"diff", "Compares any two EXR, PNG, JPEG, TIFF, HDR or PFM images, whoever rendered them",
-     "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference"},
-    {"tradeoff", "Draws a scene under many Settings: time against error of each, and the Pareto front",
-     "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff"},
-    {"explain",
-     "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
-     "diptych explain helmet.glb --gbuffer compact -o helmet-causes"},
-    {"choose", "The fastest Settings within an error, or the most accurate within a time or a memory",
-     "diptych choose helmet.glb --max-error 0.02 -o helmet-choice"},
+     "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference",
+     "metric tolerance failing channels map mask crop tolerances out json"},
+    {"tradeoff", "Draws a scene under many Settings: time and error of each, and the Pareto front",
+     "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff",
+     "grid lights shadows camera size runs shard device out json"},
+    {"explain", "Ranks the causes of a lit difference: which channels and Settings, by how much, and where",
+     "diptych explain helmet.glb --gbuffer compact -o helmet-causes",
+     "gbuffer test baseline scene lights camera size device out json"},
+    {"choose", "Finds the fastest Settings within an error, or the most accurate within a time or a memory",
+     "diptych choose helmet.glb --max-error 0.02 -o helmet-choice",
+     "max-error max-ms max-bytes figure grid lights size device out json"},
     {"audit", "Pushes scene and camera to numerical extremes: where does each path break?",
-     "diptych audit helmet.glb --quantity near,fov"},
-    {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
-     "diptych plan helmet.glb --gbuffer compact"},
-    {"view", "A window with both paths live: wipe, differences, channels, the verdict, a pixel's story",
-     "diptych view helmet.glb"},
-    {"bench", "Frame and pass times of several Settings side by side",
-     "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9"},
-    {"calibrate", "How another renderer means what it is told: what it shows of charts whose answer is known",
+     "diptych audit helmet.glb --quantity near,fov",
+     "quantity require shadows lights camera size device out force json"},
+    {"plan", "Lists what a scene needs modelled, what is left out and why; passes and bytes",
+     "diptych plan helmet.glb --gbuffer compact",
+     "estimate compile-on gbuffer assign lights shadows msaa device json verbose"},
+    {"view", "Opens a window with both paths live: wipe, differences, channels, the verdict, a pixel's story",
+     "diptych view helmet.glb", "report watch debug baseline gbuffer lights shadows camera size device"},
+    {"bench", "Times frames and passes of several Settings side by side",
+     "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9",
+     "table paths assign light-counts sizes kernels runs device out json"},
+    {"calibrate", "Finds how another renderer means what it is told, from charts whose answer is known",
      "diptych calibrate three.json"},
-    {"merge", "One report of those that shards wrote, in any order", "diptych merge shard-*/ -o report"},
-    {"submit", "A command over many scenes as an array of Slurm jobs, and one that joins their reports",
+    {"merge", "Joins the reports of shards, in any order, into one", "diptych merge shard-*/ -o report"},
+    {"submit", "Runs a command over many scenes as an array of Slurm jobs, and joins their reports",
      "diptych submit slurm --shards 16 --at-once 4 -- compare scenes/ -o report"},
-    {"accept", "Writes rules that grant what a report shows to differ",
+    {"accept", "Writes rules that accept the differences of a report",
      "diptych accept diptych-report Box.glb --channel lit -o accepted.json"},
-    {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices"},
+    {"devices", "Lists Vulkan devices and what each can and cannot do here", "diptych devices"},
 };
 
-const char* const pixel_group = "What may change a pixel (a value that is not built yet is refused by name)";
+const char* const pixel_group = "Settings, which may change a pixel";
 const char* const picture_group = "Channels and pictures";
 const char* const output_group = "Output";
 const char* const selection_group = "What counts";
@@ -72,15 +80,15 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
         ->allow_extra_args(false);
     app.add_option_function<std::string>(
            "--sort", [&parsed](const std::string& words) { parsed.settings.emplace_back("sort", words); },
-           "other name: on is --transparency sorted, off is unsorted")
+           "older name: on means --transparency sorted, off means unsorted")
         ->type_name("on|off");
     app.add_option("--settings", parsed.settings_file,
-                   "any of these as JSON, as every report prints them; applied first")
+                   "Settings as JSON, as every report prints them; applied before other options")
         ->type_name("FILE.json");
     app.add_option("--frames", parsed.frames,
-                   "so many pictures, numbered from 0000 on, the first at --time (1)")
+                   "number of pictures, numbered from 0000, the first at --time (1)")
         ->type_name("N");
-    app.add_option("--fps", parsed.fps, "of --frames: pictures a second (30)")->type_name("F");
+    app.add_option("--fps", parsed.fps, "pictures per second of --frames (30)")->type_name("F");
 }
 
 void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
@@ -93,19 +101,22 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.add_option("--channels", parsed.channels,
                    "the channels to make, separated by commas (all); render: a PNG of each")
         ->type_name("NAME|NUMBER,...");
-    app.add_flag("--list-channels", options.list_channels, "name all channels and end");
+    app.add_flag("--list-channels", options.list_channels, "list all channels and exit");
     CLI::Option* exposure =
         app.add_option("--exposure", options.picture.exposure, "factor on the radiance, pictures only")
             ->type_name("F");
-    CLI::Option* ev100 = app.add_option("--ev100", options.picture.ev100, "or exposure value at ISO 100")
-                             ->type_name("F")
-                             ->excludes(exposure);
-    app.add_option("--match-exposure", options.match_exposure, "or that of a picture of this EXR or HDR file")
+    CLI::Option* ev100 =
+        app.add_option("--ev100", options.picture.ev100, "exposure value at ISO 100, pictures only")
+            ->type_name("F")
+            ->excludes(exposure);
+    app.add_option("--match-exposure", options.match_exposure,
+                   "the exposure that a picture of this EXR or HDR file gets")
         ->type_name("FILE")
         ->excludes(exposure)
         ->excludes(ev100);
     app.add_flag_callback(
-        "--no-tonemap", [&options] { options.picture.tonemap = false; }, "clip instead, pictures only");
+        "--no-tonemap", [&options] { options.picture.tonemap = false; },
+        "clip instead of tone mapping, pictures only");
 }
 
 ColorChoice colorOf(const std::string& word) {
@@ -117,13 +128,14 @@ ColorChoice colorOf(const std::string& word) {
 
 void addOutput(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
-    app.add_flag("--json", options.json, "the result as JSON on stdout, and nothing else there");
+    app.add_flag("--json", options.json, "print the result as JSON on stdout, and nothing else");
     app.add_option_function<std::string>(
            "--color", [&options](const std::string& word) { options.color = colorOf(word); },
-           "colours of verdicts: auto, on, off (auto: on a terminal, but not with NO_COLOR)")
+           "colours of verdicts (auto: on a terminal, unless NO_COLOR is set)")
         ->type_name("auto|on|off");
     CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "print only errors");
-    app.add_flag("-v,--verbose", options.verbose, "say on stderr what is being done")->excludes(quiet);
+    app.add_flag("-v,--verbose", options.verbose, "print on stderr what is being done, and routine notes")
+        ->excludes(quiet);
 }
 
 void addFiles(CLI::App& app, Options& options, const std::string& usual) {
@@ -131,7 +143,7 @@ void addFiles(CLI::App& app, Options& options, const std::string& usual) {
     app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE")->check([](const std::string& word) {
         return std::string(word.empty() ? "\"\" names neither folder nor file" : "");
     });
-    app.add_flag("--force", options.force, "replace what diptych did not write, too");
+    app.add_flag("--force", options.force, "also replace files that diptych did not write");
 }
 
 // Which pixels count.
@@ -144,7 +156,7 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--ignore-edges", selection.ignore_edges,
-                   "leave out what is within N pixels of another object")
+                   "leave out pixels within N pixels of another object")
         ->type_name("N")
         ->check(CLI::Range(0, 1000));
     app.add_option("--crop", parsed.crop, "compare only this rectangle, from the top left")
@@ -157,36 +169,37 @@ void addTolerances(CLI::App& app, Options& options) {
                  "a failure, not a note: a channel that one side alone has, a colour profile or a pixel's "
                  "shape that is not applied, a picture that shows nothing");
     app.add_flag("--allow-empty", options.allow_empty,
-                 "say nothing of pictures that are black, empty, or show the scene on less than 1 %");
+                 "print nothing about pictures that are black, empty, or show the scene on less than 1 % of "
+                 "the pixels");
     app.add_option("--tolerances", options.tolerances,
-                   "rules of what may differ, see compare/verdict/tolerances.schema.json")
+                   "rules for what may differ, see compare/verdict/tolerances.schema.json")
         ->type_name("FILE.json");
 }
 
 void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
     app.add_option("--metric", parsed.metric,
-                   "the figure that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
+                   "metric that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
         ->type_name("NAME");
     app.add_option("--tolerance", parsed.tolerance,
-                   "the most that passes; psnr and ssim: the least (identity)")
+                   "largest value that passes, for psnr and ssim the smallest (only equal pictures pass)")
         ->type_name("T");
-    app.add_option("--warn", diff.warn, "what is beyond it is warned of")->type_name("T");
+    app.add_option("--warn", diff.warn, "warn beyond this value")->type_name("T");
     app.add_option("--failing", diff.failing,
-                   "instead of --metric: this share of pixels may have errors above the tolerance")
+                   "instead of --metric, the share of pixels whose error may exceed the tolerance")
         ->type_name("SHARE")
         ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--channels", diff.channels, "names of what is compared, * and ? allowed (all)")
+    app.add_option("--channels", diff.channels, "names of the channels to compare, * and ? allowed (all)")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--map", diff.names, "what another renderer's channels are called here; repeatable")
         ->type_name("NAME=CHANNEL,...")
         ->allow_extra_args(false);
-    app.add_option("--blur", diff.blur, "blur both first, standard deviation in pixels (0)")
+    app.add_option("--blur", diff.blur, "blur both pictures first, standard deviation in pixels (0)")
         ->type_name("PIXELS")
         ->check(CLI::Range(0.0, 100.0));
-    app.add_option("--shift", diff.shift, "forgive what moved by up to so many pixels (0)")
+    app.add_option("--shift", diff.shift, "allow features to move by up to this many pixels (0)")
         ->type_name("PIXELS")
         ->check(CLI::Range(0, 16));
     app.add_option("--ppd", diff.flip.pixels_per_degree, "FLIP: pixels per degree of the view (67.0206)")
@@ -239,80 +252,79 @@ void hideUnread(CLI::App& app, const std::string& command) {
 // Which of many scenes.
 void addShard(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
-    app.add_option(
-           "--shard", options.shard,
-           "a part of the scenes: the I-th of N, from 1; slurm: as the task of a Slurm array, of N where the "
-           "array is irregular. merge joins their reports")
+    app.add_option("--shard", options.shard,
+                   "draw one part of the scenes: the I-th of N, counted from 1; slurm: the task of a Slurm "
+                   "array, of N where the array is irregular. merge joins the reports")
         ->type_name("I/N|slurm[/N]");
     app.add_option(
            "--timings", options.timings,
-           "an earlier report, whose times say which scenes take long: those are dealt out first (by size)")
+           "earlier report whose times say which scenes take long; those are dealt out first (by size)")
         ->type_name("DIR|report.json");
 }
 
 void addSince(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
-    app.add_option(
-           "--since", options.since,
-           "an earlier report: new failures, mended ones, and figures that moved by more than their noise")
+    app.add_option("--since", options.since,
+                   "earlier report to compare with: new failures, mended ones, and metrics that moved by "
+                   "more than their noise")
         ->type_name("DIR|report.json");
 }
 
 // Which Settings are tried.
 void addGrid(CLI::App& app, Options& options, const char* usual) {
-    app.add_option("--grid", options.grid,
-                   fmt::format("the Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", "
-                               "\"full\"], \"size\": [\"1/2\"] }} }} is every combination, a list of such "
-                               "one after the other ({})",
-                               usual))
+    app.add_option(
+           "--grid", options.grid,
+           fmt::format(
+               "the Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", \"full\"], \"size\": "
+               "[\"1/2\"] }} }} is every combination, a list of such one after the other ({})",
+               usual))
         ->type_name("FILE.json|JSON");
 }
 
 void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
-    app.option_defaults()->group("What is wanted (one or two)");
-    app.add_option("--max-error", choose.max_error, "the fastest with so much error of lit at most")
+    app.option_defaults()->group("Budgets (one or two)");
+    app.add_option("--max-error", choose.max_error,
+                   "largest error of lit; chooses the fastest Settings within it")
         ->type_name("E");
-    app.add_option("--figure", choose.figure, "the error that is meant (flip)")
+    app.add_option("--figure", choose.figure, "error metric of --max-error (flip)")
         ->type_name("flip|relative_rmse|relative_p99");
     app.add_option("--max-ms", choose.max_ms,
-                   "a frame takes so long at most, ms; without --max-error the most accurate of these")
+                   "longest frame time, ms; without --max-error chooses the most accurate Settings within it")
         ->type_name("T");
     app.add_option("--max-bytes", parsed.max_bytes,
-                   "a frame takes so much memory at most: bytes, or with KiB, MiB, GiB behind")
+                   "largest memory of a frame: bytes, or with KiB, MiB or GiB")
         ->type_name("B");
     app.add_flag(
         "--explain-choice", choose.explain,
-        "what of the scene decided between the paths: overdraw, lights a pixel, transparency, samples, "
-        "materials, triangles, size, and where each would turn it; a few hundred frames more");
+        "explain what decided between the paths: overdraw, lights per pixel, transparency, samples, "
+        "materials, triangles, size, and where each would turn the choice; draws a few hundred more frames");
 }
 
 void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
     app.option_defaults()->group("What is pushed");
-    app.add_option(
-           "--quantity", audit.quantities,
-           "names of what is pushed (all): offset, vertex, scale, exposure, near, fov, grazing, intensity, "
-           "range, distance, eye, cone, environment, roughness, normal_map, emission, color, "
-           "shadow_depth, evsm_exponent, haze, lights, triangles, size, time. Without --size pictures "
-           "are 160x90, without --shadows there are none but where they are pushed")
+    app.add_option("--quantity", audit.quantities,
+                   "quantities to push (all): offset, vertex, scale, exposure, near, fov, grazing, "
+                   "intensity, range, distance, eye, cone, environment, roughness, normal_map, emission, "
+                   "color, shadow_depth, evsm_exponent, haze, lights, triangles, size, time. Pictures are "
+                   "160x90 without --size; shadows are off without --shadows, except where they are pushed")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--require", parsed.require,
-                   "exit code 1 where a path's error is not below 1e-2 as far as this magnitude, from the "
-                   "scene as it is; several times")
+                   "exit code 1 where a path's error reaches 1e-2 between the scene as it is and this "
+                   "magnitude; repeatable")
         ->type_name("NAME=MAGNITUDE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_flag("--relations", audit.relations,
                  "instead of pushing anything: what must not change its picture, on this device, without a "
                  "truth; exit code 1 where a relation is broken");
-    app.add_option(
-           "--relation", audit.chosen_relations,
-           "names of such relations (all): lights_permuted, lights_split, light_doubled, light_64th, "
-           "dark_lights, far_lights, moved, turned, quarter_turn, mirrored, scaled, tiles_shifted, "
-           "near_halved, draws_reversed, meshes_split, unindexed, triangles_split, materials_permuted, "
-           "through_gltf, through_glb, repeated, assign_every, assign_tiled, light_kernel, prepass, "
-           "still_time")
+    app.add_option("--relation", audit.chosen_relations,
+                   "names of such relations (all): lights_permuted, lights_split, light_doubled, light_64th, "
+                   "dark_lights, far_lights, moved, turned, quarter_turn, mirrored, scaled, tiles_shifted, "
+                   "near_halved, draws_reversed, meshes_split, unindexed, triangles_split, "
+                   "materials_permuted, through_gltf, through_glb, repeated, assign_every, assign_tiled, "
+                   "light_kernel, prepass, still_time")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -321,63 +333,61 @@ void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
 // What a report holds.
 void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.option_defaults()->group(output_group);
-    app.add_option("--keep", parsed.keep, "of which comparisons the report keeps pictures and EXRs (all)")
+    app.add_option("--keep", parsed.keep, "comparisons whose pictures and EXRs the report keeps (all)")
         ->type_name("all|failing|none");
     app.add_flag("--single-file", options.single_file,
-                 "a page that holds its pictures, at half size; beside it only what CI reads");
+                 "one page that embeds its pictures at half size; beside it only what CI reads");
 }
 
 void addView(CLI::App& app, ViewOptions& view) {
     app.option_defaults()->group("What is shown");
-    app.add_option(
-           "--report", view.report,
-           "the view of a report of compare: its first failing channel at the worst pixel, or --debug's; of "
-           "several scenes that of SCENE")
+    app.add_option("--report", view.report,
+                   "open a report of compare: its first failing channel, or that of --debug, at the worst "
+                   "pixel; of several scenes that of SCENE")
         ->type_name("DIR");
     app.add_flag("--watch", view.watch, "read the scene again when its files change on disk");
-    app.get_option("--pixel")->description("the pixel that is looked into first");
+    app.get_option("--pixel")->description("pixel to look into first");
 }
 
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
-    app.add_option(
-           "--table", parsed.bench_table,
-           "every mode; each path without blended surfaces and with them by samples a pixel, with its "
-           "memory; or each path by how much there is of one thing (modes)")
+    app.add_option("--table", parsed.bench_table,
+                   "what to time: every mode; each path by samples per pixel, with and without blended "
+                   "surfaces, and its memory; or each path by the growth of one quantity (modes)")
         ->type_name("modes|msaa|growth");
     app.add_option(
            "--axes", parsed.bench_axes,
-           "what grows in --table growth: triangles, draws, instances, textures, lights, pixels (all)")
+           "quantities of --table growth: triangles, draws, instances, textures, lights, pixels (all)")
         ->type_name("AXIS,...");
-    app.add_option("--paths", parsed.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
-    app.add_option("--assign", parsed.bench_assign, "the assignments (all that can be drawn)")
+    app.add_option("--paths", parsed.bench_paths, "paths to time (deferred,forward_plus)")
+        ->type_name("PATH,...");
+    app.add_option("--assign", parsed.bench_assign, "light assignments to time (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");
-    app.add_option("--sizes", parsed.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
+    app.add_option("--sizes", parsed.bench_sizes, "picture sizes to time (--size)")->type_name("WxH,...");
     app.add_option("--transparencies", parsed.bench_transparencies,
-                   "ways to put blended surfaces in order (--transparency)")
+                   "orderings of blended surfaces to time (--transparency)")
         ->type_name(acceptedValues("transparency") + ",...");
-    app.add_option("--lightings", parsed.bench_lightings, "ways to shade deferred's G-buffer (--lighting)")
+    app.add_option("--lightings", parsed.bench_lightings, "ways to shade the G-buffer to time (--lighting)")
         ->type_name(acceptedValues("lighting") + ",...");
-    app.add_option(
-           "--light-counts", parsed.light_counts,
-           "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
-           "seeded rig (the scene's own)")
+    app.add_option("--light-counts", parsed.light_counts,
+                   "numbers of lights to time: of builtin:spheres, of a --lights file whose name holds {}, "
+                   "or of a seeded rig (the scene's own)")
         ->type_name("N,...");
     app.add_option("--max-ms", parsed.max_ms,
-                   "a frame that takes longer is not repeated, nor tried with more lights (2000)")
+                   "a frame that takes longer is not repeated, nor tried with more lights, ms (2000)")
         ->type_name("T");
     app.add_option("--kernels", parsed.kernels,
-                   "one light at one pixel beside hand-written AVX2: on, off, or only (on)")
+                   "time one light at one pixel beside hand-written AVX2: on, off, or nothing else (on)")
         ->type_name("on|off|only");
 }
 
 // Renderers of others.
 void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
-    app.add_option("--renderer", parsed.renderers,
-                   fmt::format("{}; several times. The file names its command, see "
-                               "compare/external/renderer.schema.json",
-                               what))
+    app.add_option(
+           "--renderer", parsed.renderers,
+           fmt::format(
+               "{}; repeatable. The file names its command, see compare/external/renderer.schema.json", what))
         ->type_name("NAME=FILE.json")
         ->allow_extra_args(false)
         ->group(picture_group);
@@ -398,13 +408,30 @@ void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
     app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
         ->type_name("INDEX|NAME");
-    app.add_flag("--validate", options.validate, "with Vulkan validation; any message is a failure");
+    app.add_flag("--validate", options.validate,
+                 "run under the Vulkan validation layers; any message is a failure");
 }
 
 }  // namespace
 
 std::span<const Command> allCommands() {
     return commands;
+}
+
+std::size_t hideSeldomUsed(CLI::App& app, const Command& command) {
+    if (command.most_used.empty()) return 0;
+    const std::string names = " " + command.most_used + " ";
+    std::size_t hidden = 0;
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_group().empty() || option->get_positional() || option == app.get_help_ptr()) continue;
+        const bool shown = std::ranges::any_of(option->get_lnames(), [&](const std::string& name) {
+            return names.find(" " + name + " ") != names.npos;
+        });
+        if (shown) continue;
+        option->group("");
+        ++hidden;
+    }
+    return hidden;
 }
 
 namespace {
@@ -426,10 +453,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addSettings(app, parsed);
         addPicture(app, options, parsed);
         addDevice(app, options);
-        app.add_flag(
-            "--probe", options.probe,
-            "run the shaders' functions on millions of inputs and hold them against double precision: "
-            "errors in ULP; exit code 1 where one is beyond what Vulkan allows");
+        app.add_flag("--probe", options.probe,
+                     "run the shaders' functions on millions of inputs and compare them with double "
+                     "precision, in ULP; exit code 1 where an error exceeds what Vulkan allows");
         addFiles(app, options, "refused: devices writes no file, --json prints one");
         return addOutput(app, options);
     }
@@ -452,38 +478,37 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addSelection(app, options.diff.selection, parsed);
         addTolerances(app, options);
         addReport(app, options, parsed);
-        addFiles(
-            app, options,
-            "X.exr: errors of every channel; X.png: of the one that decides; else a folder for a report; "
-            "without it nothing is written");
+        addFiles(app, options,
+                 "X.exr: the errors of every channel; X.png: those of the channel that decides; any other "
+                 "name: a folder with a report; without -o nothing is written");
         return addOutput(app, options);
     }
 
     if (command == "submit") {
         app.add_option("engine", options.submit.engine, "what runs the jobs")->type_name("slurm")->required();
         app.add_option("--shards", options.submit.shards,
-                       "how many parts the scenes are cut into (one each, at most 16)")
+                       "number of parts that the scenes are split into (one each, at most 16)")
             ->type_name("N")
             ->check(CLI::Range(1, 1000000));
-        app.add_option("--at-once", options.submit.at_once, "how many of them run at a time (no limit)")
+        app.add_option("--at-once", options.submit.at_once, "number of parts that run at a time (no limit)")
             ->type_name("K")
             ->check(CLI::Range(1, 1000000));
         app.add_option("--sbatch", options.submit.options,
-                       "an option of sbatch for the shards, as --sbatch=--partition=long; several times")
+                       "an option of sbatch for the shards, such as --sbatch=--partition=long; repeatable")
             ->type_name("OPTION")
             ->allow_extra_args(false);
-        app.add_flag("--dry-run", options.submit.dry_run, "print both scripts, and write and submit nothing");
+        app.add_flag("--dry-run", options.submit.dry_run, "print both scripts; write and submit nothing");
         addFiles(app, options, "refused: the command behind -- says where its report is");
         return addOutput(app, options);
     }
     if (command == "accept") {
         app.add_option("report", options.scenes, "a report, and one of its scenes (all that fail)")
             ->type_name("DIR [SCENE]");
-        app.add_option("--channel", options.accept.channel, "the one channel (all that fail)")
+        app.add_option("--channel", options.accept.channel, "the channel to accept (all that fail)")
             ->type_name("NAME");
         app.add_option("--because", options.accept.because, "the reason, which reports print")
             ->type_name("TEXT");
-        addFiles(app, options, "the file of rules, to which these are added (accepted.json)");
+        addFiles(app, options, "file of rules to add to (accepted.json)");
         return addOutput(app, options);
     }
     if (command == "merge") {
@@ -509,7 +534,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     if (command == "compare" || command == "explain")
         app.add_option("--against-device", options.against_device,
                        command == "compare"
-                           ? "draw each path on this device too, and compare it with itself on --device"
+                           ? "also draw each path on this device, and compare it with itself on --device"
                            : "draw the baseline's path on this device, and explain what differs")
             ->type_name("INDEX|NAME")
             ->group(device_group);
@@ -523,60 +548,60 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             ->group(pixel_group)
             ->excludes(app.get_option("--time"));
         addFiles(app, options,
-                 command == "view" ? "folder of what P writes (the current one)"
+                 command == "view" ? "folder for the files that P writes (the current one)"
                                    : "folder of the report (diptych-report)");
         app.add_option("--baseline", parsed.baseline,
-                       "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
-                       "compared (deferred)")
+                       "the left panel: deferred or forward_plus; with reference or an EXR both paths are "
+                       "compared with it (deferred)")
             ->type_name("PATH|FILE.exr");
         addRenderers(app, parsed, "another renderer, whose picture is compared with the left panel");
         addReport(app, options, parsed);
         if (command == "compare") addShard(app, options);
         if (command == "compare") addSince(app, options);
         app.add_flag("--update-baseline", options.update_baseline,
-                     "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
+                     "replace the --baseline FILE.exr; the old one stays as FILE.exr.old");
         addSelection(app, options.selection, parsed);
         addTolerances(app, options);
         app.add_option("--twice", parsed.twice,
-                       "which channels are drawn a second time: two runs that differ are a race (lit)")
+                       "channels to draw a second time; two runs that differ are a race (lit)")
             ->type_name("all|lit|none");
         app.add_flag("--allow-noise", options.allow_noise,
-                     "GPU: grant what two runs of one path differ by on top of a tolerance");
-        app.add_flag("--explain", options.explain,
-                     "name the causes of a difference of lit also where it passes")
+                     "on a GPU, add the difference between two runs of one path to its tolerance");
+        app.add_flag("--explain", options.explain, "name the causes of a lit difference even where it passes")
             ->group(output_group);
         app.option_defaults()->group(output_group);
         app.add_option("--pixel", parsed.pixel,
-                       "instead of a report one pixel's whole story on stdout: both surfaces, each light's "
-                       "term, which step differs first; exit code 0 where it could be told")
+                       "instead of a report, print one pixel's whole story: both surfaces, each light's "
+                       "term, the first step that differs; exit code 0 if it could be told")
             ->type_name("X,Y");
         if (command == "view") addView(app, options.view);
     } else if (command == "render") {
-        addFiles(app, options,
-                 "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");
-        app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
+        addFiles(
+            app, options,
+            "X.exr: every channel; X.png: the picture; any other name: a folder with both (diptych-render)");
+        app.add_flag("--list-scenes", options.list_scenes, "list the built-in scenes and exit");
     } else if (command == "tradeoff") {
         addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
         addShard(app, options);
-        addGrid(app, options, "each by itself, and declared pairs");
+        addGrid(app, options, "each alone, and declared pairs");
         addRenderers(app, parsed, "another renderer, which gets a row");
     } else if (command == "choose") {
         addFiles(app, options,
-                 "X.json: the chosen Settings, of several scenes those for all; else a folder with a page, "
-                 "choice.json and settings.json; without it nothing is written");
-        addGrid(app, options, "each by itself, and those that help together");
+                 "X.json: the chosen Settings, of several scenes those for all; any other name: a folder "
+                 "with a page, choice.json and settings.json; without -o nothing is written");
+        addGrid(app, options, "each alone, and those that help together");
     } else if (command == "explain") {
-        addFiles(app, options, "folder of the page, the maps and the JSON; without it nothing is written");
-        app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
+        addFiles(app, options, "folder of the page, the maps and the JSON; without -o nothing is written");
+        app.add_option("--baseline", parsed.baseline, "the picture taken as right (deferred)")
             ->type_name("deferred|forward_plus");
         addRenderers(app, parsed, "another renderer, whose picture is the other one");
-        app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")
+        app.add_option("--scene", options.scene_file, "scene of two EXR files that do not name it")
             ->type_name("FILE");
         app.get_option("scenes")->description(
             "a glTF file or builtin:NAME (builtin:gallery); or two EXR files");
         app.add_option(
                "--test", parsed.test,
-               "a Setting of the other picture, as gbuffer=compact; several times (path: the other one)")
+               "a Setting of the other picture, such as gbuffer=compact; repeatable (path: the other one)")
             ->type_name("NAME=VALUE")
             ->allow_extra_args(false);
     } else if (command == "bench") {
@@ -586,14 +611,12 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
         if (command == "plan") {
             app.add_flag("--estimate", options.estimate,
-                         "draw the frames, count what they ask of a device, and say what they should take on "
-                         "some GPUs")
+                         "draw the frames, count their work, and estimate their time on some GPUs")
                 ->group("What is planned");
-            app.add_option(
-                   "--compile-on", options.compile_on,
-                   "what the compiler of this device says of each pipeline: index or part of a name; "
-                   "or a family of AMD GPUs (vega10, navi21, navi31, gfx1201, ...), which RADV of Mesa "
-                   "25 compiles for where there is none")
+            app.add_option("--compile-on", options.compile_on,
+                           "what this device's compiler reports of each pipeline: index or part of a name; "
+                           "or a family of AMD GPUs (vega10, navi21, navi31, gfx1201, ...), which RADV of "
+                           "Mesa 25 compiles for without such a GPU")
                 ->type_name("DEVICE")
                 ->group("What is planned");
         }
@@ -604,7 +627,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     if (command == "audit") {
         addAudit(app, options.audit, parsed);
         app.get_option("--size")->description("picture size, WxH (160x90)");
-        app.get_option("--shadows")->description("technique (off, but where shadows are what is pushed)");
+        app.get_option("--shadows")->description("shadow technique (off, except where shadows are pushed)");
     }
 }
 

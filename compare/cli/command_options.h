@@ -16,11 +16,13 @@
 
 namespace diptych::cli {
 
-// name, what it does, an example
 struct Command {
     std::string name, does, example;
+    std::string most_used{};  // options that --help prints, at most ten; empty: all of them
 };
 std::span<const Command> allCommands();
+// Leaves the most used options alone in the command's help; returns how many others it has.
+std::size_t hideSeldomUsed(CLI::App& app, const Command& command);
 
 // The options as parsed, before resolve() interprets them together.
 struct ParsedOptions {

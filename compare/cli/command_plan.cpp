@@ -5,6 +5,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/path_plan.h"
 #include "compare/run/print.h"
+#include "shared/text/counted.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -130,8 +131,9 @@ std::string bytesInWords(const PathPlan& path) {
 
 void print(const ScenePlan& plan) {
     const Requirements& needs = plan.needs;
-    printOut("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
-             needs.triangles, needs.materials, needs.textures, needs.lights());
+    printOut("{}: {}, {}, {}, {}, {}\n", plan.scene, counted(needs.draws, "draw"),
+             counted(needs.triangles, "triangle"), counted(needs.materials, "material"),
+             counted(needs.textures, "texture"), counted(needs.lights(), "light"));
     for (const bool modelled : {true, false}) {
         printOut("  {}\n", modelled ? "modelled" : "left out");
         for (const auto& line : plan.lines)
@@ -143,11 +145,9 @@ void print(const ScenePlan& plan) {
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
                 : "");
-        printOut(
-            "    {} of {} triangles are in view and {} drawn, with {} vertices, by {} draws of {} "
-            "instances\n",
-            path.drawn.in_view, needs.triangles, path.drawn.drawn, path.drawn.vertices, path.drawn.draws,
-            path.drawn.instances);
+        printOut("    {} of {} triangles are in view, {} are drawn, by {} of {}; vertices: {}\n",
+                 path.drawn.in_view, needs.triangles, path.drawn.drawn, counted(path.drawn.draws, "draw"),
+                 counted(path.drawn.instances, "instance"), path.drawn.vertices);
         for (const std::string& line : path.notes) printOut("    {}\n", line);
     }
     if (plan.compiler != nullptr) printOut("{}", compiledText(plan.compiled, *plan.compiler));

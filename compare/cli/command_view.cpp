@@ -7,6 +7,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/image/picture_file.h"
 #include "shared/scene/load.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -180,8 +181,9 @@ int runView(const Options& given) {
     view.say = [&](const std::string& line) { say(options, "view: " + line); };
     const viewer::ViewerResult result = viewer::runViewer(view);
     if (result.validation_messages > 0)
-        throw std::runtime_error(fmt::format("--validate: {} messages, the first: {}",
-                                             result.validation_messages, result.first_validation_message));
+        throw std::runtime_error(fmt::format("--validate: {}, the first: {}",
+                                             counted(result.validation_messages, "message"),
+                                             result.first_validation_message));
     return 0;
 }
 

@@ -5,6 +5,7 @@
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
 #include "compare/run/print.h"
+#include "shared/text/counted.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -115,8 +116,8 @@ void refuseOut(const Options& options) {
 
 void checkValidation(const Device& device) {
     if (const std::uint64_t count = device.validationMessages(); count > 0)
-        throw std::runtime_error(
-            fmt::format("--validate: {} messages, the first: {}", count, device.firstValidationMessage()));
+        throw std::runtime_error(fmt::format("--validate: {}, the first: {}", counted(count, "message"),
+                                             device.firstValidationMessage()));
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {

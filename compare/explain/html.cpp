@@ -4,6 +4,7 @@
 #include "compare/explain/pictures.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -75,8 +76,7 @@ std::string table(const Explanation& e) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"stack\"><thead><tr><th>cause</th><th "
         "class=\"n\">share</th>{}<th class=\"n\">of FLIP</th><th class=\"n\">alone</th><th "
-        "class=\"n\">last</th><th class=\"n\">counts "
-        "most at</th><th class=\"n\">worst pixel</th><th "
+        "class=\"n\">last</th><th class=\"n\">counts most at</th><th class=\"n\">worst pixel</th><th "
         "class=\"n\">there</th><th>materials</th>{}</tr></thead>\n<tbody>",
         sampled ? "<th class=\"n\">95 % interval</th>" : "", lights ? "<th>lights</th>" : "");
     for (std::size_t i = 0; i < e.causes.size(); ++i) {
@@ -97,14 +97,13 @@ std::string table(const Explanation& e) {
                 fmt::format("<td class=\"whole\">{}</td>", markup(partsOf(cause, cause.lights, lightName)));
         out += "</tr>\n";
     }
-    return out +
-           fmt::format(
-               "</tbody></table><p class=\"soft small\">Shares are Shapley values: what swapping the cause "
-               "brings, in the mean over all orders of swapping, of the mean difference of lit. They and "
-               "what is unexplained add up to 100 %. Of FLIP: the same of the mean of HDR-FLIP. Alone: "
-               "swapped by itself; last: when all others are. "
-               "Counts most at: of the pixels where some cause counts, those where it is the largest. There: "
-               "its share at its worst pixel, W/(sr m^2).</p></div>\n");
+    return out + fmt::format(
+                     "</tbody></table><p class=\"soft small\">Shares are Shapley values: the part of the "
+                     "mean lit difference that swapping the cause removes, averaged over all orders of "
+                     "swapping. They and what is unexplained add up to 100 %. Of FLIP: the same of the mean "
+                     "of HDR-FLIP. Alone: swapped by itself; last: when all others are. Counts most at: of "
+                     "the pixels where some cause counts, those where it is the largest. There: its share at "
+                     "its worst pixel, W/(sr m^2).</p></div>\n");
 }
 
 std::string remarks(const Explanation& e, const ExplainedPictures& of) {
@@ -113,19 +112,18 @@ std::string remarks(const Explanation& e, const ExplainedPictures& of) {
     if (e.shareOf(e.unexplained) > worthUnexplained)
         lines.emplace_back(
             "With every cause swapped lit still differs: something else does it that no channel and no "
-            "Setting "
-            "says");
+            "Setting says");
     if (!e.inert.empty())
         lines.push_back(fmt::format("Differs and changes no pixel: {}", fmt::join(e.inert, ", ")));
     if (const std::string line = reproductionLine(e, of); !line.empty()) lines.push_back(line);
     if (const std::string line = lightsLine(e); !line.empty()) lines.push_back(line);
     if (e.nonfinite > 0)
-        lines.push_back(
-            fmt::format("{} pixels are NaN or infinite in one of the pictures and left out", e.nonfinite));
-    lines.push_back(
-        fmt::format("FLIP is {} in the mean, {} with all causes swapped; {} pictures were shaded, {} "
-                    "frames drawn for them",
-                    number(e.flip), number(e.flip_unexplained), e.subsets, e.frames));
+        lines.push_back(fmt::format("left out: {} with a NaN or infinity in one of the pictures",
+                                    counted(e.nonfinite, "pixel")));
+    lines.push_back(fmt::format("FLIP is {} on average, {} with all causes swapped; {} shaded from {}",
+                                number(e.flip), number(e.flip_unexplained),
+                                counted(static_cast<std::uint64_t>(e.subsets), "picture"),
+                                counted(static_cast<std::uint64_t>(e.frames), "drawn frame")));
     std::string out = "<div class=\"box says\"><ul>";
     for (const std::string& line : lines) out += "<li>" + markup(line) + "</li>";
     return out + "</ul></div>\n";
@@ -142,9 +140,8 @@ std::string shareMaps(const Explanation& e, const PictureSource& source) {
                       fmt::format("<span>unexplained</span><span>{}</span>", percentOf(e, e.unexplained)));
     if (out.empty()) return {};
     return fmt::format(
-        "<h2>Each cause by itself</h2>\n<p class=\"soft\">What of the difference each cause has at each "
-        "pixel, all "
-        "on one scale: black 0, pale yellow {} W/(sr m^2), cyan beyond; green where it makes up for "
+        "<h2>Each cause alone</h2>\n<p class=\"soft\">Each cause's share of the difference at each pixel, "
+        "all on one scale: black 0, pale yellow {} W/(sr m^2), cyan beyond; green where it cancels "
         "others.</p><div class=\"maps\">{}</div>\n",
         number(topOfMaps(e)), out);
 }
@@ -158,7 +155,7 @@ std::string commands(const ExplainedPictures& of) {
 }
 
 std::string difference(const Explanation& e) {
-    return fmt::format("{} W/(sr m^2) in the mean, FLIP {}", number(e.distance), number(e.flip));
+    return fmt::format("{} W/(sr m^2) on average, FLIP {}", number(e.distance), number(e.flip));
 }
 
 }  // namespace
@@ -173,10 +170,9 @@ std::string explanationSection(const Explanation& e, const ExplainedPictures& of
     if (e.causes.empty())
         return out + "<p class=\"equal\">no cause: nothing that differs makes lit</p>" + remarks(e, of) +
                "</section>\n";
-    const std::string map =
-        figure(source(dominantFile), "the cause that counts most at each pixel",
-               "The cause that counts most at each pixel; dark: the picture itself, where none "
-               "brings lit nearer");
+    const std::string map = figure(
+        source(dominantFile), "the cause that counts most at each pixel",
+        "The cause that counts most at each pixel; dark: the picture itself, where none brings lit nearer");
     out += map.empty() ? "<div class=\"box\">" + legend(e) + "</div>"
                        : "<div class=\"box pictures\">" + map + legend(e) + "</div>";
     return out + table(e) + remarks(e, of) + shareMaps(e, source) + "</section>\n";
@@ -194,9 +190,10 @@ std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, c
     pictures += "</div>\n";
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: why lit differs, {0}</title>\n"
-        "<style>{1}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{0}</h1><p "
-        "class=\"soft\">{2} against {3}, {4}\u00d7{5}, on {6}</p></header>\n{7}{8}{9}<footer><p><a "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: why lit differs, "
+        "{0}</title>\n<style>{1}</style></head>\n<body>\n<header><p "
+        "class=\"brand\">Diptych</p><h1>{0}</h1><p class=\"soft\">{2} against {3}, {4}\u00d7{5}, on "
+        "{6}</p></header>\n{7}{8}{9}<footer><p><a "
         "href=\"explain.json\">explain.json</a></p></footer><script>{10}</script>\n</body></html>\n",
         markup(of.scene), page::style, page::isolated(of.test), page::isolated(of.baseline), e.dominant.width,
         e.dominant.height, markup(device),

@@ -211,10 +211,10 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
         }
         add(std::move(name), std::move(shows), std::move(adds));
     };
-    share("shadow_visibility", "direct light that changes as what is seen of the sun does",
+    share("shadow_visibility", "direct light that changes with the visibility of the sun",
           gpu::DEBUG_shadow_visibility, shadowPart);
     isOfLights("shadow_visibility", LightChange::seen);
-    share("local_visibility", "direct light that changes as what is seen of points and spots does",
+    share("local_visibility", "direct light that changes with the visibility of points and spots",
           gpu::DEBUG_local_visibility, shadowPart);
     isOfLights("local_visibility", LightChange::seen);
     share("light_count", "direct light where another number of lights is evaluated", gpu::DEBUG_light_count,

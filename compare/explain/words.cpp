@@ -2,6 +2,7 @@
 #include "compare/explain/words.h"
 
 #include "compare/files/our_files.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,31 +95,33 @@ std::string inShort(const Explanation& e) {
 }
 
 std::string inWords(const Explanation& e, const ExplainedPictures& of) {
-    std::string text = fmt::format(
-        "{}: lit of {} differs from that of {} by {:.4g} W/(sr m^2) in the mean, FLIP "
-        "{:.4g}\n",
-        of.scene, of.test, of.baseline, e.distance, e.flip);
+    std::string text =
+        fmt::format("{}: lit of {} differs from lit of {} by {:.4g} W/(sr m^2) on average, FLIP {:.4g}\n",
+                    of.scene, of.test, of.baseline, e.distance, e.flip);
     if (e.nonfinite > 0)
-        text += fmt::format("{} pixels are NaN or infinite in one of them and left out\n", e.nonfinite);
+        text += fmt::format("left out: {} with a NaN or infinity in one of them\n",
+                            counted(e.nonfinite, "pixel"));
     if (e.distance == 0) return text + "no cause: lit is the same\n";
-    if (e.causes.empty()) text += "no cause: nothing that differs makes lit\n";
-    if (!e.devices.empty()) text += "on two devices it comes from\n";
+    if (e.causes.empty()) text += "no cause: nothing that differs has an effect on lit\n";
+    if (!e.devices.empty()) text += "between two devices it comes from\n";
     for (const DeviceShare& part : e.devices)
         text += fmt::format("{:>8.2f} %  {:<18}  {}\n", 100 * e.shareOf(part.share), part.name, part.shows);
     if (!e.devices.empty()) text += "and by channel\n";
     for (std::size_t i = 0; i < e.causes.size(); ++i) text += causeLine(e, i);
     const double left = e.shareOf(e.unexplained);
-    text +=
-        fmt::format("{:>8.2f} %  {}\n", 100 * left,
-                    left > worthUnexplained
-                        ? "unexplained: with every cause swapped lit still differs by so much, so something "
-                          "else does it that no channel and no Setting says"
-                        : "unexplained");
+    text += fmt::format("{:>8.2f} %  {}\n", 100 * left,
+                        left > worthUnexplained
+                            ? "unexplained: lit still differs by this much with every cause swapped; the "
+                              "rest comes from something that no channel and no Setting describes"
+                            : "unexplained");
     for (const CausePair& pair : e.pairs) text += pairLine(e, pair) + "\n";
-    if (!e.inert.empty()) text += fmt::format("differs and changes no pixel: {}\n", fmt::join(e.inert, ", "));
+    if (!e.inert.empty())
+        text += fmt::format("differs without an effect on any pixel: {}\n", fmt::join(e.inert, ", "));
     if (const std::string line = reproductionLine(e, of); !line.empty()) text += line + "\n";
     if (const std::string line = lightsLine(e); !line.empty()) text += line + "\n";
-    return text + fmt::format("{} pictures shaded, {} frames drawn for them\n", e.subsets, e.frames);
+    return text + fmt::format("{} shaded from {}\n",
+                              counted(static_cast<std::uint64_t>(e.subsets), "picture"),
+                              counted(static_cast<std::uint64_t>(e.frames), "drawn frame"));
 }
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {

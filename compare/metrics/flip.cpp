@@ -41,13 +41,12 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Flip
         reference.height != test.height || reference.pixels() == 0)
         throw std::runtime_error(
             fmt::format("FLIP compares two colour pictures of one size, not {}x{} of {} components and {}x{} "
-                        "of {}; crop or "
-                        "resize one",
+                        "of {}; crop or resize one",
                         reference.width, reference.height, reference.components, test.width, test.height,
                         test.components));
     if (!options.covered.empty() && options.covered.size() != reference.pixels())
         throw std::runtime_error(
-            fmt::format("FLIP of {}x{} pixels has coverage of {}; give one value a pixel", reference.width,
+            fmt::format("FLIP of {}x{} pixels has coverage of {}; give one value per pixel", reference.width,
                         reference.height, options.covered.size()));
     if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000))
         throw std::runtime_error(fmt::format("FLIP of {} pixels per degree: no viewer's; give 1 to 1000",

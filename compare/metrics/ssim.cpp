@@ -125,7 +125,7 @@ std::optional<double> ssim(int width, int height, const PlaneRow& reference, con
                            std::span<const std::uint8_t> covered) {
     if (size(width) * size(height) != covered.size())
         throw std::runtime_error(
-            fmt::format("SSIM of {}x{} pixels has coverage of {}; give one value a pixel", width, height,
+            fmt::format("SSIM of {}x{} pixels has coverage of {}; give one value per pixel", width, height,
                         covered.size()));
     const int first = radius, last = height - radius;  // rows of middles
     if (first >= last || width <= 2 * radius) return {};

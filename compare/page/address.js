@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ---- The page's address is what is shown, so that a link leads there: "#c0-lit", "#c0-lit@247,89" (a pixel, enlarged),
-// "#c0-lit@247,89?zoom=8&at=240.5,90&mode=side". at: what is in the middle, in pixels; wipe: percent.
+// "#c0-lit@247,89?zoom=8&at=240.5,90&mode=right". at: what is in the middle, in pixels; wipe: percent.
 
 const rounded = number => +number.toFixed(2);
 
@@ -12,8 +12,8 @@ function addressOf(card) {
   } else if (card.zoom === 1 && card.pinned) {
     words.push('zoom=1');
   }
-  if (card.mode !== 'wipe') words.push('mode=' + card.mode);
-  else if (card.at !== 50) words.push('wipe=' + rounded(card.at));
+  if (card.mode === 'wipe') words.push('wipe=' + rounded(card.at));
+  else if (card.mode !== 'side') words.push('mode=' + card.mode);
   return '#' + card.element.id + place + (words.length ? '?' + words.join('&') : '');
 }
 
@@ -26,7 +26,7 @@ function remember(card) {
 }
 
 function restore(card, pixel, words) {
-  const mode = words.get('mode') ?? 'wipe', zoom = +words.get('zoom'), at = words.get('at')?.split(',').map(Number);
+  const mode = words.get('mode') ?? (words.has('wipe') ? 'wipe' : 'side'), zoom = +words.get('zoom'), at = words.get('at')?.split(',').map(Number);
   if (mode !== 'flicker' || !calm.matches && card.mode !== mode) card.show(mode, +(words.get('wipe') ?? 50));
   if (pixel && !zoom) return card.look(...pixel);
   if (pixel) card.pointAt(...pixel);

@@ -29,7 +29,8 @@ class Card {
     const image = element.querySelector('.panel img');
     this.width = +image.getAttribute('width');
     this.height = +image.getAttribute('height');
-    this.mode = 'wipe';
+    this.mode = 'side';
+    this.still = 'side';   // the mode that flicker ends in
     this.at = 50;          // of the wipe, percent
     this.zoom = 1;
     this.x = this.y = 0;   // where the picture's corner is, of its width and height; 0 or less
@@ -42,7 +43,8 @@ class Card {
   show(mode, at) {
     if (!this.pair) return;
     clearInterval(this.timer);
-    if (mode === 'flicker' && this.mode === 'flicker') mode = 'wipe';
+    if (mode === 'flicker' && this.mode === 'flicker') mode = this.still;
+    if (mode !== 'flicker') this.still = mode;
     this.mode = mode;
     if (mode === 'wipe') this.at = clamp(at ?? this.at, 0, 100);
     this.pair.className = 'pair ' + (mode === 'side' ? 'side' : 'wipe');

@@ -102,7 +102,7 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const keys = {
   1: card => card.show('left'), 2: card => card.show('right'), w: card => card.show('wipe'),
   s: card => card.show('side'), f: card => { if (!calm.matches) card.show('flicker'); },
-  Escape: card => { if (card.mode === 'flicker') card.show('wipe'); },
+  Escape: card => { if (card.mode === 'flicker') card.show('flicker'); },
   '+': actions.in, '=': actions.in, '-': actions.out, 0: actions.fit, n: actions.next, p: actions.previous,
 };
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -125,12 +125,15 @@ addEventListener('keydown', event => {
 });
 
 addEventListener('visibilitychange', () => {
-  if (document.hidden && current && current.mode === 'flicker') current.show('wipe');
+  if (document.hidden && current && current.mode === 'flicker') current.show('flicker');
 }, true);
 addEventListener('toggle', event => {
   const card = event.target.matches('.card') && !event.target.open && cards.get(event.target);
-  if (card && card.mode === 'flicker') card.show('wipe');
+  if (card && card.mode === 'flicker') card.show('flicker');
 }, true);
+addEventListener('beforeprint', () => {
+  for (const numbers of document.querySelectorAll('.card[open] .more')) numbers.open = true;
+});
 addEventListener('load', event => {
   const panel = event.target.closest && event.target.closest('.panel');
   if (panel) cardOf(panel).sharpen(panel);

@@ -169,7 +169,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
         if (isHeat(mode))
             return {0, heatTop(high), exposure, fmt::format("heat, 0 to {:g} lights", heatTop(high))};
         if (mode.number == gpu::DEBUG_shaded_samples)
-            return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} a pixel", high)};
+            return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
         const std::string range =
             fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
         if (low == high) high = low + 1;

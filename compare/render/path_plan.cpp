@@ -5,6 +5,7 @@
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -75,9 +76,11 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
                       passes.sharedBytes(),
                       drawnCounts(view.draws, shared.geometry, view.culling),
                       {}};
-        for (const std::string& note : view.notes) plan.notes.push_back(note);
-        plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", view.draws.items.size(),
-                                         view.draws.culled, shared.pipelines.count()));
+        for (const auto* lines : {&view.notes, &view.details})
+            plan.notes.insert(plan.notes.end(), lines->begin(), lines->end());
+        plan.notes.push_back(fmt::format("{} in view, {} culled; {}",
+                                         counted(view.draws.items.size(), "draw"), view.draws.culled,
+                                         counted(shared.pipelines.count(), "pipeline")));
         for (const int samples : sampleCounts(device))
             if (samples != s.msaa)
                 plan.bytes.push_back(bytesOf(device, shared, views, withSamples(s, samples)));

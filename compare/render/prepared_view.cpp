@@ -181,8 +181,9 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
                                                     : lights.local();
     checkLightsOfBlended(inputs);
     checkSamples(inputs);
-    notes = functionsOf(settings.path).prepare(inputs, settings);
+    details = functionsOf(settings.path).prepare(inputs, settings);
     shadow.choosePages(inputs);
+    std::ranges::copy(shadow.sun.details(), std::back_inserter(details));
     std::ranges::move(shadow.notes(), std::back_inserter(notes));
     std::ranges::copy(environment.notes(), std::back_inserter(notes));
 }

@@ -60,7 +60,9 @@ public:
     PreparedView(const PreparedView&) = delete;
     PreparedView& operator=(const PreparedView&) = delete;
 
-    std::vector<std::string> notes;  // decisions made for this view
+    std::vector<std::string> notes;  // what a reader of the picture must know
+    std::vector<std::string>
+        details;  // what any scene has, for -v and plan: pre-pass, triangles of shadow maps
     const SceneView& scene;
     const Materials& materials_at_rest;
     std::optional<Materials> posed_materials;  // where an animation moves any; else those at rest

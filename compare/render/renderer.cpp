@@ -97,6 +97,7 @@ private:
 
     // Draws with the pipelines without debug code, which are those that are timed.
     void drawLit() {
+        for (const std::string& detail : prepared_.view.details) announce(detail);
         announce("draw");
         step("draw");
         prepared_.passes.run();

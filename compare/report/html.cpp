@@ -60,8 +60,8 @@ std::string header(const Report& report, const ReportLayout& layout, const Repor
             fmt::format("; and {} ({}), {}", report.against.name, report.against.type, report.against.driver);
     drawn += markup(devices);
     return fmt::format(
-        "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
-        "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
+        "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict "
+        "{0}\">{0}</span>{1}</h1><p>{3}</p><p class=\"soft\">{2}</p></header>\n",
         verdict, markup(title), drawn, markup(verdictLine(report)));
 }
 
@@ -105,7 +105,8 @@ std::string saidBefore(const SceneError& error) {
                        isolated(error.renderer), isolated(error.output));
 }
 
-// The failures of all comparisons: where to look first.
+// The failures of all comparisons: where to look first. Channels of a single comparison have their cards
+// here.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const auto* unpaired : {&report.errors, &report.failures})
@@ -116,7 +117,7 @@ std::string failures(const Report& report, const ReportLayout& layout) {
         const std::string where = whereOf(report, layout, comparison);
         for (const std::string& failure : comparison.failures) items.push_back(where + markup(failure));
         for (const ChannelDiff& channel : comparison.channels)
-            if (channel.verdict == Verdict::fail)
+            if (channel.verdict == Verdict::fail && report.comparisons.size() > 1)
                 items.push_back(fmt::format("{}{}: {}", where, cardLink(layout.ids[i], *channel.mode),
                                             markup(channel.reason)));
     }
@@ -181,16 +182,15 @@ std::string sinceBox(const Report& report, const ReportTexts& texts) {
 
 // The keys and gestures that compare/page/gestures.js handles.
 constexpr const char* legend =
-    "<details class=\"keys box\"><summary>Keys and gestures</summary><dl>"
-    "<dt><kbd>1</kbd> <kbd>2</kbd></dt><dd>left, right picture alone</dd>"
-    "<dt><kbd>w</kbd> <kbd>s</kbd> <kbd>f</kbd></dt><dd>wipe, side by side, flicker (again or Esc: stop)</dd>"
-    "<dt><kbd>+</kbd> <kbd>-</kbd> <kbd>0</kbd></dt><dd>zoom in, out, fit</dd>"
-    "<dt>arrows</dt><dd>move the wipe, or the picture where it is zoomed; with Shift further</dd>"
-    "<dt><kbd>n</kbd> <kbd>p</kbd></dt><dd>next, previous of the worst pixels</dd>"
-    "<dt>drag</dt><dd>moves the wipe, or the picture where it is zoomed</dd>"
-    "<dt>wheel, pinch</dt><dd>zoom; the wheel after a click into the picture, or with Ctrl</dd>"
-    "</dl><p class=\"soft\">They act on the card that the pointer was on last. Arrows act after a click into "
-    "the picture.</p></details>\n";
+    "<details class=\"keys box\"><summary>Keys and gestures</summary><dl><dt><kbd>1</kbd> "
+    "<kbd>2</kbd></dt><dd>left, right picture alone</dd><dt><kbd>w</kbd> <kbd>s</kbd> "
+    "<kbd>f</kbd></dt><dd>wipe, side by side, flicker (again or Esc: stop)</dd><dt><kbd>+</kbd> <kbd>-</kbd> "
+    "<kbd>0</kbd></dt><dd>zoom in, out, fit</dd><dt>arrows</dt><dd>move the wipe, or the picture where it is "
+    "zoomed; with Shift further</dd><dt><kbd>n</kbd> <kbd>p</kbd></dt><dd>next, previous of the worst "
+    "pixels</dd><dt>drag</dt><dd>moves the wipe, or the picture where it is zoomed</dd><dt>wheel, "
+    "pinch</dt><dd>zoom; the wheel after a click into the picture, or with Ctrl</dd></dl><p "
+    "class=\"soft\">Keys act on the card that was pointed at last, arrows after a click into the "
+    "picture.</p></details>\n";
 
 std::string usedText(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
@@ -234,10 +234,9 @@ std::string overview(const Comparison& comparison, const std::string& id) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
         "class=\"optional\">metric</th><th class=\"n optional\">max</th><th class=\"n "
-        "optional\">mean</th><th "
-        "class=\"n optional\">p99.9</th><th class=\"by\">judged by</th><th class=\"n\">measured</th><th "
-        "class=\"n\">limit</th>"
-        "<th class=\"optional\">used</th><th>verdict</th></tr></thead>\n<tbody>");
+        "optional\">mean</th><th class=\"n optional\">p99.9</th><th class=\"by\">judged by</th><th "
+        "class=\"n\">measured</th><th class=\"n\">limit</th><th "
+        "class=\"optional\">used</th><th>verdict</th></tr></thead>\n<tbody>");
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
@@ -246,9 +245,8 @@ std::string overview(const Comparison& comparison, const std::string& id) {
         if (!isCompared(channel->verdict))
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
-                "optional\">"
-                "\u2013</td><td class=\"by\"></td><td class=\"n\">\u2013</td><td class=\"n\">\u2013</td><td "
-                "class=\"optional\"></td>";
+                "optional\">\u2013</td><td class=\"by\"></td><td class=\"n\">\u2013</td><td "
+                "class=\"n\">\u2013</td><td class=\"optional\"></td>";
         else
             out += fmt::format(
                 "<td class=\"n optional\">{}</td><td class=\"n optional\">{}</td><td class=\"n "
@@ -258,15 +256,12 @@ std::string overview(const Comparison& comparison, const std::string& id) {
                            nameOf(channel->verdict), beyondText(*channel));
     }
     return out +
-           "</tbody></table><p class=\"soft small\">A channel is judged by its largest error (max), by the "
-           "one that "
-           "999 of 1000 pixels stay below (p99.9), by the same of its excess over what the reference leaves "
-           "open and the G-buffer's bits allow, by a figure of a rule, or by the number of pixels whose "
-           "difference "
-           "the encoding of the G-buffer does not explain: none may. Used is how much of the limit is "
-           "measured; "
-           "where unexplained pixels are counted, how much of what its bits allow the pixel uses that uses "
-           "most.</p></div>\n";
+           "</tbody></table><p class=\"soft small\">Measured and limit are of the figure under judged by. "
+           "max: the largest error. p99.9: the error that 999 of 1000 pixels stay below. Excess: the error "
+           "less what the reference leaves open and the G-buffer's bits allow. Pixels unexplained: pixels "
+           "whose difference the G-buffer's encoding does not explain; none may be. Used: measured as a "
+           "share of the limit; for pixels unexplained, the largest error as a share of its pixel's "
+           "bound.</p></div>\n";
 }
 
 std::string footer(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
@@ -274,11 +269,9 @@ std::string footer(const Report& report, const ReportLayout& layout, const Repor
         report.comparisons.size() > 1 ? fmt::format("; {} files in all", layout.files().size()) : "";
     return fmt::format(
         "<footer><p><a href=\"report.json\">report.json</a><a "
-        "href=\"junit.xml\">junit.xml</a>{}</p><p>compared "
-        "in {:.0f} ms, pictures, values and EXRs encoded in {:.0f} ms. Numbers are of linear float32 "
-        "channels; "
-        "colour maps come after. Background pixels are outside every statistic; percentiles are by nearest "
-        "rank.</p></footer>\n",
+        "href=\"junit.xml\">junit.xml</a>{}</p><p>compared in {:.0f} ms, pictures, values and EXRs encoded "
+        "in {:.0f} ms. Statistics are computed on linear float32 channels, before any colour map. They leave "
+        "out background pixels. Percentiles are nearest-rank.</p></footer>\n",
         several, total(texts, &DrawnOn::compare_ms), total(texts, &DrawnOn::encode_ms));
 }
 
@@ -294,17 +287,17 @@ std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
 }  // namespace
 
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index) {
-    return report.comparisons.size() > 1 ? markup(titleOf(report, layout, report.comparisons[index]))
-                                         : "Channels";
+    return report.comparisons.size() > 1 ? markup(titleOf(report, layout, report.comparisons[index])) : "";
 }
 
 std::string section(const Report& report, const ReportLayout& layout, std::size_t index) {
     const Comparison& comparison = report.comparisons[index];
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", layout.ids[index],
                        layout.part ? std::string(titleLater) : sectionTitle(report, layout, index)) +
+           leadingCards(report, layout, index) + "<h2>Channels</h2>\n" +
            overview(comparison, layout.ids[index]) +
            (comparison.explained ? comparison.explained->html(layout.source(layout.cause_maps[index])) : "") +
-           channelCards(report, layout, index) + checksSection(report, layout, index) +
+           otherCards(report, layout, index) + checksSection(report, layout, index) +
            "<h2>What was compared</h2>\n" + frameTables(report, comparison) + exrLinks(layout, comparison) +
            "</section>\n";
 }
@@ -348,17 +341,18 @@ std::string reportHtml(const Report& report, const ReportLayout& layout) {
 
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     std::string body = header(report, layout, texts) + firstNotes(report) + failures(report, layout) +
-                       sinceBox(report, texts) + warnings(report, layout) + checksLinks(report, layout) +
+                       sinceBox(report, texts) + warnings(report, layout) +
                        closerPathSection(report, layout, texts) + indexTable(report, layout, texts) +
-                       notes(report, layout) + legend + "<div id=\"sections\">\n";
+                       "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += texts.section(layout.order[at]);
-    body += "</div>\n" + laterSections(layout, texts);
+    body += "</div>\n" + laterSections(layout, texts) + checksLinks(report, layout) + notes(report, layout) +
+            legend;
     const std::string script = fmt::format("{}{}{}", page::tables, page::copying, page::script);
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{}<meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
-        "</head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: "
+        "{}</title>\n<style>{}</style></head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
         "channels</a>{}{}<script>{}</script>\n</body></html>\n",
         pagePolicy(script), markup(verdictLine(report)), page::style, body, footer(report, layout, texts),
         script);

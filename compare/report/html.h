@@ -17,7 +17,8 @@ ReportTexts textsOf(const Report& report, const ReportLayout& layout);
 std::string reportHtml(const Report& report, const ReportLayout& layout);
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
 
-// One comparison, and its title; of a part with numberLater and titleLater in their places.
+// One comparison, and its title, empty where there is one alone; of a part with numberLater and titleLater in
+// their places.
 std::string section(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index);
 
@@ -33,7 +34,9 @@ std::string cardLink(const std::string& comparison, const DebugMode& mode);
 std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index);
 // Empty for one comparison.
 std::string indexTable(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
-std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index);
+// The cards of leadingChannels(), and those of the others.
+std::string leadingCards(const Report& report, const ReportLayout& layout, std::size_t index);
+std::string otherCards(const Report& report, const ReportLayout& layout, std::size_t index);
 // Histogram and worst pixels for the card with this `id`.
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id);
 // Empty without a reference.

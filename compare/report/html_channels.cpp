@@ -35,37 +35,61 @@ public:
           channel_(channel),
           pictures_(layout.pictures[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
-          id_(cardId(layout.ids[comparison], *channel.mode)) {}
+          id_(cardId(layout.ids[comparison], *channel.mode)),
+          leads_(std::ranges::count(leadingChannels(report.comparisons[comparison]), &channel) > 0) {}
 
     std::string html() const {
         const DebugMode& mode = *channel_.mode;
         const bool compared = isCompared(channel_.verdict);
-        const bool open = compared && (channel_.verdict == Verdict::fail || channel_.stats.different > 0);
+        const bool open = leads_ || (compared && channel_.stats.different > 0);
         std::string out = fmt::format(
             "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "
-            "\u00b7 {5} "
-            "\u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div class=\"body\">\n",
+            "\u00b7 {5} \u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div "
+            "class=\"body\">\n",
             nameOf(channel_.verdict), id_, open ? " open" : "", markup(mode.name), mode.number,
             nameOf(mode.metric), markup(mode.shows));
         if (!channel_.warning.empty())
             out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
-        if (!channel_.reason.empty())
-            out += fmt::format("<p class=\"reason\">{}</p>\n", markup(channel_.reason));
         if (!compared) return out + single() + "</div></details>\n";
-        out += pictures_.kept ? "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() +
-                                    "</div></div>\n"
-                              : notKept() + numbers();
-        out += because();
-        return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
-               "</div></details>\n";
+        out += finding();
+        out += pictures_.kept ? "<div class=\"pictures\">" + pair() + difference() + "</div>\n" : notKept();
+        const std::string commands = again();
+        return out +
+               fmt::format("<details class=\"more\"><summary>Numbers, worst pixels{}</summary>",
+                           commands.empty() ? "" : ", commands that draw it again") +
+               commands + numbers() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
+               "</details></div></details>\n";
     }
 
 private:
+    // By how much the channel differs, where most, what decided, and the reason of its tolerance.
+    std::string finding() const {
+        const ChannelStats& s = channel_.stats;
+        std::string text = channel_.reason.empty() ? "" : "<b>" + markup(channel_.reason) + ".</b> ";
+        if (s.different == 0)
+            text += "Equal at every pixel. ";
+        else if (s.worst_x >= 0)
+            text += fmt::format("Largest {0} {1}{2}, at pixel <a href=\"#{3}@{4},{5}\">{4}, {5}</a>. ",
+                                channel_.shown_error ? markup(channel_.shown_error_name) : "error",
+                                number(largestShown()), channel_.shown_error ? "" : unitOf(*channel_.mode),
+                                id_, s.worst_x, s.worst_y);
+        if (const auto& decided = channel_.criterion; decided && channel_.reason.empty() && s.different > 0)
+            text += fmt::format("Judged by {}: {}, {} {} allowed. ", markup(decided->figure),
+                                number(decided->measured), decided->least ? "at least" : "at most",
+                                number(decided->limit));
+        return "<p class=\"finding\">" + text + because() + "</p>\n";
+    }
+
+    // Of the errors that are drawn.
+    double largestShown() const {
+        return pictures_.worst.empty() ? channel_.stats.max : pictures_.worst.front().error;
+    }
+
     std::string notKept() const {
         return fmt::format("<p class=\"equal\">{}</p>\n",
                            layout_.keep == Keep::none
                                ? "--keep none: no pictures are kept"
-                               : "--keep failing: of what passes no pictures are kept");
+                               : "--keep failing: no pictures are kept of channels that pass");
     }
 
     // A picture that can be moved and zoomed, without a name that of the left side; `over` is drawn on top of
@@ -95,34 +119,30 @@ private:
         for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
         return fmt::format(
             "<div class=\"legend\"><span class=\"title\">lights that each pixel evaluates</span><div "
-            "class=\"ramp\" "
-            "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
+            "class=\"ramp\" style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{:g}</span><span>{:g} lights</span></div></div>",
             stops, pictures_.scale.high / 2, pictures_.scale.high);
     }
 
     static std::string zoomButtons() {
         return "<span class=\"buttons\"><button data-do=\"out\" aria-label=\"zoom out\" "
-               "title=\"-\">\u2212</button>"
-               "<button data-do=\"fit\" title=\"0\">fit</button>"
-               "<button data-do=\"in\" aria-label=\"zoom in\" title=\"+\">+</button></span>";
+               "title=\"-\">\u2212</button><button data-do=\"fit\" title=\"0\">fit</button><button "
+               "data-do=\"in\" aria-label=\"zoom in\" title=\"+\">+</button></span>";
     }
 
     // The script labels its rows with the names of the Frames that have the channel.
     std::string readout() const {
         if (pictures_.values.empty())
-            return fmt::format(
-                "<p class=\"readout\">{}</p>",
-                layout_.single_file
-                    ? "a single file leaves out the values under the cursor"
-                    : "a picture of this size is shown without its values; the EXRs have them");
+            return fmt::format("<p class=\"readout\">{}</p>",
+                               layout_.single_file
+                                   ? "a single file leaves out the values under the cursor"
+                                   : "the values of a picture of this size are in the EXRs alone");
         nlohmann::json names = nlohmann::json::array();
         if (!pictures_.baseline.empty()) names.push_back(left_.name);
         if (!pictures_.test.empty()) names.push_back(right_.name);
         return fmt::format(
-            "<p class=\"readout\" data-values=\"{}\" data-names=\"{}\" data-unit=\"{}\">point at a picture: "
-            "the "
-            "values there stand here</p>",
+            "<p class=\"readout\" data-values=\"{}\" data-names=\"{}\" data-unit=\"{}\">the values under the "
+            "cursor appear here</p>",
             markup(pictures_.values),
             markup(names.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
             unitOf(*channel_.mode));
@@ -149,12 +169,11 @@ private:
             channel_.verdict == Verdict::informative ? std::string("Informative")
             : !channel_.rule.empty()                 ? fmt::format("Rule of {}", markup(channel_.rule))
             : channel_.encoding_use || channel_.device_use
-                ? fmt::format("Tolerance of each pixel's own, {} at most", number(channel_.tolerance.max))
+                ? fmt::format("Tolerance per pixel, at most {}", number(channel_.tolerance.max))
                 : fmt::format("Tolerance {}", number(channel_.tolerance.max));
-        if (channel_.tolerance.because.empty())
-            return fmt::format("<p class=\"because\"><b>{}</b></p>\n", decides);
-        return fmt::format("<p class=\"because\"><b>{}</b> <span class=\"soft\">because</span> {}</p>\n",
-                           decides, markup(channel_.tolerance.because));
+        if (channel_.tolerance.because.empty()) return decides + ".";
+        return fmt::format("{} <span class=\"soft\">because</span> {}.", decides,
+                           markup(channel_.tolerance.because));
     }
 
     // The command that reproduces the failure, and the one that shows it in a window.
@@ -163,18 +182,18 @@ private:
         const std::string name(channel_.mode->name);
         const auto line = [](const char* what, const std::vector<std::string>& words) {
             return fmt::format(
-                "<p class=\"again\"><span class=\"soft\">{}, from the same folder</span> <code>{}</code>"
-                "<button data-do=\"copy\">copy</button></p>\n",
+                "<p class=\"again\"><span class=\"soft\">{}, from the same folder</span> "
+                "<code>{}</code><button data-do=\"copy\">copy</button></p>\n",
                 what, markup(shellLine(words)));
         };
-        std::string text = line("again", withOption(command_, "--channels", name));
+        std::string text = line("draw it again", withOption(command_, "--channels", name));
         std::vector<std::string> view = withOption(command_, "--debug", name);
         if (view.front() != "compare") return text;
         view.front() = "view";
         // The folder of the report that draws it again is none of the window's.
         for (const char* option : {"-o", "--against-device"})  // of a report
             if (const auto out = std::ranges::find(view, option); out != view.end()) view.erase(out, out + 2);
-        return text + line("in a window", view);
+        return text + line("open it in a window", view);
     }
 
     std::string pair() const {
@@ -188,16 +207,13 @@ private:
                                markup(frame.name));
         };
         return fmt::format(
-            "<figure><div class=\"pair wipe\" data-mode=\"wipe\" style=\"--w:50%\">{0}{1}"
-            "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"wipe {2}\">"
-            "<i class=\"divider\"></i></div><figcaption><span class=\"buttons\">"
-            "<button data-show=\"left\" title=\"1\">{3}</button>"
-            "<button data-show=\"wipe\" title=\"w\" class=\"on\">wipe</button>"
-            "<button data-show=\"right\" title=\"2\">{4}</button>"
-            "<button data-show=\"side\" title=\"s\">side by side</button>"
-            "<button data-show=\"flicker\" "
-            "title=\"f\">flicker</button></span>{6}{5}</figcaption>"
-            "{7}</figure>\n",
+            "<figure><div class=\"pair side\" data-mode=\"side\" style=\"--w:100%\">{0}{1}<input "
+            "type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"wipe {2}\"><i "
+            "class=\"divider\"></i></div><figcaption><span class=\"buttons\"><button data-show=\"side\" "
+            "title=\"s\" class=\"on\">side by side</button><button data-show=\"wipe\" "
+            "title=\"w\">wipe</button><button data-show=\"left\" title=\"1\">{3}</button><button "
+            "data-show=\"right\" title=\"2\">{4}</button><button data-show=\"flicker\" "
+            "title=\"f\">flicker</button></span>{6}{5}</figcaption>{7}</figure>\n",
             stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
             markup(channel_.mode->name), markup(left_.name), markup(right_.name), scaleLegend(),
             zoomButtons(), readout());
@@ -219,11 +235,11 @@ private:
                                             channel_.rule.empty() ? "tolerance" : "the limit", farBeyond));
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
         return fmt::format(
-            "<figure><div class=\"stage\">{}</div><figcaption><div class=\"legend\"><span "
-            "class=\"title\">{}</span><div class=\"ramp\" "
+            "<figure><div class=\"stage\">{}<span class=\"tag\">difference</span></div><figcaption><div "
+            "class=\"legend\"><span class=\"title\">{}</span><div class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
-            "mono\"><span>0</span><span>{}</span><span>{} "
-            "({})</span></div></div><span>black: {}</span>{}</figcaption></figure>\n",
+            "mono\"><span>0</span><span>{}</span><span>{} ({})</span></div></div><span>black: "
+            "{}</span>{}</figcaption></figure>\n",
             panel(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
             errorTitle(), stops, number(pictures_.error_top / 4), number(pictures_.error_top),
             toLimit                ? limit
@@ -268,19 +284,19 @@ private:
                 number(channel_.tolerance.max) + unit);
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
-            row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
+            row("pixels unexplained by the encoding", fmt::format("{}", *channel_.unexplained_pixels));
         if (const auto& f = channel_.footprints) {
-            row("smooth around, held to a bound each",
-                fmt::format("{} px, {:.3g} of it used", f->smooth, f->used));
+            row("pixels with smooth surroundings, each with a bound",
+                fmt::format("{} px, largest error {:.3g} of its bound", f->smooth, f->used));
             if (f->detailed > 0)
-                row("with detail, by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
-            if (f->edges > 0) row("at edges, not judged", fmt::format("{} px", f->edges));
+                row("pixels with detail, judged by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
+            if (f->edges > 0) row("pixels at edges, not judged", fmt::format("{} px", f->edges));
         }
         if (const auto& use = channel_.encoding_use; use && use->x >= 0)
-            row("of what the bits allow there",
+            row("largest share of a pixel's bound",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (const auto& use = channel_.device_use; use && use->x >= 0)
-            row("of what both devices' precision allows there",
+            row("largest share of both devices' precision",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));
@@ -314,10 +330,9 @@ private:
         const std::string there =
             fmt::format("worst pixel {}, {}{}", x, y,
                         isDrawn && channel_.shown_error ? ", by " + markup(channel_.shown_error_name) : "");
-        const double largest = isDrawn ? pictures_.worst.front().error : channel_.stats.max;
         return "<div class=\"loupes\">" + loupe(pictures_.baseline, markup(left_.name), values(left_)) +
                loupe(pictures_.test, markup(right_.name), values(right_)) +
-               loupe(pictures_.difference, there, fmt::format(" {}", number(largest))) + "</div>\n";
+               loupe(pictures_.difference, there, fmt::format(" {}", number(largestShown()))) + "</div>\n";
     }
 
     // A forward-only channel has one picture and no verdict.
@@ -328,8 +343,7 @@ private:
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(
             "<div class=\"pictures one\"><figure><div "
-            "class=\"stage\">{}</div><figcaption>{}{}</figcaption>"
-            "{}</figure></div>{}",
+            "class=\"stage\">{}</div><figcaption>{}{}</figcaption>{}</figure></div>{}",
             panel(picture, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout(), why);
     }
 
@@ -339,14 +353,23 @@ private:
     const ChannelDiff& channel_;
     const ChannelPictures& pictures_;
     std::string id_;
+    bool leads_;
 };
 
 }  // namespace
 
-std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index) {
+std::string leadingCards(const Report& report, const ReportLayout& layout, std::size_t index) {
+    std::string out;
+    for (const ChannelDiff* channel : leadingChannels(report.comparisons[index]))
+        out += Card(report, layout, index, *channel).html();
+    return out;
+}
+
+std::string otherCards(const Report& report, const ReportLayout& layout, std::size_t index) {
+    const std::vector<const ChannelDiff*> leading = leadingChannels(report.comparisons[index]);
     std::string out;
     for (const ChannelDiff* channel : failuresFirst(report.comparisons[index]))
-        out += Card(report, layout, index, *channel).html();
+        if (std::ranges::count(leading, channel) == 0) out += Card(report, layout, index, *channel).html();
     return out;
 }
 

@@ -55,15 +55,13 @@ std::string times(const Frame& a, const Frame& b) {
     return out +
            "</table></div><p class=\"soft\">Whole frames are timed unsplit, both paths' in turn; passes are "
            "medians of separate, profiled runs and need not add up. What the host does comes on "
-           "top.</p></div>"
-           "\n";
+           "top.</p></div>\n";
 }
 
 std::string costs(const Frame& a, const Frame& b) {
     std::string out = fmt::format(
         "<div class=\"box\"><h4>Memory and counters</h4><div class=\"scroll\"><table><tr><th></th><th "
-        "class=\"n\">{}</th>"
-        "<th class=\"n\">{}</th></tr>",
+        "class=\"n\">{}</th><th class=\"n\">{}</th></tr>",
         markup(a.name), markup(b.name));
     const auto row = [&](const char* name, const auto& value) {
         out += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", name,
@@ -78,7 +76,7 @@ std::string costs(const Frame& a, const Frame& b) {
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
     if (a.counters.shadow_pages.requested + b.counters.shadow_pages.requested > 0)
-        row("shadow pages, of which a coarser level serves", [](const Frame& f) {
+        row("shadow pages served by a coarser level", [](const Frame& f) {
             return fmt::format("{}, {}", f.counters.shadow_pages.requested, f.counters.shadow_pages.fallback);
         });
     if (a.counters.unsorted.fragments + b.counters.unsorted.fragments > 0)
@@ -102,8 +100,8 @@ std::string settings(const Frame& a, const Frame& b) {
     const Json left = parseOrderedJson(toJson(a.settings)), right = parseOrderedJson(toJson(b.settings));
     std::string out = fmt::format(
         "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all of them; what "
-        "differs is "
-        "coloured</span></summary><div class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
+        "differs is coloured</span></summary><div "
+        "class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
         markup(a.name), markup(b.name));
     for (const auto& [key, value] : left.items()) {
         const Json& other = right.at(key);
@@ -123,8 +121,7 @@ std::string camera(const Report& report, const Frame& frame) {
         c.fov_degrees > 0 ? fmt::format("{:.4g}\u00b0 vertical", c.fov_degrees) : "orthographic";
     return fmt::format(
         "<p class=\"soft camera\">Scene {}. Camera {}{}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, "
-        "{:.5g}; {}; "
-        "near {:.4g}, far {:.4g} m</p>\n",
+        "{:.5g}; {}; near {:.4g}, far {:.4g} m</p>\n",
         page::isolated(frame.scene), page::isolated(viewTitle(report, frame)),
         c.choice.empty() ? "" : fmt::format(" ({})", page::isolated(c.choice)), c.eye[0], c.eye[1], c.eye[2],
         c.target[0], c.target[1], c.target[2], lens, c.near, c.far);

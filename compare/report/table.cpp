@@ -2,6 +2,7 @@
 // The report on a terminal.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -35,12 +36,11 @@ TableRow rowOf(const ChannelDiff& channel) {
 // Beside a lit channel's criterion, how much the encoding explains.
 std::string explainedLine(const ChannelDiff& channel) {
     if (!channel.unexplained_pixels || channel.stats.max == 0 || channel.verdict == Verdict::fail) return {};
-    std::string line = fmt::format("  {}: the encoding explains up to {}, {} at the mean", channel.mode->name,
-                                   number(channel.stats.max), number(channel.stats.mean));
+    std::string line = fmt::format("  {}: explained by the encoding: largest error {}, mean {}",
+                                   channel.mode->name, number(channel.stats.max), number(channel.stats.mean));
     if (channel.flip) line += fmt::format(", FLIP {}", number(*channel.flip));
     if (channel.encoding_use)
-        line += fmt::format("; a pixel uses at most {} of what its bits allow",
-                            percentText(channel.encoding_use->used));
+        line += fmt::format(", at most {} of a pixel's bound", percentText(channel.encoding_use->used));
     return line + "\n";
 }
 
@@ -51,13 +51,14 @@ std::string frameLine(const Frame& frame) {
                            nameOf(frame.settings.reference_mode), frame.made_in_ms / 1000);
     std::string line = "  " + frame.name;
     if (frame.time.runs > 0)
-        line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
-                            frame.time.max, frame.time.runs);
+        line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {})", frame.time.median, frame.time.min,
+                            frame.time.max, counted(frame.time.runs, "run"));
     if (frame.time.object_lists > 0)
-        line += fmt::format(", {:.3g} ms on the host for each object's lights", frame.time.object_lists);
+        line +=
+            fmt::format(", {:.3g} ms on the host to choose each object's lights", frame.time.object_lists);
     if (!frame.origin.device.empty())
         line += fmt::format(", on {}, {}", frame.origin.device, frame.origin.driver);
-    return line + fmt::format(", {} bytes a pixel of {}\n", frame.bytes.gbuffer_per_pixel,
+    return line + fmt::format(", {} bytes per pixel of {}\n", frame.bytes.gbuffer_per_pixel,
                               frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }
 
@@ -71,8 +72,8 @@ std::string notesText(const Report& report) {
                                   : note.scenes.size() == scenes.size()
                                       ? fmt::format(", {} scenes", scenes.size())
                                       : ", " + listed(note.scenes, 3);
-        out +=
-            fmt::format("note{}{}: {}\n", about, note.varies ? ", with other numbers each" : "", note.text);
+        out += fmt::format("note{}{}: {}\n", about, note.varies ? ", each with numbers of its own" : "",
+                           note.text);
     }
     return out;
 }
@@ -101,6 +102,13 @@ std::string comparisonTable(const Report& report, const Comparison& comparison) 
         out += line + "  " + row[8] + "\n";
     }
     for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
+    for (const auto& [figure, meaning] :
+         {std::pair{"excess", "the error less what the reference leaves open and the G-buffer's bits allow"},
+          {"pixels unexplained", "pixels whose difference the G-buffer's encoding does not explain"}})
+        if (std::ranges::any_of(comparison.channels, [&, word = figure](const ChannelDiff& channel) {
+                return channel.criterion && channel.criterion->figure.find(word) != std::string::npos;
+            }))
+            out += fmt::format("  {}: {}\n", figure, meaning);
     const std::string place = placeOf(report, comparison);
     for (const std::string& failure : comparison.failures)
         out += fmt::format("  FAIL {}: {}\n", place, failure);

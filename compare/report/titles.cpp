@@ -57,6 +57,20 @@ std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison) {
     return channels;
 }
 
+std::vector<const ChannelDiff*> leadingChannels(const Comparison& comparison) {
+    std::vector<const ChannelDiff*> leading;
+    const ChannelDiff *lit = nullptr, *first = nullptr;
+    for (const ChannelDiff* channel : failuresFirst(comparison)) {
+        if (channel->verdict == Verdict::fail) leading.push_back(channel);
+        if (isCompared(channel->verdict) && channel->mode->name == "lit") lit = channel;
+        if (isCompared(channel->verdict) && !first) first = channel;
+    }
+    if (!lit && leading.empty()) lit = first;
+    if (lit && std::ranges::count(leading, lit) == 0)
+        leading.insert(leading.begin() + std::min<std::ptrdiff_t>(std::ssize(leading), 1), lit);
+    return leading;
+}
+
 std::vector<std::string> notesOf(const Report& report, const Comparison& comparison) {
     std::vector<std::string> notes;
     for (const auto* source :
@@ -216,7 +230,7 @@ std::string verdictLine(const Report& report) {
             informative == 0
                 ? ""
                 : fmt::format(", and {} of light decide nothing: the paths' Settings differ", informative),
-            alone_on_a_side == 0 ? "" : fmt::format(" ({} more on one side alone)", alone_on_a_side),
+            alone_on_a_side == 0 ? "" : fmt::format(" ({} more exist on one side only)", alone_on_a_side),
             hardlyAnything(report));
     // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.
     std::string what = others.empty() ? "" : all == 1 ? listed(others, 1) : others.front();

@@ -32,6 +32,10 @@ std::vector<std::size_t> failingFirst(const Report& report);
 // The channels in the order in which people read them: failures, then passes, then forward-only.
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
 
+// The channels whose pictures stand above the table: every one that fails, and lit, which comes second at the
+// latest. Without lit and failures, the first that is compared.
+std::vector<const ChannelDiff*> leadingChannels(const Comparison& comparison);
+
 // The comparison's notes and those of its two Frames, each once.
 std::vector<std::string> notesOf(const Report& report, const Comparison& comparison);
 

@@ -44,8 +44,7 @@ std::string header(const Tradeoff& tradeoff) {
     for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} Settings "
-        "at {}x{} "
-        "on {} ({}), {} timed frame{} each; {}; errors of lit against the reference</p></header>\n",
+        "at {}x{} on {} ({}), {} timed frame{} each; {}; errors of lit against the reference</p></header>\n",
         page::isolated(tradeoff.scene), tradeoff.rows.size(), size.width, size.height,
         markup(tradeoff.device.name), markup(tradeoff.device.driver), tradeoff.runs,
         tradeoff.runs == 1 ? "" : "s", page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
@@ -61,10 +60,8 @@ std::string switches() {
             markup(errorFigures[i].title));
     return out +
            "</span><span class=\"soft\">A filled mark with its row's number is on the front: no other row is "
-           "both "
-           "faster and closer to the reference. A bar goes from the least to the most of the timed frames "
-           "and "
-           "of the cameras.</span></div>\n";
+           "both faster and closer to the reference. A bar spans the timed frames and the "
+           "cameras.</span></div>\n";
 }
 
 std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
@@ -90,8 +87,8 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     const TradeoffRow& row = tradeoff.rows[index];
     const Spread time = timeOf(row);
     std::string out = fmt::format(
-        "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row {0}</p>{3}<dl>"
-        "<dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
+        "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row "
+        "{0}</p>{3}<dl><dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
         index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), pictures(tradeoff, row),
         time.value, time.low, time.high);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
@@ -126,9 +123,8 @@ std::string plots(const Tradeoff& tradeoff) {
 std::string table(const Tradeoff& tradeoff) {
     std::string out =
         "<h2>Every row</h2>\n<div class=\"box scroll rows\" id=\"rows\"><table "
-        "class=\"stack\"><thead><tr><th><button "
-        "type=\"button\">row</button>"
-        "</th><th><button type=\"button\">settings</button></th>";
+        "class=\"stack\"><thead><tr><th><button type=\"button\">row</button></th><th><button "
+        "type=\"button\">settings</button></th>";
     std::vector<std::string> heads{"ms", "least", "most"};
     for (const ErrorFigure& figure : errorFigures) heads.emplace_back(figure.title);
     heads.emplace_back("memory");
@@ -136,8 +132,7 @@ std::string table(const Tradeoff& tradeoff) {
         out += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>", markup(head));
     out +=
         "<th><button type=\"button\">front</button></th><th><button "
-        "type=\"button\">command</button></th></tr>"
-        "</thead>\n<tbody>";
+        "type=\"button\">command</button></th></tr></thead>\n<tbody>";
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         const Spread time = timeOf(row);
@@ -171,26 +166,22 @@ std::string skips(const Tradeoff& tradeoff) {
 
 std::string how(const Tradeoff& tradeoff) {
     const char* const visits =
-        tradeoff.runs > 1
-            ? "A row is visited several times: when it is drawn, and once all are, in rounds of all rows, "
-              "each in a random order, six rows in turn: what disturbs the device for a while falls on all "
-              "alike. Its time is the mean of its visits' medians"
-            : "Of each row one frame is timed";
+        tradeoff.runs > 1 ? "A row is visited several times: when it is drawn, and once all are, in rounds "
+                            "of all rows, each in a random order, six rows in turn: what disturbs the device "
+                            "for a while falls on all alike. Its time is the mean of its visits' medians"
+                          : "Of each row one frame is timed";
     std::string out =
         "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "
-        "unsplit, from "
-        "culling to linear lit, the scene already uploaded, after one frame that is not counted. ";
+        "unsplit, from culling to linear lit, the scene already uploaded, after one frame that is not "
+        "counted. ";
     out += visits;
     out +=
-        "; of several cameras the mean of theirs. Passes come from a separate, profiled run.</li>"
-        "<li>Errors are of lit, linear, over the pixels that show a surface in the reference: "
-        "the mean of "
-        "HDR-FLIP; root of the mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean "
-        "luminance). Of "
-        "several cameras all pixels count alike.</li>"
-        "<li>A row of another size is enlarged to the reference's between pixel centres, bilinearly; where "
-        "the nearest "
-        "pixel is background, it is background.</li>";
+        "; of several cameras the mean of theirs. Passes come from a separate, profiled run.</li><li>Errors "
+        "are of lit, linear, over the pixels that show a surface in the reference: the mean of HDR-FLIP; "
+        "root of the mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean luminance). Of "
+        "several cameras all pixels count alike.</li><li>A row of another size is enlarged to the "
+        "reference's between pixel centres, bilinearly; where the nearest pixel is background, it is "
+        "background.</li>";
     for (const std::string& line : howItWent(tradeoff)) out += "<li>" + markup(line) + "</li>";
     for (const std::string& line : tradeoff.notes) out += "<li>" + markup(line) + "</li>";
     out += "</ul></div>\n<footer><p>";
@@ -206,8 +197,8 @@ std::string how(const Tradeoff& tradeoff) {
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
-        "<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, "
+        "{}</title>\n<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
         "table</a>{}{}{}{}{}{}{}<script>{}{}{}</script>\n</body></html>\n",
         markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
         plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff) + inHtml(tradeoff, sampleTable(tradeoff)),

@@ -91,9 +91,8 @@ std::string samplesProblem(const Settings& reference, const Settings& path) {
     if (path.msaa == 1) return {};
     if (reference.reference_mode == ReferenceMode::surface)
         return fmt::format(
-            "--msaa {}: --reference-mode surface shades one surface a pixel; use --reference-mode scene "
-            "--spp "
-            "64",
+            "--msaa {}: --reference-mode surface shades one surface per pixel; use --reference-mode scene "
+            "--spp 64",
             path.msaa);
     if (reference.spp < path.msaa)
         return fmt::format("--msaa {}: the reference takes {} of a pixel's samples; use --spp 64", path.msaa,

@@ -60,22 +60,21 @@ std::string faultOf(const ChannelDiff& channel) {
                            *channel.unexplained_pixels, share);
     if (channel.encoding_use && channel.encoding_use->beyond > 0)
         return fmt::format(
-            "explained by what deferred reads back, but {:.3g} times what the bits of its G-buffer can do at "
-            "{},{}, and more than they can at {} pixel(s) ({})",
+            "explained by the surfaces that deferred decodes, but {:.3g} times the bound of its G-buffer's "
+            "bits at {},{}, and beyond that bound at {} pixel(s) ({})",
             channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
             channel.encoding_use->beyond, share);
     if (const auto& use = channel.device_use)
-        return use->beyond == 0
-                   ? std::string()
-                   : fmt::format(
-                         "{} pixel(s) ({}) of the same surface are further apart than the two devices' "
-                         "precision allows, {:.3g} times that at {},{}",
-                         use->beyond, share, use->used, use->x, use->y);
+        return use->beyond == 0 ? std::string()
+                                : fmt::format(
+                                      "{} pixel(s) ({}) of the same surface are further apart than the two "
+                                      "devices' precision allows, {:.3g} times that at {},{}",
+                                      use->beyond, share, use->used, use->x, use->y);
     if (const auto& f = channel.footprints) {
         if (!(f->used <= 1))
             return fmt::format(
-                "{} pixel(s) ({}) whose surroundings are smooth are beyond what they are held to: p99.9 is "
-                "{:.3g} times it, most at {},{}",
+                "{} pixel(s) ({}) with smooth surroundings are beyond their bound: p99.9 is {:.3g} times it, "
+                "most at {},{}",
                 f->beyond, share, f->used, f->x, f->y);
         if (!(f->flip <= detailFlip))
             return fmt::format("FLIP is {:.3g} over the {} pixels with detail, which exceeds {}", f->flip,
@@ -85,8 +84,11 @@ std::string faultOf(const ChannelDiff& channel) {
     if (c.measured <= c.limit) return {};
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.most_pixels
-               ? fmt::format("{} of the pixels exceed {:.4g} and 0.1 % may: {} is {:.4g}", share, c.limit,
-                             c.figure, c.measured)
+               ? fmt::format("{} of the pixels exceed {:.4g}, and 0.1 % may: {} is {:.4g}{}", share, c.limit,
+                             c.figure, c.measured,
+                             channel.certain_p999 ? "; excess: the error less what the reference leaves open "
+                                                    "and the G-buffer's bits allow"
+                                                  : "")
                : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
 }
 

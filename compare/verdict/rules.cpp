@@ -107,7 +107,7 @@ std::string textOf(const Json& object, const char* key, const char* what) {
 Rule readRule(const Json& json, const Presets& presets) {
     if (!json.is_object()) fail("is no object");
     Rule rule;
-    rule.channel = textOf(json, "channel", "the name or pattern of what it is about");
+    rule.channel = textOf(json, "channel", "the name or pattern of the channels it is for");
     if (json.contains("scene"))
         rule.scene = textOf(json, "scene", "the name or pattern of a scene: it is no text, or empty");
     rule.because = textOf(json, "because", "the reason for it");

@@ -93,17 +93,17 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!use)
         return {0,
                 "forward+ was not drawn from surfaces that this G-buffer's bits allow, so none is explained"};
-    const std::string used = use->x < 0 || use->beyond > 0
-                                 ? ""
-                                 : fmt::format("; at most {:.0f} % of a pixel's own is used, at {},{}",
-                                               100 * use->used, use->x, use->y);
-    return {
-        use->most,
-        fmt::format("what the bits of the {} G-buffer allow at each pixel, up to {:.3g} (mean {:.3g}), by "
-                    "forward+ shading its own surfaces moved by them{}{}; deferred must equal what forward+ "
-                    "shades from the decoded surfaces {}",
-                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, use->beside,
-                    used, pair.cpu ? "bit for bit" : "within 16 ULP")};
+    const std::string used =
+        use->x < 0 || use->beyond > 0
+            ? ""
+            : fmt::format("; the largest error is {:.0f} % of its pixel's bound, at {},{}", 100 * use->used,
+                          use->x, use->y);
+    return {use->most,
+            fmt::format("rounding to the {} G-buffer's bits moves light by up to {:.3g} (mean {:.3g}), as "
+                        "forward+ finds by shading its own surfaces moved by as much{}{}; deferred must "
+                        "equal what forward+ shades from the decoded surfaces {}",
+                        nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean,
+                        use->beside, used, pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {

@@ -11,10 +11,10 @@ namespace {
 Placement placementIn(const CanvasRect& rect, const Size& size, const CanvasView& view) {
     Placement placement;
     const double fits = std::min(double(rect.width) / size.width, double(rect.height) / size.height);
-    placement.scale = view.zoom > 0 ? view.zoom : fits >= 1 ? std::floor(fits) : fits;
+    placement.scale = view.zoom > 0 ? view.zoom : fits;
     const double x = view.zoom > 0 ? view.centre_x : 0.5 * size.width;
     const double y = view.zoom > 0 ? view.centre_y : 0.5 * size.height;
-    // On whole pixels of the window, so that each pixel of the picture is equally large.
+    // On whole pixels of the window, so that a whole factor makes each pixel equally large.
     placement.left = std::round(rect.x + 0.5 * rect.width - x * placement.scale);
     placement.top = std::round(rect.y + 0.5 * rect.height - y * placement.scale);
     return placement;

@@ -28,7 +28,7 @@ struct CanvasView {
     Layout layout = Layout::wipe;
     double wipe = 0.5;   // share of the canvas that shows the left panel
     bool other = false;  // flicker: the panels change places; over a difference the right one is shown
-    double zoom = 0;  // window pixels a pixel; 0: as large as fits, by a whole factor where that is above 1
+    double zoom = 0;     // window pixels a pixel; 0: as large as fits
     double centre_x = 0, centre_y = 0;  // zoomed: the picture's place in the middle, pixels
     bool operator==(const CanvasView&) const = default;
 };

@@ -499,7 +499,7 @@ struct DrawingThread::State {
         const auto start = Clock::now();
         if (options.before_picture) options.before_picture();
         forgetViews();
-        const int mode = order.look.mode;
+        const int mode = order.look.channel();
         std::array<Frame, 2> passed;
         const bool known = !passing && drawn == both && has({mode});
         if (passing)
@@ -547,7 +547,7 @@ struct DrawingThread::State {
         reference_shown = Clock::now();
         if (const std::string error = reference.error(); !error.empty()) throw std::runtime_error(error);
         into.reference_done = reference.done();
-        return reference.frame({lit, ids, depthMode, order.look.mode}, &under.channels.at(lit));
+        return reference.frame({lit, ids, depthMode, order.look.channel()}, &under.channels.at(lit));
     }
 
     std::shared_ptr<const Frame> storedFrame() {
@@ -717,7 +717,7 @@ struct DrawingThread::State {
                  ++number)
                 stem = folder / fmt::format("diptych-view-{:04}", number);
             const ReportDevice made = reportDevice(*device);
-            const DebugMode& mode = debugMode(order.look.mode);
+            const DebugMode& mode = debugMode(order.look.channel());
             for (const Path path : drawn_paths) {
                 const Frame frame = renderer->draw(settingsOf(path, order.subject.settings.size), render);
                 const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));

@@ -95,17 +95,20 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("channel");
     ImGui::SameLine();
-    channelCombo(state, 150 * scale);
+    channelCombo(state, 180 * scale);
+    next();
+    ImGui::Checkbox("heat map", &state.look.heat);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many lights each pixel evaluates (E)");
     next();
     ImGui::TextUnformatted("panels");
     ImGui::SameLine();
-    combo("##layout", 105 * scale, state.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single},
+    combo("##layout", 115 * scale, state.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single},
           [](Layout l) { return nameOf(l); });
     next();
     ImGui::TextUnformatted("against");
     ImGui::SameLine();
     Against against = state.look.against;
-    combo("##against", 125 * scale, against,
+    combo("##against", 134 * scale, against,
           state.stored.empty()
               ? std::initializer_list<Against>{Against::paths, Against::reference}
               : std::initializer_list<Against>{Against::paths, Against::reference, Against::file},
@@ -117,7 +120,7 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
     next();
     ImGui::TextUnformatted("difference");
     ImGui::SameLine();
-    combo("##difference", 90 * scale, state.look.difference,
+    combo("##difference", 92 * scale, state.look.difference,
           {Difference::none, Difference::signed_difference, Difference::absolute, Difference::relative,
            Difference::flip},
           [](Difference d) { return viewer::nameOf(d); });
@@ -130,7 +133,8 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
 
 // ---- the foot --------------------------------------------------------------------------------------------
 
-void foot(InterfaceState& state, const Contents& contents, int width, int height, float scale) {
+void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places, int width,
+          int height, float scale) {
     const float tall = static_cast<float>(footHeight) * scale;
     ImGui::SetNextWindowPos({0, static_cast<float>(height) - tall});
     ImGui::SetNextWindowSize({static_cast<float>(width), tall});
@@ -138,10 +142,12 @@ void foot(InterfaceState& state, const Contents& contents, int width, int height
     ImGui::Begin("foot", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
-    const std::string doing =
-        contents.status.doing.empty()
-            ? (contents.idle ? "still" : "drawing")
-            : fmt::format("{} {:.0f} %", contents.status.doing, 100 * contents.status.fraction);
+    std::string doing = contents.status.doing.empty() ? (contents.idle ? "done" : "drawing")
+                                                      : fmt::format("{} {:.0f} %", contents.status.doing,
+                                                                    100 * contents.status.fraction);
+    if (!places.empty())
+        doing = fmt::format("{}{:.3g} %   {}", state.canvas.zoom > 0 ? "zoom " : "fit, ",
+                            100 * places.front().placement.scale, doing);
     const float room = ImGui::CalcTextSize(doing.c_str()).x + 24 * scale;
     const bool is_error = !contents.status.error.empty(), is_message = ImGui::GetTime() < state.message_until;
     const std::string words = is_error     ? contents.status.error
@@ -181,15 +187,16 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
         if (place.panel == 2) {
             const std::string kind = fmt::format(
                 "{} difference of {}: {} (right) from {} (left)", viewer::nameOf(state.look.difference),
-                debugMode(shown.order.look.mode).name, shown.panels[1].name, shown.panels[0].name);
+                debugMode(shown.order.look.channel()).name, shown.panels[1].name, shown.panels[0].name);
             drawOutlined(x, y, white, kind);
             if (shown.difference && !shown.difference->missing.empty())
-                drawOutlined(x, y + 18 * scale, grey, shown.difference->missing);
+                drawOutlined(x, y + ImGui::GetTextLineHeightWithSpacing(), grey, shown.difference->missing);
         } else {
             const Panel& panel = shown.panels.at(place.panel);
             drawOutlined(x, y, white,
-                         fmt::format("{}: {}", panel.name, debugMode(shown.order.look.mode).name));
-            if (!panel.missing.empty()) drawOutlined(x, y + 18 * scale, grey, panel.missing);
+                         fmt::format("{}: {}", panel.name, debugMode(shown.order.look.channel()).name));
+            if (!panel.missing.empty())
+                drawOutlined(x, y + ImGui::GetTextLineHeightWithSpacing(), grey, panel.missing);
         }
         ImGui::GetBackgroundDrawList()->PopClipRect();
     }
@@ -220,10 +227,10 @@ void legend(const CanvasRect& canvas, float scale, const Color& color,
     const float left = static_cast<float>(canvas.x) + 12 * scale;
     const float top = static_cast<float>(canvas.y + canvas.height) - 56 * scale;
     list->AddRectFilled(
-        {left - 6 * scale, top - 20 * scale},
+        {left - 6 * scale, top - 22 * scale},
         {left + std::max(width, ImGui::CalcTextSize(words.c_str()).x) + 6 * scale, top + 34 * scale},
         IM_COL32(0, 0, 0, 190));
-    list->AddText({left, top - 17 * scale}, white, words.c_str());
+    list->AddText({left, top - 20 * scale}, white, words.c_str());
     constexpr int steps = 64;
     for (int i = 0; i < steps; ++i) {
         const std::array<std::uint8_t, 3> c = color((i + 0.5) / steps);
@@ -264,7 +271,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
             canvas, scale, [](double t) { return heatColor(t); },
             {"0", fmt::format("{:g}", 0.5 * shown.heat_top), fmt::format("{:g}", shown.heat_top)},
             "lights a pixel");
-    } else if (shown.order.look.mode != static_cast<int>(gpu::DEBUG_lit)) {
+    } else if (shown.order.look.channel() != static_cast<int>(gpu::DEBUG_lit)) {
         drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
                      static_cast<float>(canvas.y + canvas.height) - 24 * scale, white, shown.scale);
     }
@@ -335,7 +342,7 @@ void lights(const Contents& contents, const std::vector<PanelPlace>& places, flo
             if (light.kind == LightKind::directional) {
                 drawOutlined(
                     static_cast<float>(place.rect.x) + 12 * scale,
-                    static_cast<float>(place.rect.y) + (48 + 16 * static_cast<float>(directional++)) * scale,
+                    static_cast<float>(place.rect.y) + (48 + 18 * static_cast<float>(directional++)) * scale,
                     color,
                     fmt::format("directional {} towards {:.2f},{:.2f},{:.2f}", light.name, light.direction.x,
                                 light.direction.y, light.direction.z));
@@ -426,57 +433,6 @@ void loading(const Contents& contents, const CanvasRect& canvas, float scale) {
     ImGui::End();
 }
 
-std::string plural(double count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-void information(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                 float scale) {
-    if (!state.information || !contents.shown || static_cast<float>(canvas.width) < 340 * scale) return;
-    const Shown& shown = *contents.shown;
-    ImGui::SetNextWindowPos(
-        {static_cast<float>(canvas.x + canvas.width) - 8 * scale, static_cast<float>(canvas.y) + 28 * scale},
-        ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowBgAlpha(0.72f);
-    if (ImGui::Begin("information", nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                         ImGuiWindowFlags_NoFocusOnAppearing)) {
-        const bool small = shown.size.width != shown.order.subject.settings.size.width;
-        ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller for now" : "");
-        for (std::size_t i = 0; i < 2; ++i) {
-            const PathFacts& facts = shown.paths.at(i);
-            if (facts.name.empty()) continue;
-            ImGui::Text("%-12s %7.2f ms  %6.1f MiB", facts.name.c_str(), facts.ms,
-                        static_cast<double>(facts.bytes.images + facts.bytes.buffers) / (1 << 20));
-            if (contents.history && !contents.history->at(i).total.empty()) {
-                const std::deque<float>& total = contents.history->at(i).total;
-                const std::vector<float> flat(total.begin(), total.end());
-                const std::string label = fmt::format("##total{}", i);
-                const float most = 1.2f * *std::ranges::max_element(flat);
-                ImGui::PlotLines(label.c_str(), flat.data(), static_cast<int>(flat.size()), 0, nullptr, 0,
-                                 most, {230 * scale, 34 * scale});
-                ImGui::SameLine();
-                ImGui::Text("0 to\n%.3g ms", double{most});
-            }
-        }
-        const PathFacts& facts = shown.paths[1];
-        ImGui::Text("%s", plural(static_cast<double>(facts.counters.lights), "light").c_str());
-        if (facts.mean_lights)
-            ImGui::Text("a pixel evaluates %.1f, at most %.0f", *facts.mean_lights, *facts.most_lights);
-        if (facts.counters.overflowed_lists > 0)
-            ImGui::TextColored(
-                {1, 0.6f, 0.3f, 1}, "%s without room",
-                plural(static_cast<double>(facts.counters.overflowed_lists), "light list").c_str());
-        if (facts.counters.nonfinite_pixels > 0)
-            ImGui::TextColored({1, 0.4f, 1, 1}, "%s were NaN or infinite",
-                               plural(static_cast<double>(facts.counters.nonfinite_pixels), "pixel").c_str());
-        if (contents.interface_ms > 0)
-            ImGui::Text("interface: 99 %% of its frames within %.1f ms", contents.interface_ms);
-    }
-    ImGui::End();
-}
-
 }  // namespace
 
 void drawOutlined(float x, float y, std::uint32_t color, const std::string& text) {
@@ -500,11 +456,10 @@ void drawInterface(InterfaceState& state, const Contents& contents, const Canvas
         titles(state, contents, places, s);
     }
     bar(state, contents, width, s);
-    foot(state, contents, width, height, s);
-    if (state.panels)
+    foot(state, contents, places, width, height, s);
+    if (state.panels || state.information)
         drawPanels(state, contents,
                    {canvas.x + canvas.width, canvas.y, width - canvas.x - canvas.width, canvas.height}, s);
-    information(state, contents, canvas, s);
     loading(contents, canvas, s);
     help(state, width, height, s);
 }

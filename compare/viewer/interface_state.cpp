@@ -47,7 +47,8 @@ CanvasRect canvasOf(const InterfaceState& state, int width, int height, double s
     const int top = static_cast<int>((barHeight + barRow * rows) * scale),
               bottom = static_cast<int>(footHeight * scale);
     // A narrow window keeps some of its width for pictures.
-    const int side = state.panels ? std::min(static_cast<int>(sideWidth * scale), width / 2) : 0;
+    const double beside = state.panels ? sideWidth : state.information ? timesWidth : 0;
+    const int side = std::min(static_cast<int>(beside * scale), width / 2);
     return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};
 }
 
@@ -86,8 +87,8 @@ std::string renderCommand(const InterfaceState& state) {
     std::vector<std::string> words =
         commandWords("render", sceneOf(state),
                      state.subject.sides.of(state.subject.settings, state.subject.settings.path));
-    if (state.look.mode != static_cast<int>(gpu::DEBUG_lit))
-        words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.mode).name));
+    if (state.look.channel() != static_cast<int>(gpu::DEBUG_lit))
+        words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.channel()).name));
     if (state.look.exposure)
         words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));
     if (state.look.ev100)

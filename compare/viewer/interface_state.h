@@ -76,10 +76,11 @@ struct Contents {
 };
 
 // Pixels of the window at scale 1. A bar that is too narrow for all it holds has more rows.
-inline constexpr double barHeight = 30, barRow = 25, footHeight = 24, sideWidth = 470;
-// What the bar holds, in order: channel, panels, against, difference, exposure, keys; and between two of
-// them.
-inline constexpr std::array<double, 6> barWidths{210, 158, 185, 171, 156, 64};
+// `timesWidth`: of the times alone, without the panels at the side.
+inline constexpr double barHeight = 34, barRow = 26, footHeight = 26, sideWidth = 545, timesWidth = 330;
+// What the bar holds, in order: channel, heat map, panels, against, difference, exposure, keys; and between
+// two of them.
+inline constexpr std::array<double, 7> barWidths{242, 94, 168, 193, 170, 160, 64};
 inline constexpr double barGap = 14, barEdge = 8;
 // In which row of the bar each of them stands.
 std::array<int, barWidths.size()> barRows(int width, double scale);

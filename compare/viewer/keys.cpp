@@ -27,7 +27,8 @@ constexpr KeyBinding bindings[] = {
      GLFW_KEY_9},
     {Action::next_channel, GLFW_KEY_C, "C", "the next channel beyond 9, with Shift the one before"},
     {Action::light_debug, GLFW_KEY_Q, "Q", "draws where the lights are and how far they reach"},
-    {Action::light_visibility, GLFW_KEY_E, "E", "how many lights each pixel evaluates, as a heat map"},
+    {Action::light_visibility, GLFW_KEY_E, "E",
+     "how many lights each pixel evaluates, as a heat map, whichever channel is chosen"},
     {Action::information, GLFW_KEY_I, "I", "times and memory of both paths"},
     {Action::zoom, GLFW_KEY_Z, "Z", "zooms to the pixels under the cursor, with their values"},
     {Action::worst_pixel, GLFW_KEY_G, "G", "zooms to the channel's worst pixel"},
@@ -42,7 +43,8 @@ constexpr KeyBinding bindings[] = {
     {Action::full_screen, GLFW_KEY_F, "F", "full screen"},
     {Action::help, GLFW_KEY_H, "H", "shows these keys"},
     {Action::help, GLFW_KEY_SLASH, "?", "shows these keys"},
-    {Action::leave, GLFW_KEY_ESCAPE, "Esc", "leaves help, zoom, the chosen pixel and full screen"},
+    {Action::leave, GLFW_KEY_ESCAPE, "Esc",
+     "leaves help, zoom, the chosen pixel and full screen, and a field"},
     {Action::quit, GLFW_KEY_Q, "Ctrl+Q", "ends the program", false, 0, true},
 };
 

@@ -47,6 +47,7 @@ inline Subject ofBothPaths(Subject subject) {
 // What of it is shown.
 struct Look {
     int mode = static_cast<int>(gpu::DEBUG_lit);
+    bool heat = false;  // the light-count heat map, whichever channel is chosen
     Against against = Against::paths;
     std::filesystem::path file;  // Against::file
     Difference difference = Difference::none;
@@ -54,6 +55,7 @@ struct Look {
     std::optional<double> ev100{};
     bool tonemap = true;
     bool operator==(const Look&) const = default;
+    int channel() const { return heat ? static_cast<int>(gpu::DEBUG_light_count) : mode; }  // that is shown
     PictureChoice picture() const { return {exposure, ev100, tonemap}; }
 };
 

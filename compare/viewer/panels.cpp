@@ -3,8 +3,10 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/report/titles.h"
+#include "compare/viewer/fonts.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -27,6 +29,19 @@ void wrapped(const std::string& text, const ImVec4* color = nullptr) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     if (color) ImGui::PopStyleColor();
+}
+
+// A table whose columns are as wide as what they hold, but for one, which has the rest and wraps its text:
+// none is cut off.
+bool beginTable(const char* id, std::initializer_list<const char*> heads, int wraps,
+                ImGuiTableFlags flags = 0, const ImVec2& size = {0, 0}) {
+    if (!ImGui::BeginTable(id, static_cast<int>(heads.size()),
+                           ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | flags, size))
+        return false;
+    for (int column = 0; const char* head : heads)
+        ImGui::TableSetupColumn(head, column++ == wraps ? ImGuiTableColumnFlags_WidthStretch : 0);
+    ImGui::TableHeadersRow();
+    return true;
 }
 
 // ---- verdict ---------------------------------------------------------------------------------------------
@@ -83,7 +98,7 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
     // What decided, as the terminal and the page say it.
     const auto& decided = channel.criterion;
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(decided ? decided->figure.c_str() : "");
+    wrapped(decided ? decided->figure : "");
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(decided ? figure(decided->measured).c_str() : "");
     ImGui::TableNextColumn();
@@ -103,12 +118,9 @@ void comparisonTable(InterfaceState& state, const Report& report, const Comparis
     ImGui::TextColored(comparison.passed() ? good : bad, "%s", title.c_str());
     for (const std::string& failure : comparison.failures) wrapped(failure, &bad);
     const std::string id = fmt::format("channels{}", index);
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2, 2});  // so that all five columns fit
-    if (!ImGui::BeginTable(id.c_str(), 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg))
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {3, 2});  // so that all five columns fit
+    if (!beginTable(id.c_str(), {"channel", "judged by", "measured", "limit", "verdict"}, 1))
         return ImGui::PopStyleVar();
-    for (const char* head : {"channel", "judged by", "measured", "limit", "verdict"})
-        ImGui::TableSetupColumn(head);
-    ImGui::TableHeadersRow();
     for (const ChannelDiff* channel : failuresFirst(comparison))
         channelRow(state, report, comparison, *channel);
     ImGui::EndTable();
@@ -121,10 +133,12 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
         return;
     }
     if (contents.judged->subject != ofBothPaths(state.subject))
-        wrapped("of the view before; this one is judged once it stands still", &faint);
+        wrapped("This is the verdict of the previous view; the new one is compared once it stands still.",
+                &faint);
     else
         wrapped(
-            "a click shows the difference and its worst pixel; the tolerance's reason is under the cursor",
+            "A click shows a channel's difference at its worst pixel; pointing at it shows the tolerance's "
+            "reason.",
             &faint);
     std::size_t index = 0;
     for (const Comparison& comparison : contents.judged->report.comparisons)
@@ -210,7 +224,7 @@ void settingsTab(InterfaceState& state) {
     ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##filter", "part of a name", state.filter.data(), state.filter.size());
     ImGui::SameLine();
-    if (ImGui::SmallButton("as usual")) {
+    if (ImGui::SmallButton("reset to defaults")) {
         Settings settings;
         settings.size = state.subject.settings.size;
         settings.camera = state.subject.settings.camera;
@@ -221,7 +235,7 @@ void settingsTab(InterfaceState& state) {
     }
     ImGui::SameLine();
     bool follow = state.follow;
-    if (ImGui::Checkbox("size of the window", &follow)) state.follow = follow;
+    if (ImGui::Checkbox("follow the window's size", &follow)) state.follow = follow;
     const std::string filter = state.filter.data();
     if (!ImGui::BeginTable("settings", 2, ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("setting", 0, 0.45f);
@@ -261,15 +275,12 @@ void lightRows(InterfaceState& state, const Contents& contents) {
         if (!rig) state.rig = named;
         setOption(state, "lights", rig ? named : "none");
     }
-    ImGui::Checkbox("where they are and how far they reach (Q)", &state.light_debug);
+    ImGui::Checkbox("show where they are and how far they reach (Q)", &state.light_debug);
     if (!contents.shown) return;
-    if (!ImGui::BeginTable(
-            "lights", 4, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
-            {0, ImGui::GetFontSize() *
-                    std::min(14.0f, 2 * static_cast<float>(contents.shown->lights.size() + 1))}))
+    if (!beginTable("lights", {"light", "kind", "intensity", "range, m"}, 0, ImGuiTableFlags_ScrollY,
+                    {0, ImGui::GetFontSize() *
+                            std::min(14.0f, 2 * static_cast<float>(contents.shown->lights.size() + 1))}))
         return;
-    for (const char* head : {"light", "kind", "intensity", "range, m"}) ImGui::TableSetupColumn(head);
-    ImGui::TableHeadersRow();
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(contents.shown->lights.size()));
     while (clipper.Step())
@@ -277,7 +288,8 @@ void lightRows(InterfaceState& state, const Contents& contents) {
             const Light& light = contents.shown->lights[static_cast<std::size_t>(i)];
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            ImGui::Text("%d %s", i, light.name.c_str());
+            ImGui::Text("%d %s", i, light.name.c_str());  // one line: a clipper needs rows of one height
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", light.name.c_str());
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(std::string(nameOf(light.kind)).c_str());
             ImGui::TableNextColumn();
@@ -292,9 +304,8 @@ void lightRows(InterfaceState& state, const Contents& contents) {
 void planRows(const Contents& contents) {
     if (!contents.shown || contents.shown->plan.empty()) return;
     for (const bool modelled : {true, false}) {
-        if (!ImGui::CollapsingHeader(
-                modelled ? "What this scene needs modelled" : "What is left out, and why",
-                modelled ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
+        if (!ImGui::CollapsingHeader(modelled ? "Modelled for this scene" : "Left out, and why",
+                                     modelled ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
             continue;
         for (const Requirements::Line& line : contents.shown->plan)
             if (line.modelled == modelled) wrapped(fmt::format("{}: {}", line.what, line.why));
@@ -348,8 +359,7 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     if (!state.pixel) {
         wrapped(
             "A right click on a picture looks into a pixel: both surfaces, each light's term in both paths "
-            "and the "
-            "reference, the first step that differs, the tolerance and its reason.",
+            "and the reference, the first step that differs, the tolerance and its reason.",
             &faint);
         return;
     }
@@ -360,12 +370,14 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
             fmt::format("{} --pixel {},{}", compareCommand(state), state.pixel->x, state.pixel->y);
     const bool here = contents.story && contents.story->pixel == *state.pixel &&
                       contents.story->subject == ofBothPaths(state.subject);
-    if (!here) wrapped("being drawn: each light alone in both paths, and the reference", &faint);
+    if (!here) wrapped("drawing: each light alone in both paths, and the reference", &faint);
     if (!contents.story) return;
     ImGui::BeginChild("story", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    ImGui::PushFont(evenFont());
     if (!here) ImGui::PushStyleColor(ImGuiCol_Text, faint);
     ImGui::TextUnformatted(contents.story->words.c_str());
     if (!here) ImGui::PopStyleColor();
+    ImGui::PopFont();
     ImGui::EndChild();
 }
 
@@ -374,14 +386,11 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
 void passTable(const PathFacts& facts, const History& history, float scale) {
     double sum = 0;
     for (const PassTime& pass : facts.passes) sum += pass.ms;
-    if (!ImGui::BeginTable(facts.name.c_str(), 4, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg))
-        return;
-    for (const char* head : {"pass", "ms", "share", "the last frames"}) ImGui::TableSetupColumn(head);
-    ImGui::TableHeadersRow();
+    if (!beginTable(facts.name.c_str(), {"pass", "ms", "share", "last frames"}, 0)) return;
     for (const PassTime& pass : facts.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(pass.name.c_str());
+        wrapped(pass.name);
         ImGui::TableNextColumn();
         ImGui::Text("%.3f", pass.ms);
         ImGui::TableNextColumn();
@@ -405,12 +414,79 @@ void costTab(const Contents& contents, float scale) {
         ImGui::Separator();
         ImGui::Text("%s: %.2f ms a frame", facts.name.c_str(), facts.ms);
         constexpr double mib = 1 << 20;
-        ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; %llu bytes a pixel for geometry",
+        ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; %llu bytes per pixel for geometry",
                            static_cast<double>(facts.bytes.images) / mib,
                            static_cast<double>(facts.bytes.buffers) / mib,
                            static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
         passTable(facts, contents.history->at(i), scale);
     }
+}
+
+}  // namespace
+
+namespace {
+
+// ---- times -----------------------------------------------------------------------------------------------
+
+// The lines below the paths' times.
+std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents) {
+    const PathFacts& facts = contents.shown->paths[1];
+    const ImVec4 usual = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    std::vector<std::pair<std::string, ImVec4>> lines{{counted(facts.counters.lights, "light"), usual}};
+    if (facts.mean_lights)
+        lines[0].first += fmt::format(", of which a pixel evaluates {:.1f} on average, {:.0f} at most",
+                                      *facts.mean_lights, *facts.most_lights);
+    if (facts.counters.overflowed_lists > 0)
+        lines.emplace_back(counted(facts.counters.overflowed_lists, "light list") + " overflowed",
+                           ImVec4{1, 0.6f, 0.3f, 1});
+    if (facts.counters.nonfinite_pixels > 0)
+        lines.emplace_back(counted(facts.counters.nonfinite_pixels, "pixel") + " were NaN or infinite",
+                           ImVec4{1, 0.4f, 1, 1});
+    if (contents.interface_ms > 0)
+        lines.emplace_back(
+            fmt::format("99 % of the window's own frames take less than {:.1f} ms", contents.interface_ms),
+            faint);
+    return lines;
+}
+
+float timesHeight(const Contents& contents) {
+    const auto rows = static_cast<float>(timesLines(contents).size()) + 4;  // a title, both paths, an edge
+    return rows * ImGui::GetTextLineHeightWithSpacing();
+}
+
+// Times and memory of both paths.
+void times(const Contents& contents) {
+    const Shown& shown = *contents.shown;
+    ImGui::Separator();
+    const bool small = shown.size.width != shown.order.subject.settings.size.width;
+    ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller while it moves" : "");
+    if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingFixedFit)) {
+        for (const char* column : {"path", "time", "memory"}) ImGui::TableSetupColumn(column);
+        ImGui::TableSetupColumn("last frames", ImGuiTableColumnFlags_WidthStretch);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const PathFacts& facts = shown.paths.at(i);
+            if (facts.name.empty()) continue;
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(facts.name.c_str());
+            ImGui::TableNextColumn();
+            ImGui::Text("%.2f ms", facts.ms);
+            ImGui::TableNextColumn();
+            ImGui::Text("%.1f MiB",
+                        static_cast<double>(facts.bytes.images + facts.bytes.buffers) / (1 << 20));
+            ImGui::TableNextColumn();
+            if (!contents.history || contents.history->at(i).total.empty()) continue;
+            const std::deque<float>& total = contents.history->at(i).total;
+            const std::vector<float> flat(total.begin(), total.end());
+            const float most = 1.2f * *std::ranges::max_element(flat);
+            ImGui::PlotLines(fmt::format("##total{}", i).c_str(), flat.data(), static_cast<int>(flat.size()),
+                             0, nullptr, 0, most,
+                             {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()});
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("from 0 to %.3g ms", double{most});
+        }
+        ImGui::EndTable();
+    }
+    for (const auto& [line, color] : timesLines(contents)) wrapped(line, &color);
 }
 
 }  // namespace
@@ -429,7 +505,9 @@ void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRec
         ImGui::EndChild();
         ImGui::EndTabItem();
     };
-    if (ImGui::BeginTabBar("tabs")) {
+    const bool timed = state.information && contents.shown;
+    ImGui::BeginChild("above the times", {0, timed ? -timesHeight(contents) : 0});
+    if (state.panels && ImGui::BeginTabBar("tabs")) {
         tab(Tab::verdict, "Verdict", [&] { verdictTab(state, contents); });
         tab(Tab::settings, "Settings", [&] { settingsTab(state); });
         tab(Tab::scene, "Scene", [&] { sceneTab(state, contents); });
@@ -437,6 +515,8 @@ void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRec
         tab(Tab::cost, "Cost", [&] { costTab(contents, scale); });
         ImGui::EndTabBar();
     }
+    ImGui::EndChild();
+    if (timed) times(contents);
     ImGui::End();
 }
 

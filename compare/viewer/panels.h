@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tabs at the side: verdict, settings, scene, pixel, cost.
+// The tabs at the side: verdict, settings, scene, pixel, cost; below them times and memory of both paths.
 #pragma once
 
 #include "compare/viewer/interface_state.h"

@@ -151,8 +151,8 @@ Exposure exposureOf(const Frame& left, const Frame& right, const Look& look) {
 }
 
 DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& look) {
-    const DebugMode& mode = debugMode(look.mode);
-    const Image *const baseline = imageOf(left, look.mode), *const test = imageOf(right, look.mode);
+    const DebugMode& mode = debugMode(look.channel());
+    const Image *const baseline = imageOf(left, look.channel()), *const test = imageOf(right, look.channel());
     DifferencePanel panel;
     if (!baseline || !test) {
         panel.missing = fmt::format("only one side has {}", mode.name);
@@ -175,10 +175,10 @@ DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& 
 
 void makePictures(const Frame& left, const Frame& right, const Look& look, const Exposure& exposure,
                   Shown& shown) {
-    const DebugMode& mode = debugMode(look.mode);
+    const DebugMode& mode = debugMode(look.channel());
     std::vector<const Frame*> having;
     for (const Frame* frame : {&left, &right})
-        if (imageOf(*frame, look.mode)) having.push_back(frame);
+        if (imageOf(*frame, look.channel())) having.push_back(frame);
     PictureScale scale;
     if (!having.empty()) scale = scaleFor(mode, exposure, having);
     shown.panels = {panelOf(left, mode, scale), panelOf(right, mode, scale)};

@@ -5,6 +5,7 @@
 #include "compare/viewer/canvas.h"
 #include "compare/viewer/drawing_thread.h"
 #include "compare/viewer/fly_camera.h"
+#include "compare/viewer/fonts.h"
 #include "compare/viewer/interface.h"
 #include "compare/viewer/keys.h"
 #include "compare/viewer/latencies.h"
@@ -42,7 +43,7 @@ constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.2
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
 // Window pixels a pixel: of Z, which shows values, and of a pixel in its surroundings.
-constexpr double zoomed = 72, flown = 32;
+constexpr double zoomed = 80, flown = 32;
 constexpr double least_zoom = 1, most_zoom = 128;
 constexpr double wipeReach = 7;    // window pixels around the wipe's line that take hold of it
 constexpr int mostPresenters = 3;  // made anew one after the other where devices are lost
@@ -74,11 +75,7 @@ void setScale(double scale) {
     ImGui::GetStyle().WindowBorderSize = 0;
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {0.11f, 0.11f, 0.125f, 1};
     ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale));
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
-    ImFontConfig config;
-    config.SizePixels = static_cast<float>(std::round(13 * scale));
-    io.Fonts->AddFontDefault(&config);
+    loadFonts(scale);
 }
 
 // What the cursor drags.
@@ -299,8 +296,7 @@ private:
         handleDropped(input);
         handleRequests();
         const ImGuiIO& io = ImGui::GetIO();
-        if (!io.WantTextInput)
-            for (const KeyDown& key : input.keys) press(key);
+        for (const KeyDown& key : input.keys) press(key, io.WantTextInput);
         // What Dear ImGui says is of the frame before: only what may lie over the pictures is asked about.
         const bool covered = state_.help || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         handleMouse(input, covered && io.WantCaptureMouse);
@@ -355,9 +351,10 @@ private:
         }
     }
 
-    void press(const KeyDown& key) {
+    // `typing`: a field has the focus, which all other keys are for.
+    void press(const KeyDown& key, bool typing) {
         const std::optional<KeyPress> found = actionOf(key.key, key.control);
-        if (!found) return;
+        if (!found || (typing && found->action != Action::quit && found->action != Action::leave)) return;
         latencies_.pressed(nameOfKey(found->action), order_.number);
         act(*found, key.shift);
     }
@@ -420,11 +417,9 @@ private:
             case Action::light_debug:
                 state_.light_debug = !state_.light_debug;
                 break;
-            case Action::light_visibility: {
-                constexpr auto heat = static_cast<int>(gpu::DEBUG_light_count);
-                state_.look.mode = state_.look.mode == heat ? static_cast<int>(gpu::DEBUG_lit) : heat;
+            case Action::light_visibility:
+                state_.look.heat = !state_.look.heat;
                 break;
-            }
             case Action::information:
                 state_.information = !state_.information;
                 break;
@@ -534,9 +529,9 @@ private:
             return tell("there is no verdict of this view yet");
         for (const Comparison& comparison : contents_.judged->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
-                if (channel.mode->number == state_.look.mode && channel.stats.worst_x >= 0)
+                if (channel.mode->number == state_.look.channel() && channel.stats.worst_x >= 0)
                     return flyTo({channel.stats.worst_x, channel.stats.worst_y});
-        tell(fmt::format("no pixel of {} differs", debugMode(state_.look.mode).name));
+        tell(fmt::format("no pixel of {} differs", debugMode(state_.look.channel()).name));
     }
 
     // ---- moving
@@ -730,7 +725,7 @@ private:
     void setTitle() {
         window_.setTitle(fmt::format("Diptych - {} - {}",
                                      contents_.facts ? contents_.facts->name : state_.subject.scene,
-                                     debugMode(state_.look.mode).name));
+                                     debugMode(state_.look.channel()).name));
     }
 
     // What the pixels in the window are of.

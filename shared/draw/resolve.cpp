@@ -66,7 +66,7 @@ void checkSamples(const FrameInputs& inputs) {
                                                  : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         if ((device.support().sampleCounts(format, attachment | VK_IMAGE_USAGE_SAMPLED_BIT) &
              inputs.samples) == 0)
-            fail(fmt::format("does not draw to images of {} with so many samples; use --msaa {}",
+            fail(fmt::format("does not draw to images of {} with this number of samples; use --msaa {}",
                              nameOf(format), samples > 4 ? 4 : 1));
     }
     const gpu::uint most = device.profile().packets_per_draw;

@@ -110,12 +110,12 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "forward_plus"},
           &Settings::path);
     visit(Field{.option = "assign",
-                .help = "how lights are chosen for a pixel",
+                .help = "how lights are assigned to pixels",
                 .ignored = {.reference = row::every_light},
                 .sweep = "all"},
           &Settings::assign);
     visit(Field{.option = "light-kernel",
-                .help = "how lists are filled: by light, or by tile",
+                .help = "how light lists are filled: per light (scatter) or per tile (gather)",
                 .ignored = {.reference = row::every_light},
                 .sweep = "scatter,gather"},
           &Settings::light_kernel);
@@ -128,9 +128,8 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "on"},
           &Settings::prepass);
     visit(Field{.option = "cull",
-                .help = "triangles of solid surfaces that cannot show are not drawn: beyond the view, turned "
-                        "away, or "
-                        "between samples; pictures are the same",
+                .help = "skip triangles of opaque surfaces that cannot be seen: outside the view, facing "
+                        "away, or between samples; same picture",
                 .off = "off",
                 .ignored = {.reference = "the reference draws no triangles"},
                 .for_surfaces = "on"},
@@ -144,17 +143,15 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "full"},  // the geometric normal is not packed either
           &Settings::gbuffer);
     visit(Field{.option = "lighting",
-                .help =
-                    "what shades the deferred path's G-buffer: fragments of a triangle over the picture, or "
-                    "threads of compute shaders; pictures are the same",
+                .help = "what shades the deferred path's G-buffer: fragments of a full-screen triangle, or "
+                        "compute shaders; same picture",
                 .ignored = {.forward_plus = "forward_plus shades what it draws",
                             .reference = "the reference shades on the CPU"},
                 .sweep = "all",
                 .for_surfaces = "fragment"},
           &Settings::lighting);
     visit(Field{.option = "depth-format",
-                .help = "what the scene's depth is stored as: reversed floats, floats that grow with the "
-                        "distance, or reversed steps of 24 or 16 bits",
+                .help = "depth format: reversed float, standard float, or reversed integers of 24 or 16 bits",
                 .default_only = {"has no meaning with --msaa 4: what several samples are shaded at is "
                                  "interpolated, not stored",
                                  row::hasOneSample},
@@ -163,16 +160,14 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "d32f"},
           &Settings::depth_format);
     visit(Field{.option = "lit-format",
-                .help = "what radiance is drawn to: 32-bit floats, 16-bit floats, or 11, 11 and 10 bits",
+                .help = "format of the lit image: floats of 32 or 16 bits, or of 11, 11 and 10 bits",
                 .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
                 .ignored = {.reference = "the reference sums in double"},
                 .sweep = "all",
                 .for_surfaces = "fp32"},
           &Settings::lit_format);
     visit(Field{.option = "shading-precision",
-                .help =
-                    "floats that the light of points, spots and suns is computed with, where the device has "
-                    "such",
+                .help = "precision of the light of points, spots and suns, where the device supports it",
                 .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
                 .ignored = {.reference = "the reference shades in double"},
                 .sweep = "all",
@@ -195,43 +190,39 @@ void Settings::rows(Visit&& visit) {
                 .valid = {"is finite and at least 0 s",
                           [](const Settings& s) { return row::isFiniteFrom0(s.time); }}},
           &Settings::time);
-    visit(Field{.option = "animation", .help = "the one that plays, by index or name; otherwise all do"},
-          &Settings::animation);
+    visit(
+        Field{.option = "animation", .help = "the animation to play, by index or name; without it all play"},
+        &Settings::animation);
     visit(Field{.option = "skinning",
-                .help = "skinned and morphed vertices are posed once a frame, or at every draw",
+                .help = "pose skinned and morphed vertices once a frame (compute) or at every draw (vertex)",
                 .ignored = {.reference = "the reference poses in double"},
                 .sweep = "all"},
           &Settings::skinning);
-    visit(
-        Field{.option = "skin-normals",
-              .help =
-                  "what turns a skinned vertex's normal: the mean of its joints' inverse transposes, or the "
-                  "cofactors of the mean of their matrices"},
-        &Settings::skin_normals);
-    visit(
-        Field{
-            .option = "env",
-            .help =
-                "lat-long environment, .exr or .hdr; scene: that of the scene's file, or an error; none: no "
-                "other than that",
-            .off = "none",
-            .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
-            .for_surfaces = "none"},
-        &Settings::env);
+    visit(Field{.option = "skin-normals",
+                .help = "how a skinned vertex's normal is transformed: by the mean of its joints' inverse "
+                        "transposes, or by the cofactors of the mean of their matrices"},
+          &Settings::skin_normals);
+    visit(Field{.option = "env",
+                .help = "lat-long environment, .exr or .hdr; scene: the one in the scene's file, an error if "
+                        "it has none; none: only that one, if any",
+                .off = "none",
+                .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
+                .for_surfaces = "none"},
+          &Settings::env);
     visit(Field{.option = "env-rotation",
-                .help = "turns the environment about +Y, counter-clockwise seen from above, degrees",
+                .help = "rotation of the environment about +Y, degrees, counter-clockwise seen from above",
                 .valid = {"is finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
                 .default_only = {row::needs_env, row::hasEnv},
                 .for_surfaces = "0"},
           &Settings::env_rotation);
     visit(Field{.option = "env-sun",
-                .help = "takes the environment's sun out of it as a directional light, which casts shadows",
+                .help = "take the environment's sun out of it as a directional light that casts shadows",
                 .off = "off",
                 .default_only = {row::needs_env, row::hasEnv},
                 .for_surfaces = "off"},
           &Settings::env_sun);
     visit(Field{.option = "ibl-intensity",
-                .help = "factor on the environment's radiance; 0: none of it is drawn",
+                .help = "factor on the environment's radiance; 0 switches it off",
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
                 .default_only = {row::needs_env, row::hasEnv},
@@ -239,32 +230,33 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "1"},
           &Settings::ibl_intensity);
     visit(Field{.option = "ibl",
-                .help = "light of the environment on the specular lobe: filtered and a table, or samples at "
-                        "every pixel",
+                .help = "specular light of the environment: prefiltered, with a table (split), or sampled at "
+                        "every pixel (sampled)",
                 .default_only = {row::needs_env, row::hasEnv},
                 .ignored = {.reference = row::integrates_env},
                 .sweep = "all",
                 .sweep_with = "ibl-samples"},
           &Settings::ibl);
     visit(Field{.option = "ibl-diffuse",
-                .help = "irradiance of the environment: spherical harmonics as they are or so that none is "
-                        "negative, or a map",
+                .help = "diffuse light of the environment: spherical harmonics, the same windowed so that "
+                        "none is negative, or an irradiance map",
                 .default_only = {row::needs_env, row::hasEnv},
                 .ignored = {.reference = row::integrates_env},
                 .sweep = "all"},
           &Settings::ibl_diffuse);
-    visit(Field{.option = "ibl-samples",
-                .help = "directions a texel of the filtered environment, or with --ibl sampled a pixel",
-                .valid = {"is 1 to 4096",
-                          [](const Settings& s) { return s.ibl_samples >= 1 && s.ibl_samples <= 4096; }},
-                .default_only = {row::needs_env, row::hasEnv},
-                .ignored = {.reference = row::integrates_env},
-                .sweep = "16,32,64,256,1024",
-                .sweep_with = "ibl-bias"},
-          &Settings::ibl_samples);
+    visit(
+        Field{.option = "ibl-samples",
+              .help = "directions per texel of the prefiltered environment, or per pixel with --ibl sampled",
+              .valid = {"is 1 to 4096",
+                        [](const Settings& s) { return s.ibl_samples >= 1 && s.ibl_samples <= 4096; }},
+              .default_only = {row::needs_env, row::hasEnv},
+              .ignored = {.reference = row::integrates_env},
+              .sweep = "16,32,64,256,1024",
+              .sweep_with = "ibl-bias"},
+        &Settings::ibl_samples);
     visit(
         Field{.option = "ibl-bias",
-              .help = "mip levels by which each of these directions is widened",
+              .help = "mip levels added to each of these samples",
               .valid = {"is 0 to 16", [](const Settings& s) { return s.ibl_bias >= 0 && s.ibl_bias <= 16; }},
               .default_only = {row::needs_env, row::hasEnv},
               .ignored = {.reference = row::integrates_env},
@@ -282,7 +274,7 @@ void Settings::rows(Visit&& visit) {
           &Settings::ambient);
     visit(Field{.option = "scene-lights",
                 .help =
-                    "the scene's own lights; off: none of them, nor the sun that a scene without lights gets",
+                    "the scene's own lights; off removes them, and the sun that a scene without lights gets",
                 .off = "off"},
           &Settings::scene_lights);
     visit(Field{.option = "lights",
@@ -290,15 +282,17 @@ void Settings::rows(Visit&& visit) {
                 .off = ""},
           &Settings::lights);
     visit(Field{.option = "seed", .help = "seed of the light rig"}, &Settings::seed);
-    visit(Field{.option = "light-cutoff",
-                .help = "luminance of a white surface where a light without a range ends; 0: nowhere",
-                .off = "0",
-                .valid = {"is finite and at least 0",
-                          [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
-                .ignored = {.reference = "the reference lets every light go on as far as its range"},
-                .sweep = "0,1e-4,1e-3,1e-2",
-                .sweep_with = "assign"},
-          &Settings::light_cutoff);
+    visit(
+        Field{.option = "light-cutoff",
+              .help =
+                  "a light without a range ends where a white surface would have this luminance; 0: nowhere",
+              .off = "0",
+              .valid = {"is finite and at least 0",
+                        [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
+              .ignored = {.reference = "the reference lets every light go on as far as its range"},
+              .sweep = "0,1e-4,1e-3,1e-2",
+              .sweep_with = "assign"},
+        &Settings::light_cutoff);
     visit(Field{.option = "pixel-lights",
                 .help = "lights shaded per pixel with --assign per_object",
                 .valid = {"is at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
@@ -314,40 +308,38 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::area_lights);
     visit(Field{.option = "textures",
-                .help = "texels as the device decodes and filters them; decoded to 16 bits and floats before "
-                        "upload; or metallic and roughness in unused alphas, a sample less",
+                .help = "texture decoding: by the device; on the CPU, to 16-bit and float texels (exact); or "
+                        "with metallic and roughness in unused alpha channels, which saves a sample (packed)",
                 .ignored = {.reference = "the reference decodes and filters in double",
                             .unless = row::shadesCaptures},
                 .sweep = "all"},
           &Settings::textures);
     visit(Field{.option = "specular-albedo",
-                .help = "what the specular lobe reflects of light from everywhere: a table or Karis's fit",
+                .help = "directional albedo of the specular lobe: a table, or Karis's fit",
                 .ignored = {.reference = "the reference integrates what the specular lobe reflects"},
                 .sweep = "all"},
           &Settings::specular_albedo);
     visit(Field{.option = "multiscatter",
-                .help = "light between microfacets; walk: the reference alone follows it",
+                .help = "light that scatters between microfacets; walk is for the reference alone",
                 .off = "off",
                 .sweep = "off,energy,fdez",
                 .for_surfaces = "off"},
           &Settings::multiscatter);
     visit(Field{.option = "base-layer",
-                .help = "what a dielectric's base gets: 1 less the largest component of what its layer "
-                        "reflects, or less each",
+                .help = "light left for a dielectric's base: 1 less the largest component of its layer's "
+                        "reflectance, or less each component",
                 .for_surfaces = "max"},
           &Settings::base_layer);
-    visit(
-        Field{.option = "spot-cone",
-              .help = "how a spot fades from its inner to its outer angle: as KHR_lights_punctual has it, or "
-                      "by smoothstep",
-              .for_surfaces = "gltf"},
-        &Settings::spot_cone);
-    visit(
-        Field{.option = "range-window",
-              .help = "how a light ends at its range: by 1 - (d / range)^4 as KHR_lights_punctual has it, or "
-                      "by its square",
-              .for_surfaces = "gltf"},
-        &Settings::range_window);
+    visit(Field{.option = "spot-cone",
+                .help = "falloff of a spot between its inner and outer angle: that of KHR_lights_punctual, "
+                        "or smoothstep",
+                .for_surfaces = "gltf"},
+          &Settings::spot_cone);
+    visit(Field{.option = "range-window",
+                .help = "how a light fades out at its range: 1 - (d / range)^4 as in KHR_lights_punctual, or "
+                        "its square",
+                .for_surfaces = "gltf"},
+          &Settings::range_window);
     visit(Field{.option = "shadows",
                 .help = "shadow technique",
                 .off = "off",
@@ -356,7 +348,8 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "off"},
           &Settings::shadows);
     visit(Field{.option = "shadow-lights",
-                .help = "points and spots that cast shadows, the brightest, beside those that ask",
+                .help = "number of point and spot lights that cast shadows, brightest first, beside those "
+                        "marked in the scene",
                 .off = "0",
                 .valid = {"is at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
                 .default_only = {row::needs_shadows, row::hasShadows},
@@ -365,7 +358,7 @@ void Settings::rows(Visit&& visit) {
           &Settings::shadow_lights);
     visit(
         Field{.option = "shadow-size",
-              .help = "side of a shadow map, or of a level of the clipmap, texels",
+              .help = "side of a shadow map or of a clipmap level, texels",
               .valid = {"is 16 to 16384",
                         [](const Settings& s) { return s.shadow_size >= 16 && row::isSide(s.shadow_size); }},
               .default_only = {row::needs_shadows, row::hasShadows},
@@ -373,7 +366,7 @@ void Settings::rows(Visit&& visit) {
               .sweep = "512,1024,4096"},
         &Settings::shadow_size);
     visit(Field{.option = "shadow-cascades",
-                .help = "shadow maps of the sun, from near to far",
+                .help = "cascades of the sun's shadow map",
                 .valid = {"is 1 to 4",
                           [](const Settings& s) { return s.shadow_cascades >= 1 && s.shadow_cascades <= 4; }},
                 .default_only = {row::needs_cascades, row::hasCascades},
@@ -391,20 +384,20 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "1,3,5,7"},
           &Settings::shadow_kernel);
     visit(Field{.option = "shadow-fit",
-                .help = "what shadow maps of the sun cover: the view, or the depths that the picture shows",
+                .help = "what the sun's cascades cover: the whole view, or only the depths that are visible",
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "all"},
           &Settings::shadow_fit);
     visit(Field{.option = "shadow-distance",
-                .help = "view depth that gets shadows, m; 0: as far as the scene reaches",
+                .help = "shadows end at this view depth, m; 0: where the scene ends",
                 .valid = {"is finite and at least 0 m",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_distance}); }},
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows}},
           &Settings::shadow_distance);
     visit(Field{.option = "shadow-bias",
-                .help = "how far a surface is moved towards the sun, along its triangle's normal, in texels",
+                .help = "offset of a receiver towards the sun along its triangle's normal, texels",
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_bias}); }},
                 .default_only = {row::needs_shadows, row::hasShadows},
@@ -412,14 +405,13 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "0.25,1"},
           &Settings::shadow_bias);
     visit(Field{.option = "shadow-casters",
-                .help = "what is drawn into shadow maps: what the picture needs, or everything that casts; "
-                        "pictures are the same",
+                .help =
+                    "what is drawn into shadow maps: casters whose shadow may be seen, or all; same picture",
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .ignored = {.reference = row::traces_shadows}},
           &Settings::shadow_casters);
     visit(Field{.option = "clipmap-pages",
-                .help = "pages of the sun's clipmap that there is room for; where more are needed a coarser "
-                        "level serves",
+                .help = "capacity of the clipmap, pages; where more are needed, a coarser level serves",
                 .valid = {"is 1 to 16384",
                           [](const Settings& s) {
                               return s.clipmap_pages >= 1 && s.clipmap_pages <= row::most_pages;
@@ -430,7 +422,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::clipmap_pages);
     visit(Field{.option = "clipmap-page-size",
-                .help = "side of a page, texels",
+                .help = "side of a clipmap page, texels",
                 .valid = {"is 32, 64, 128 or 256",
                           [](const Settings& s) {
                               return s.clipmap_page_size == 32 || s.clipmap_page_size == 64 ||
@@ -442,14 +434,14 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::clipmap_page_size);
     visit(Field{.option = "evsm-precision",
-                .help = "moments' format",
+                .help = "format of the moments",
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "fp32,fp16",
                 .sweep_with = "shadows"},
           &Settings::evsm_precision);
     visit(Field{.option = "evsm-exponent",
-                .help = "warp exponent; 0: 40, or 5.5 in 16 bits",
+                .help = "EVSM exponent; 0 selects 40, or 5.5 with 16-bit moments",
                 .valid = {row::exponents,
                           [](const Settings& s) { return row::isExponent(s, s.evsm_exponent); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
@@ -458,7 +450,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_exponent);
     visit(Field{.option = "evsm-negative-exponent",
-                .help = "exponent of the other warp of --shadows evsm4; 0: 5",
+                .help = "negative exponent of --shadows evsm4; 0 selects 5",
                 .valid = {row::exponents,
                           [](const Settings& s) { return row::isExponent(s, s.evsm_negative_exponent); }},
                 .default_only = {row::needs_evsm4, row::hasEvsm4},
@@ -467,7 +459,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_negative_exponent);
     visit(Field{.option = "evsm-depth",
-                .help = "depths that are warped: the second halves the leak at one exponent",
+                .help = "range of the warped depth: -1..1 halves light bleeding at the same exponent",
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "all",
@@ -484,7 +476,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_bleed);
     visit(Field{.option = "evsm-min-variance",
-                .help = "least variance of depth, a share of its range squared",
+                .help = "minimum variance of depth, as a share of the depth range squared",
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.evsm_min_variance}); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
@@ -493,7 +485,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_min_variance);
     visit(Field{.option = "msaa",
-                .help = "samples per pixel: 1 or 4, and 8 where the device has them",
+                .help = "samples per pixel: 1 or 4, and 8 where the device supports it",
                 .off = "1",
                 .valid = {"a pixel has 1, 4 or 8 samples",
                           [](const Settings& s) { return s.msaa == 1 || s.msaa == 4 || s.msaa == 8; }},
@@ -502,15 +494,16 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "gbuffer,size"},
           &Settings::msaa);
     visit(Field{.option = "msaa-shading",
-                .help = "what is shaded: each triangle of a pixel once, or each sample",
+                .help = "shade once per triangle of a pixel, or once per sample",
                 .default_only = {row::needs_msaa, row::hasMsaa},
                 .ignored = {.reference = row::own_samples},
                 .sweep = "sample",
                 .sweep_with = "msaa"},
           &Settings::msaa_shading);
     visit(Field{.option = "msaa-edges",
-                .help = "samples that deferred lighting shades each for itself: all, those that differ in a "
-                        "bit of the G-buffer, visibly, or where a triangle covers a part of the pixel",
+                .help = "pixels whose samples deferred lighting shades one by one: all, those whose samples "
+                        "differ in a bit of the G-buffer (exact) or visibly (similar), or those that a "
+                        "triangle covers in part (coverage)",
                 .default_only = {row::needs_msaa, row::hasMsaa},
                 .ignored = {.forward_plus = "forward_plus shades each triangle as it is drawn",
                             .reference = row::own_samples},
@@ -529,8 +522,7 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "linear"},
           &Settings::resolve);
     visit(Field{.option = "alpha-to-coverage",
-                .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the "
-                        "cutoff",
+                .help = "alpha masks cover a share of a pixel's samples, sharpened at the cutoff",
                 .default_only = {"has no meaning but with --msaa 4 and --msaa-shading pixel: one sample is "
                                  "covered or not",
                                  [](const Settings& s) {
@@ -541,13 +533,13 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "msaa"},
           &Settings::alpha_to_coverage);
     visit(Field{.option = "spec-aa",
-                .help = "specular anti-aliasing: roughness that grows with what the normal does in a pixel",
+                .help = "specular antialiasing: roughness grows where the normal varies within a pixel",
                 .off = "off",
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "on"},
           &Settings::spec_aa);
     visit(Field{.option = "spec-aa-variance",
-                .help = "variance of the pixel's filter, square pixels",
+                .help = "variance of the pixel filter, square pixels",
                 .valid = {"is 0 to 100",
                           [](const Settings& s) {
                               return s.spec_aa_variance >= 0 && s.spec_aa_variance <= 100;
@@ -558,7 +550,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_variance);
     visit(Field{.option = "spec-aa-limit",
-                .help = "the most that the square of the GGX width grows",
+                .help = "largest growth of the squared GGX width",
                 .valid = {"is 0 to 1",
                           [](const Settings& s) { return s.spec_aa_limit >= 0 && s.spec_aa_limit <= 1; }},
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
@@ -567,28 +559,27 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_limit);
     visit(Field{.option = "spec-aa-normals",
-                .help = "whose changes are filtered: the interpolated normal, or the normal map's too",
+                .help = "normal whose variation counts: the interpolated one, or the normal map's too",
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "mapped",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_normals);
     visit(Field{.option = "spec-aa-kernel",
-                .help = "how roughness grows with these changes: by their variance, or by the largest itself",
+                .help = "how roughness grows with this variation: by its variance, or by its largest slope",
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures}},
           &Settings::spec_aa_kernel);
     visit(Field{.option = "transparency",
-                .help =
-                    "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",
+                .help = "how blended surfaces are ordered; off: they are not drawn",
                 .ignored = {.reference = "the reference blends by depth",
                             .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
                 .sweep = "sorted,unsorted,triangles,weighted,moments,list",
                 .for_surfaces = "sorted"},
           &Settings::transparency);
     visit(Field{.option = "transparency-layers",
-                .help = "fragments of a pixel that --transparency list puts in order; the rest is blended as "
-                        "one layer behind them",
+                .help = "fragments per pixel that --transparency list sorts; the rest is blended as one "
+                        "layer behind them",
                 .valid = {"is 1 to 256",
                           [](const Settings& s) {
                               return s.transparency_layers >= 1 && s.transparency_layers <= 256;
@@ -600,46 +591,46 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "transparency"},
           &Settings::transparency_layers);
     visit(Field{.option = "haze",
-                .help = "aerial perspective: air that scatters the brightest sun's light and ambient light",
+                .help = "aerial perspective: air that scatters sunlight and ambient light",
                 .off = "off",
                 .for_surfaces = "off"},
           &Settings::haze);
     visit(Field{.option = "haze-density",
-                .help = "factor on what the air scatters and absorbs",
+                .help = "factor on the scattering and absorption of the air",
                 .valid = {"is 0 to 1e6",
                           [](const Settings& s) { return s.haze_density >= 0 && s.haze_density <= 1e6f; }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "1"},
           &Settings::haze_density);
     visit(Field{.option = "haze-rayleigh",
-                .help = "what molecules scatter at height 0, R,G,B, 1/m",
+                .help = "scattering by molecules at height 0, R,G,B, 1/m",
                 .valid = {row::scattering,
                           [](const Settings& s) { return row::isScattering(s.haze_rayleigh); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "5.8e-6,13.5e-6,33.1e-6"},
           &Settings::haze_rayleigh);
     visit(Field{.option = "haze-rayleigh-height",
-                .help = "height over which molecules thin out to 1/e, m",
+                .help = "scale height of molecules, m: their density falls to 1/e",
                 .valid = {row::scale_height,
                           [](const Settings& s) { return row::isScaleHeight(s.haze_rayleigh_height); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "8000"},
           &Settings::haze_rayleigh_height);
     visit(Field{.option = "haze-mie",
-                .help = "what aerosols scatter at height 0, R,G,B, 1/m",
+                .help = "scattering by aerosols at height 0, R,G,B, 1/m",
                 .valid = {row::scattering, [](const Settings& s) { return row::isScattering(s.haze_mie); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "2e-5,2e-5,2e-5"},
           &Settings::haze_mie);
     visit(Field{.option = "haze-mie-height",
-                .help = "height over which aerosols thin out to 1/e, m",
+                .help = "scale height of aerosols, m: their density falls to 1/e",
                 .valid = {row::scale_height,
                           [](const Settings& s) { return row::isScaleHeight(s.haze_mie_height); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "1200"},
           &Settings::haze_mie_height);
     visit(Field{.option = "haze-g",
-                .help = "mean cosine of what aerosols scatter; above 0: forward",
+                .help = "mean cosine of the scattering angle of aerosols; above 0: forward",
                 .valid = {"is -0.99 to 0.99",
                           [](const Settings& s) { return s.haze_g >= -0.99f && s.haze_g <= 0.99f; }},
                 .default_only = {row::needs_haze, row::isHazy},
@@ -652,19 +643,19 @@ void Settings::rows(Visit&& visit) {
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "0"},
           &Settings::haze_ground);
-    visit(
-        Field{
-            .option = "haze-march-steps",
-            .help = "steps along each ray, with two heights and a sun that the air dims; 0: closed form, one "
-                    "height and one sun",
-            .off = "0",
-            .valid = {"is 0 to 256",
-                      [](const Settings& s) { return s.haze_march_steps >= 0 && s.haze_march_steps <= 256; }},
-            .default_only = {row::needs_haze, row::isHazy},
-            .one_for_reference = "32",  // it integrates
-            .sweep = "0,8,32",
-            .for_surfaces = "0"},
-        &Settings::haze_march_steps);
+    visit(Field{.option = "haze-march-steps",
+                .help = "steps along each ray, with two scale heights and a sun that the air dims; 0: closed "
+                        "form, one height and one sun",
+                .off = "0",
+                .valid = {"is 0 to 256",
+                          [](const Settings& s) {
+                              return s.haze_march_steps >= 0 && s.haze_march_steps <= 256;
+                          }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .one_for_reference = "32",  // it integrates
+                .sweep = "0,8,32",
+                .for_surfaces = "0"},
+          &Settings::haze_march_steps);
     visit(Field{.option = "spp",
                 .help = "samples per pixel of the reference",
                 .valid = {"1 to 65536",
@@ -673,7 +664,7 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
           &Settings::spp);
     visit(Field{.option = "reference-mode",
-                .help = "what the reference shades",
+                .help = "what the reference shades: the surfaces that forward+ captured, or the scene itself",
                 .default_only = {row::needs_reference, row::isReference},
                 .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
           &Settings::reference_mode);

@@ -20,15 +20,15 @@ std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
 
 std::optional<std::string> deferredKnowsNoObjects(const Settings& s) {
     if (s.path != Path::deferred || s.assign != Assignment::per_object) return {};
-    return "--assign per_object has no meaning for deferred: its G-buffer does not say which object a pixel "
-           "is "
-           "of; use --path forward_plus, or where both paths are drawn --forward-plus assign=per_object";
+    return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object "
+           "a pixel shows; use --path forward_plus, or where both paths are drawn --forward-plus "
+           "assign=per_object";
 }
 
 std::optional<std::string> tilesNeedDepths(const Settings& s) {
     if (s.path != Path::forward_plus || s.assign != Assignment::tiled || s.prepass != Switch::off) return {};
-    return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; "
-           "use --prepass on";
+    return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
+           "--prepass on";
 }
 
 std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
@@ -36,8 +36,7 @@ std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
     if (s.path != Path::forward_plus || s.prepass != Switch::off || !steps) return {};
     return fmt::format(
         "--depth-format {} has no meaning with --prepass off: both paths shade the depth that was stored; "
-        "use "
-        "--prepass on",
+        "use --prepass on",
         nameOf(s.depth_format));
 }
 
@@ -62,7 +61,7 @@ std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
                            s.transparency == Transparency::triangles || s.transparency == Transparency::off;
     if (s.path == Path::reference || s.msaa == 1 || drawnOver) return {};
     return fmt::format(
-        "--transparency {} with --msaa {}: what it sums up has one sample a pixel; use sorted, unsorted or "
+        "--transparency {} with --msaa {}: its sums have one sample per pixel; use sorted, unsorted or "
         "triangles",
         nameOf(s.transparency), s.msaa);
 }

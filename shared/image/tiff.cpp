@@ -143,16 +143,16 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
                          layout.colours));
     const int colours = grey ? 1 : 3;
     if (layout.components < colours || layout.components > colours + 1)
-        fail(fmt::format("is a TIFF of {} samples a pixel: {} and one of alpha are read", layout.components,
+        fail(fmt::format("is a TIFF of {} samples per pixel: {} and one of alpha are read", layout.components,
                          grey ? "1 of grey" : "3 of RGB"));
     const bool read = isFloat(layout) ? layout.bits == 16 || layout.bits == 32
                                       : layout.format == SAMPLEFORMAT_UINT &&
                                             (layout.bits == 8 || layout.bits == 16 || layout.bits == 32);
     if (!read)
-        fail(fmt::format(
-            "is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 bits "
-            "and floats (3) of 16 and 32 are read",
-            layout.bits, layout.format));
+        fail(
+            fmt::format("is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 "
+                        "bits and floats (3) of 16 and 32 are read",
+                        layout.bits, layout.format));
     const std::uint64_t ratio = ratioOf(layout.compression);
     if (ratio == 0)
         fail(

@@ -135,7 +135,7 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(alpha_blend, "alpha blending",
         "a material has alphaMode BLEND or lets light through: drawn over what is opaque",
         "no material has alphaMode BLEND: no pass blends");
-    say(double_sided, "back faces", "a material is double-sided: nothing of it is culled",
+    say(double_sided, "back faces", "a material is double-sided: its back faces are drawn",
         "no material is double-sided: back faces are culled");
     say(occlusion, "occlusion textures", "a material has an occlusion texture",
         "no material has an occlusion texture: ambient light is not dimmed");

@@ -6,6 +6,7 @@
 #include "shared/draw/record.h"
 #include "shared/shadow/blended_receivers.h"
 #include "shared/shadow/scene_bounds.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -159,17 +160,17 @@ ShadowPages ClipmapShadow::counts() const {
 
 std::vector<std::string> ClipmapShadow::notes() const {
     const AtlasShape& shape = atlas_->shape();
-    std::vector<std::string> notes{fmt::format(
-        "--shadows clipmap: {} levels of {}x{} pages and one page of the whole scene; {} slots of {}x{} "
-        "texels "
-        "in {}x{}, {:.1f} MiB",
-        clipmap_.levels.size() - 1, clipmap_.width, clipmap_.width, shape.pages, shape.slot, shape.slot,
-        shape.size().x, shape.size().y, static_cast<double>(atlas_->bytes()) / (1 << 20))};
-    notes.push_back(fmt::format(
-        "shadow pages: the picture asks for {}, {} are there, {} are served by a coarser level; {} of {} are "
-        "drawn before the first frame and no more, which only marks what it needs",
-        served_.requested, served_.requested - served_.fallback, served_.fallback, cold_,
-        served_.resident.size()));
+    std::vector<std::string> notes{
+        fmt::format("--shadows clipmap: {} of {}x{} pages and one page of the whole scene; {} of {}x{} "
+                    "texels in {}x{}, {:.1f} MiB",
+                    counted(clipmap_.levels.size() - 1, "level"), clipmap_.width, clipmap_.width,
+                    counted(shape.pages, "slot"), shape.slot, shape.slot, shape.size().x, shape.size().y,
+                    static_cast<double>(atlas_->bytes()) / (1 << 20))};
+    notes.push_back(
+        fmt::format("shadow pages: the picture needs {}, of which {} are resident and {} are served by a "
+                    "coarser level; {} of {} are drawn once, before the first frame",
+                    served_.requested, served_.requested - served_.fallback, served_.fallback, cold_,
+                    served_.resident.size()));
     return notes;
 }
 

@@ -5,6 +5,7 @@
 #include "shared/draw/record.h"
 #include "shared/scene/lights/casters.h"
 #include "shared/shadow/scene_bounds.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -19,10 +20,6 @@
 namespace diptych {
 
 namespace {
-
-std::string counted(std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 // Leaves out what lies beyond a tile's light, which the clip planes keep: there all depths are nearly 0.
 void cullBeyond(DrawList& casters, const LocalAtlas& atlas, const AtlasTile& tile, const glm::dvec3& eye) {
@@ -61,8 +58,9 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
                                         counted(atlas.empty, "face"));
     }
     if (casting.unshadowed > 0)
-        notes.push_back(fmt::format("{} without a shadow: --shadow-lights {}, and what asks for one itself",
-                                    counted(casting.unshadowed, "point or spot light"), brightest));
+        notes.push_back(fmt::format("{} {} no shadow (--shadow-lights N lets the N brightest cast one)",
+                                    counted(casting.unshadowed, "point or spot light"),
+                                    casting.unshadowed == 1 ? "casts" : "cast"));
     if (casting.without_room > 0)
         notes.back() += fmt::format("; {} of them would cast one, but the atlas holds {} tiles",
                                     casting.without_room, gpu::MAX_LOCAL_TILES);

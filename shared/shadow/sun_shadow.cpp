@@ -210,12 +210,12 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
     }
     if (maps_.empty()) return;
     if (std::ranges::any_of(maps_, [](const Map& map) { return map.casters.triangles > 0; })) {
-        notes_.push_back(fmt::format(
-            "shadow maps: {} triangles are drawn, from near to far, of {}", fmt::join(triangles(), ", "),
-            all ? "everything that casts" : "what casts on something that may be seen"));
+        details_.push_back(fmt::format("shadow maps, from near to far: {} triangles of {}",
+                                       fmt::join(triangles(), ", "),
+                                       all ? "all casters" : "casters whose shadow may be seen"));
         return;
     }
-    notes_.emplace_back("shadow maps: none is drawn: nothing casts");
+    notes_.emplace_back("shadow maps: none is drawn, because nothing casts a shadow");
     maps_.clear();
 }
 
@@ -250,6 +250,13 @@ void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, dou
         light.negative = moments_->negative;
         light.moment_bias = static_cast<float>(moments_->format.bias);
         if (!moments_->format.because.empty()) notes_.push_back(moments_->format.because);
+        if (settings_.shadows != Shadows::msm4)
+            notes_.push_back(fmt::format("--shadows {}: exponent {:g}{} in {}-bit floats",
+                                         settings_.valueOf("shadows"), moments_->exponent,
+                                         settings_.shadows == Shadows::evsm4
+                                             ? fmt::format(", negative exponent {:g},", moments_->negative)
+                                             : "",
+                                         moments_->format.half ? 16 : 32));
     }
     if (filter_ == gpu::SHADOWS_PCSS) {
         const double disc = std::tan(std::min(angle, 3.14) / 2);  // at pi it would be infinite

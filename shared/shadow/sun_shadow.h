@@ -68,6 +68,8 @@ public:
     std::vector<std::uint64_t> triangles() const;
     // In words, for people: which light casts, what was drawn and what was not.
     const std::vector<std::string>& notes() const { return notes_; }
+    // What any scene has: the triangles of each map.
+    const std::vector<std::string>& details() const { return details_; }
 
 private:
     struct Map {
@@ -98,7 +100,7 @@ private:
     const View* view_ = nullptr;
     Uploader* uploader_ = nullptr;
     std::vector<ShadowReach> level_reach_;
-    std::vector<std::string> notes_;
+    std::vector<std::string> notes_, details_;
     GpuBuffer light_;
     OwnedBufferView light_view_;
     OwnedSampler nearest_, linear_;

@@ -113,7 +113,7 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     formats("filtering of 16-bit textures", VK_FORMAT_R16G16B16A16_UNORM, format_use::filtered);
     formats("24-bit depth", VK_FORMAT_X8_D24_UNORM_PACK32, format_use::depth | format_use::sampled);
     formats("drawing to packed floats", VK_FORMAT_B10G11R11_UFLOAT_PACK32, format_use::drawn);
-    formats("4 samples a pixel, in a G-buffer too", VK_FORMAT_R32G32_UINT, format_use::multisampled);
+    formats("4 samples per pixel, also in a G-buffer", VK_FORMAT_R32G32_UINT, format_use::multisampled);
     note("picture size", true, fmt::format("up to {} x {}", device.mostPixels(), device.mostPixels()));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));

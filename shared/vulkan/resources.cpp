@@ -34,21 +34,19 @@ void checkImage(const Device& device, const GpuImageInfo& info) {
     const VkImageFormatProperties can = device.support().images(info.format, info.usage);
     const std::uint32_t most = attached != 0 ? device.support().mostPixels() : ~0u;
     if ((can.sampleCounts & info.samples) == 0)
-        refuse(
-            device, info.name,
-            fmt::format("there are no images of {} for these uses with {} samples a pixel; use --msaa 1 and "
-                        "--lighting fragment, or choose another device with --device",
-                        nameOf(info.format), static_cast<int>(info.samples)));
+        refuse(device, info.name,
+               fmt::format("there are no images of {} for these uses with {} samples per pixel; use --msaa 1 "
+                           "and --lighting fragment, or choose another device with --device",
+                           nameOf(info.format), static_cast<int>(info.samples)));
     if (info.width > std::min(can.maxExtent.width, most) ||
         info.height > std::min(can.maxExtent.height, most) || info.layers > can.maxArrayLayers ||
         info.levels > can.maxMipLevels)
-        refuse(
-            device, info.name,
-            fmt::format("{} x {} texels and {} layers; images of {} have up to {} x {} and {}; use a smaller "
-                        "--size or --shadow-size, or choose another device with --device",
-                        info.width, info.height, info.layers, nameOf(info.format),
-                        std::min(can.maxExtent.width, most), std::min(can.maxExtent.height, most),
-                        can.maxArrayLayers));
+        refuse(device, info.name,
+               fmt::format("{} x {} texels and {} layers; images of {} have up to {} x {} and {}; use a "
+                           "smaller --size or --shadow-size, or choose another device with --device",
+                           info.width, info.height, info.layers, nameOf(info.format),
+                           std::min(can.maxExtent.width, most), std::min(can.maxExtent.height, most),
+                           can.maxArrayLayers));
 }
 
 }  // namespace

@@ -240,8 +240,8 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     EXPECT_EQ(differingPixels(without.channels.at(lit), asked.channels.at(lit)), 0u);
     EXPECT_EQ(locallySeen(asked).least, 1);
     EXPECT_EQ(asked.local_shadow_reach, 0);
-    EXPECT_TRUE(says(asked, "2 point or spot lights without a shadow")) << "and it is said";
-    EXPECT_FALSE(says(without, "without a shadow"));
+    EXPECT_TRUE(says(asked, "2 point or spot lights cast no shadow")) << "and it is said";
+    EXPECT_FALSE(says(without, "no shadow"));
     const Frame brightest = drawnOf(scene, one, channels);
     EXPECT_LT(locallySeen(brightest).least, 1);
     EXPECT_TRUE(says(brightest, "shadows of 1 local light: "));
@@ -273,7 +273,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
     const Frame frame =
         drawnOf(ground(lamps, {board(1)}), locally(smallPicture(GBufferEncoding::standard), 45));
     EXPECT_TRUE(says(frame, "shadows of 42 local lights: ")) << "256 / 6";
-    EXPECT_TRUE(says(frame, "8 point or spot lights without a shadow"));
+    EXPECT_TRUE(says(frame, "8 point or spot lights cast no shadow"));
     EXPECT_TRUE(says(frame, "3 of them would cast one, but the atlas holds 256 tiles"));
     EXPECT_EQ(locallySeen(frame).least, 0) << "the channel is that of those which cast";
 }

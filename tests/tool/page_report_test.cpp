@@ -72,6 +72,46 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
     EXPECT_EQ(seen.told["marks"], true);
 }
 
+// What a window of 1400 x 900 pixels shows before anything is scrolled, opened or pointed at.
+TEST(PageReport, TheFirstScreenShowsPictures) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    for (const bool fails : {false, true}) {
+        std::vector<Frame> frames = rampFrames();
+        if (!fails) frames[1].channels.at(gpu::DEBUG_roughness) = frames[0].channels.at(gpu::DEBUG_roughness);
+        // A difference within tolerance, so that lit has a picture of it.
+        frames[1].channels.at(gpu::DEBUG_lit).at(3, 4) += 1e-5f;
+        const Report report = reportOf(std::move(frames));
+        ASSERT_EQ(report.passed(), !fails);
+        writeReport(report, folder / (fails ? "fail" : "pass"), {});
+        const Visit seen = visit(folder, folder / (fails ? "fail/index.html" : "pass/index.html"), R"(
+          await until(() => document.readyState === 'complete');
+          const whole = (s, part = 1) => $$(s).filter(e => { const box = e.getBoundingClientRect();
+            return box.height > 8 && box.top >= 0 && box.top + part * box.height <= 900; }).length;
+          tell({ verdict: whole('h1 .verdict'), lit: whole('#c0-lit .panel img'),
+                 lit_seen: whole('#c0-lit .panel img', .5),
+                 failing: whole('#c0-roughness .panel img'), finding: whole('#c0-roughness .finding'),
+                 says: ($('#c0-roughness .finding') || {}).textContent, sideways: scrollX,
+                 wipe: whole('.card [data-show=wipe]'), table: $('.overview').getBoundingClientRect().top
+                   > $('#c0-lit .panel img').getBoundingClientRect().bottom });)",
+                                 "", 1400);
+        ASSERT_TRUE(seen.told.is_object()) << seen.told;
+        EXPECT_EQ(seen.told["verdict"], 1);
+        EXPECT_EQ(seen.told["table"], true);
+        EXPECT_GE(seen.told["wipe"], 1);
+        EXPECT_EQ(seen.told["lit_seen"], 3) << "both pictures and their difference";
+        if (!fails) {
+            EXPECT_EQ(seen.told["lit"], 3);
+            continue;
+        }
+        EXPECT_EQ(seen.told["failing"], 3);
+        EXPECT_EQ(seen.told["finding"], 1);
+        const std::string says = seen.told["says"];
+        for (const char* part : {"max 0.25 exceeds", "at pixel 40, 20", "half a step of 12 bits"})
+            EXPECT_NE(says.find(part), std::string::npos) << says;
+    }
+}
+
 // What a failing channel's card prints makes the same comparison, of that channel alone.
 TEST(PageReport, TheCommandOfAReportMakesItAgain) {
     const Folder folder;

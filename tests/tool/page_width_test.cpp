@@ -134,6 +134,8 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
         std::ofstream(page.parent_path() / "copy.html", std::ios::binary) << text;
         const Visit seen = visit(folder, page.parent_path() / "copy.html", R"(
           await until(() => document.readyState === 'complete');
+          for (const wipe of $$('[data-show=wipe]')) wipe.click();
+          dispatchEvent(new Event('beforeprint'));
           const shown = s => $$(s).filter(e => e.getClientRects().length > 0).length;
           const box = s => $('#c0-roughness ' + s).getBoundingClientRect();
           const cut = getComputedStyle($('#c0-roughness .left')).clipPath;
@@ -141,7 +143,7 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
             keys: shown('.keys'),
                  dividers: shown('.divider'), pictures: shown('.card[open] .panel img'),
                    whole: cut === 'none',
-                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'),
+                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'), facts: shown('.more dl'),
                  closed: shown('.card[open] details:not([open])') });)");
         EXPECT_EQ(seen.console, "");
         const json& told = seen.told;
@@ -152,6 +154,7 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
         EXPECT_EQ(told["beside"], print) << "both pictures, not one over the other";
         EXPECT_GT(told["pictures"], 2);
         EXPECT_EQ(told["commands"], 2) << "a person can type them";
+        EXPECT_GT(told["facts"], 1) << "no click opens numbers on paper";
     }
 }
 

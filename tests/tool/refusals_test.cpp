@@ -76,7 +76,7 @@ TEST(Refusals, SamplesNeedATruthOfSamples) {
     const std::string compare =
         "compare builtin:triangle --size 16x9 --runs 0 --msaa 4 --baseline reference ";
     EXPECT_TRUE(runTool(folder, compare)
-                    .failedOver("--msaa 4: --reference-mode surface shades one surface a pixel; use "
+                    .failedOver("--msaa 4: --reference-mode surface shades one surface per pixel; use "
                                 "--reference-mode scene --spp 64"));
     EXPECT_TRUE(runTool(folder, compare + "--reference-mode scene --spp 2").failedOver("use --spp 64"));
     EXPECT_TRUE(runTool(folder, compare + "--reference-mode scene --spp 64 --channels albedo")

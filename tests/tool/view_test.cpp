@@ -33,14 +33,13 @@ protected:
         display_.emplace(folder_);
     }
 
-    // Starts `view` with --size 320x180, which fits the canvas twice, and waits until it is still. The first
+    // Starts `view` with --size 320x180, which is enlarged to fit, and waits until it is still. The first
     // panel is the deferred path's.
     void open(std::vector<std::string> words, const std::string& size = "320x180") {
         words.insert(words.begin(), {"view", "-v", "--size", size});
         start(words);
         settle();
-        display_->events("mousemove 60 500");
-        key("i");  // the information would lie over the pictures
+        display_->events("mousemove 60 650");
     }
 
     // What it says is kept beside what other programs of the test say.
@@ -206,8 +205,12 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     }
     keyAndSettle("e");
     EXPECT_EQ(differing(rendered(scene + "light_count"), 1, single()), 0);
+    keyAndSettle("1");
+    EXPECT_EQ(differing(rendered(scene + "light_count"), 1, single()), 0)
+        << "the heat map takes precedence over the channel";
     keyAndSettle("e");
-    EXPECT_EQ(differing(rendered(scene + "lit"), 1, single()), 0) << "E goes back to lit";
+    EXPECT_EQ(differing(rendered(scene + "albedo"), 1, single()), 0) << "which is there without it";
+    keyAndSettle("0");
     // C goes through those beyond 9.
     std::vector<std::string> beyond;
     for (const DebugMode& mode : debugModes())
@@ -274,7 +277,7 @@ TEST_F(ViewCamera, KeysMoveItAndTheCopiedCommandDrawsWhatIsOnTheScreen) {
     stills_ = times("view: still");
     display_->events("mousemove 400 400 mousedown 1 mousemove 440 410 mousemove 460 420 mouseup 1");
     settle();
-    display_->events("mousemove 60 500");  // the cursor is on the screen too
+    display_->events("mousemove 60 650");  // the cursor is on the screen too
     const std::string command = copied().command;
     EXPECT_EQ(differing(rendered(command.substr(command.find(' ') + 1)), 1, single()), 0) << command;
     close();
@@ -306,8 +309,19 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     key("h");
     key("Escape");
     EXPECT_TRUE(look() == plain) << "Esc closes the help";
+    // Times stand beside the pictures.
+    const auto side = [&] {
+        const Screen screen = display_->screen();
+        std::vector<std::array<std::uint8_t, 3>> pixels;
+        for (int y = windowHeight - 160; y < windowHeight - 40; ++y)
+            for (int x = windowWidth - static_cast<int>(viewer::sideWidth) + 10; x < windowWidth; ++x)
+                pixels.push_back(screen.at(x, y));
+        return pixels;
+    };
+    const auto timed = side();
     key("i");
-    EXPECT_TRUE(look() != plain) << "the information";
+    EXPECT_TRUE(look() == plain) << "no picture is covered";
+    EXPECT_TRUE(side() != timed);
     key("i");
     // Held, the panels change places.
     const PngPicture deferred = rendered("builtin:points --size 320x180 --exposure 1 --path deferred");
@@ -332,11 +346,13 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
     const Screen zoomed = display_->screen();
     std::size_t lines = 0;
-    for (int x = 0; x < 810; ++x) lines += zoomed.at(x, 200) == std::array<std::uint8_t, 3>{70, 70, 70};
+    const int canvas_width = viewer::canvasOf({}, windowWidth, windowHeight, 1).width;
+    for (int x = 0; x < canvas_width; ++x)
+        lines += zoomed.at(x, 200) == std::array<std::uint8_t, 3>{70, 70, 70};
     EXPECT_GT(lines, 5u);
     EXPECT_LT(lines, 40u);
     key("Escape");
-    display_->events("mousemove 60 500");
+    display_->events("mousemove 60 650");
     EXPECT_TRUE(look() == plain);
     close();
 }
@@ -382,6 +398,27 @@ TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
     // G finds no pixel that differs, or goes to it; F fills the screen.
     key("g");
     key("f");
+    close();
+}
+
+// A field takes every key but those that leave it and the program.
+TEST_F(View, EscapeAndCtrlQWorkWhileAFieldHasTheFocus) {
+    open({"builtin:triangle"});
+    const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
+    const auto click = [&](int x, int y) {
+        display_->events(fmt::format("mousemove {} {} click 1 sleep 0.3", canvas.width + x, canvas.y + y));
+    };
+    click(100, 18);  // the tab of Settings
+    const auto type = [&](const char* keys) {
+        click(60, 48);  // the filter of their names
+        const std::size_t before = times("view: key ");
+        display_->events(std::string("key ") + keys + " sleep 0.5");
+        EXPECT_EQ(times("view: key "), before) << "typed into the field";
+    };
+    type("1");
+    key("Escape");
+    key("1");  // no field has it any more
+    type("2");
     close();
 }
 
@@ -511,7 +548,7 @@ TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {
     };
     lose("1");
     settle();
-    display_->events("mousemove 60 500");
+    display_->events("mousemove 60 650");
     key("i");
     EXPECT_EQ(times("was lost and is started again"), 1u) << view_->err();
     EXPECT_EQ(differing(rendered("builtin:points --size 320x180 --exposure 1"), 1, wipe()), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/deformation.h"
 
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -41,8 +42,11 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
     }
     if (broken) reader.note("{} joint weights are negative or not finite: 0", broken);
     if (uneven)
-        reader.note("the joint weights of {} vertices do not add up to 1: divided by their sum", uneven);
-    if (unweighted) reader.note("{} vertices have no joint weight: their first joint moves them", unweighted);
+        reader.note("the joint weights of {} do not add up to 1: divided by their sum",
+                    counted(uneven, "vertex", "vertices"));
+    if (unweighted)
+        reader.note("without a joint weight: {}, moved by the first joint",
+                    counted(unweighted, "vertex", "vertices"));
 }
 
 // RGB deltas leave alpha as it is.

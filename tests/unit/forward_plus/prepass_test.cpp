@@ -24,11 +24,12 @@ PrepassChoice choiceFor(std::uint64_t times, double depthNs, double triangleNs =
 
 TEST(PrepassChoice, WhatIsHiddenIsSaved) {
     EXPECT_FALSE(choiceFor(1, 1).on) << "nothing is drawn twice";
-    EXPECT_EQ(choiceFor(1, 1).because,
-              "--prepass auto is off: 1.00 fragments a covered pixel; the pre-pass would take about 2 ms on "
-              "this CPU device and save 0 ms of shading");
+    EXPECT_EQ(
+        choiceFor(1, 1).because,
+        "--prepass auto is off: 1.00 fragments per covered pixel; the pre-pass would take about 2 ms on "
+        "this CPU device and save 0 ms of shading");
     EXPECT_EQ(choiceFor(3, 1).because,
-              "--prepass auto is on: 3.00 fragments a covered pixel; the pre-pass would take about 6 ms on "
+              "--prepass auto is on: 3.00 fragments per covered pixel; the pre-pass would take about 6 ms on "
               "this CPU device and save 4e+02 ms of shading");
     EXPECT_TRUE(choiceFor(2, 49).on);
     EXPECT_FALSE(choiceFor(2, 51).on) << "200 ms saved of 4 million fragments that take 204 ms";

@@ -96,12 +96,10 @@ TEST(BenchConclusion, SaysWhichIsFasterByHowMuchAndWhy) {
     EXPECT_EQ(all[0].faster, &bench.rows[0]) << "per_object draws another picture";
     EXPECT_EQ(all[0].slower, &bench.rows[2]) << "the other path, although tiled is closer";
     EXPECT_EQ(all[0].pass, "shade");
-    EXPECT_EQ(
-        all[0].inWords(),
-        "64x48, 16 lights: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 2.05 times as "
-        "long: the median ratio of 6 pairs of frames drawn in turn, not that of the medians "
-        "(2.00 to 2.17 at 96.9 % confidence); the pass that differs most is shade: "
-        "none against 19 ms");
+    EXPECT_EQ(all[0].inWords(),
+              "64x48, 16 lights: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 2.05 times "
+              "as long (median ratio of 6 pairs of frames drawn in turn; 2.00 to 2.17 at 96.9 % confidence); "
+              "the pass that differs most is shade: none against 19 ms");
 }
 
 TEST(BenchConclusion, IsNotSureWhereFramesScatter) {
@@ -180,8 +178,8 @@ TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
 TEST(BenchPlot, PartsOfABarStandBesideEachOther) {
     const std::string svg = benchPlot(oneCount(), PlotPlace::file);
     const std::regex part(
-        "x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>"
-        "deferred, clustered, [^<]*ms</title>");
+        "x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>deferred, clustered, "
+        "[^<]*ms</title>");
     Times begins, ends;
     for (std::sregex_iterator at(svg.begin(), svg.end(), part), end; at != end; ++at) {
         begins.push_back(std::stod((*at)[1]));

@@ -57,7 +57,7 @@ TEST(BenchGrowth, SaysWhereAndWhy) {
     EXPECT_EQ(
         words[0],
         "deferred, time over draws: 5 ms at 10, 50 at 1000; flat up to 100, then grows as the power 0.92; "
-        "100 % of what is added is G-buffer");
+        "100 % of the added time is G-buffer");
     EXPECT_EQ(words[1], "deferred, memory over draws: 4 MiB at 10, 4 at 1000; flat");
     EXPECT_TRUE(growthInWords(grownBench({{10, 5}})).empty()) << "one point grows nowhere";
 }

@@ -145,10 +145,10 @@ TEST(BenchSamples, MemoryStandsBesideThePapers) {
     const std::vector<std::string> words = memoryInWords(sampleTables(sampledBench())[0]);
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0],
-              "deferred keeps 32, 32 B a sample of G-buffer and depth with 1, 4 a pixel: 63, 253 MiB at "
-              "1920x1080; Billeter, Olsson and Assarsson's keeps 32 B a sample, 63, 253 MiB");
+              "deferred keeps 32, 32 B per sample of G-buffer and depth with 1, 4 per pixel: 63, 253 MiB at "
+              "1920x1080; Billeter, Olsson and Assarsson's keeps 32 B per sample, 63, 253 MiB");
     EXPECT_EQ(words[1],
-              "forward_plus keeps 4, 4 B a sample of depth with 1, 4 a pixel: 8, 32 MiB at 1920x1080");
+              "forward_plus keeps 4, 4 B per sample of depth with 1, 4 per pixel: 8, 32 MiB at 1920x1080");
     Bench eight;
     eight.options.table = BenchTable::msaa;
     eight.rows = {sampledRow(Path::deferred, Transparency::off, 8, 9, 8 * 32)};

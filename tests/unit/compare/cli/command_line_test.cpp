@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
+#include "compare/cli/command_options.h"
 #include "shared/frame/setting_rows.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
@@ -8,7 +9,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace diptych {
@@ -183,6 +187,43 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
         EXPECT_NE(parseCommandLine({"--help"}).help.find("  " + command + " "), std::string::npos);
     }
     EXPECT_EQ(parseCommandLine({"--version"}).help.find("diptych "), 0u);
+}
+
+// The options that --help prints of a command: its lines that begin with one.
+std::vector<std::string> printedOptions(const std::vector<std::string>& words) {
+    const std::string help = parseCommandLine(words).help;
+    std::vector<std::string> options;
+    for (std::size_t at = help.find("\n  -"); at != help.npos; at = help.find("\n  -", at + 1)) {
+        const std::size_t name = help.find("--", at), end = help.find_first_of(" \n", name);
+        options.push_back(help.substr(name + 2, end - name - 2));
+    }
+    return options;
+}
+
+// Ten at most, which it really has; all others are in --help all, and counted.
+TEST(CommandLine, HelpBeginsWithTheOptionsUsedMost) {
+    for (const Command& command : allCommands()) {
+        const auto few = printedOptions({command.name, "--help"}),
+                   all = printedOptions({command.name, "--help", "all"});
+        EXPECT_EQ(printedOptions({command.name, "-h", "all"}), all);
+        for (const std::string& option : few) EXPECT_EQ(std::ranges::count(all, option), 1) << option;
+        if (command.most_used.empty()) {
+            EXPECT_EQ(few, all) << command.name;
+            EXPECT_LE(all.size(), 12u) << command.name << ": name those that are used most";
+            continue;
+        }
+        std::istringstream words(command.most_used);
+        const std::set<std::string> wanted(std::istream_iterator<std::string>(words), {});
+        EXPECT_LE(wanted.size(), 10u) << command.name;
+        EXPECT_EQ(std::set<std::string>(few.begin(), few.end()).size(), wanted.size() + 1)
+            << command.name << ", with --help itself";
+        for (const std::string& option : wanted) EXPECT_EQ(std::ranges::count(few, option), 1) << option;
+        EXPECT_NE(parseCommandLine({command.name, "--help"})
+                      .help.find(std::to_string(all.size() - few.size()) + " more options: diptych " +
+                                 command.name + " --help all"),
+                  std::string::npos)
+            << command.name;
+    }
 }
 
 // A line of compare can be given to view as it is.
@@ -488,7 +529,7 @@ TEST(CommandLine, APixelIsTwoNumbersFromTheTopLeft) {
          {"3", "3,", ",4", "3,4,5", "3;4", "3.5,4", "a,b", "3, 4", "-1,4", "3,-4", "99999999999,0"})
         EXPECT_EQ(whatIsThrown({"compare", "--pixel=" + wrong}),
                   "--pixel " + wrong + ": is X,Y in pixels from the top left, as 320,180");
-    EXPECT_NE(parseCommandLine({"compare", "--help"}).help.find("--pixel X,Y"), std::string::npos);
+    EXPECT_NE(parseCommandLine({"compare", "--help", "all"}).help.find("--pixel X,Y"), std::string::npos);
 }
 
 TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
@@ -500,7 +541,9 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
 
 // What a command accepts for uniformity but does not read is not in its --help.
 TEST(CommandLine, HelpShowsWhatTheCommandReads) {
-    const auto help = [](const std::string& command) { return parseCommandLine({command, "--help"}).help; };
+    const auto help = [](const std::string& command) {
+        return parseCommandLine({command, "--help", "all"}).help;
+    };
     const std::pair<const char*, std::vector<const char*>> unread[] = {
         {"compare", {"--debug", "--heat", "--frames", "--fps"}},
         {"render", {"--times"}},
@@ -523,7 +566,8 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
 
 TEST(CommandLine, HelpShowsTheSettings) {
     const auto shows = [](const std::string& command, const std::string& option) {
-        return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
+        return parseCommandLine({command, "--help", "all"}).help.find("--" + option + " ") !=
+               std::string::npos;
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
         for (const char* option : {"gbuffer",

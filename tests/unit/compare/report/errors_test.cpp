@@ -96,7 +96,7 @@ TEST(WorstPixels, InfinityIsTheWorst) {
 
 std::string cardOf(const std::string& page, const std::string& channel) {
     const std::size_t start = page.find("id=\"c0-" + channel + "\"");
-    return page.substr(start, page.find("<details", start) - start);
+    return page.substr(start, page.find("<details class=\"box card", start) - start);
 }
 
 TEST(ReportErrors, ThePageTellsThem) {

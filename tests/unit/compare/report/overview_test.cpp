@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page's table of channels, and what stands around its index.
 #include "compare/report/report.h"
+#include "compare/report/titles.h"
 #include "tests/support/files.h"
 #include "tests/support/report_maker.h"
 
@@ -46,6 +47,31 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
               std::string::npos);
     EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
         << "the verdict's line";
+}
+
+// Every channel that fails and lit, which never comes later than second.
+TEST(ReportOverview, PicturesOfFailuresAndOfLitLead) {
+    Report report = reportOf(bothFrames());
+    Comparison& comparison = report.comparisons[0];
+    const auto names = [&] {
+        std::vector<std::string> out;
+        for (const ChannelDiff* channel : leadingChannels(comparison)) out.emplace_back(channel->mode->name);
+        return out;
+    };
+    const auto channel = [&](std::string_view name) -> ChannelDiff& {
+        return *std::ranges::find(comparison.channels, name,
+                                  [](const ChannelDiff& c) { return c.mode->name; });
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names(), Names{"lit"});
+    channel("roughness").verdict = channel("normals").verdict = Verdict::fail;
+    EXPECT_EQ(names(), (Names{"normals", "lit", "roughness"}));
+    channel("lit").verdict = Verdict::fail;
+    EXPECT_EQ(names(), (Names{"lit", "normals", "roughness"}));
+    channel("lit").verdict = Verdict::forward_only;
+    EXPECT_EQ(names(), (Names{"normals", "roughness"}));
+    channel("roughness").verdict = channel("normals").verdict = Verdict::pass;
+    EXPECT_EQ(names(), Names{"albedo"}) << "without lit and failures the first that is compared";
 }
 
 // Of the Settings those are coloured in which the two differ, and no others.
@@ -102,7 +128,7 @@ TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
     const std::filesystem::path out = folder() / "report";
     writeReport(report, out, {});
     EXPECT_NE(contentsOf(out / "index.html")
-                  .find(fmt::format(" are within tolerance ({} more on one side alone)", alone)),
+                  .find(fmt::format(" are within tolerance ({} more exist on one side only)", alone)),
               std::string::npos);
 }
 

@@ -146,9 +146,12 @@ TEST(Report, ThePageStandsAloneWithFailuresFirst) {
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     for (const char* external : {"http:", "https:", "src=\"/", "url(", "@import"})
         EXPECT_EQ(page.find(external), std::string::npos) << external;
-    EXPECT_LT(page.find("Failures"), page.find("Channels"));
-    EXPECT_LT(page.find("id=\"c0-roughness\""), page.find("id=\"c0-lit\""))
-        << "a failing card before a passing one";
+    const auto card = [&](const std::string& name) { return page.find("id=\"c0-" + name + "\""); };
+    const std::size_t table = page.find("class=\"overview\"");
+    EXPECT_LT(card("albedo"), card("lit")) << "a failing card before a passing one";
+    EXPECT_LT(card("lit"), card("roughness")) << "lit is the second at the latest";
+    EXPECT_LT(card("roughness"), table) << "pictures before the table";
+    EXPECT_LT(table, card("metallic"));
     for (std::size_t at = page.find("src=\""); at != std::string::npos; at = page.find("src=\"", at + 1)) {
         const std::string source = page.substr(at + 5, page.find('"', at + 5) - at - 5);
         EXPECT_TRUE(fs::exists(out / source)) << source;

@@ -87,9 +87,9 @@ TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
                                   {"share_beyond", explained ? 0.0 : 1.0}}));
         const std::string table = reportTable(report);
         EXPECT_NE(table.find("pixels unexplained"), std::string::npos) << table;
-        EXPECT_EQ(
-            table.find("lit: the encoding explains up to 0.0909, 0.0909 at the mean, FLIP ") != table.npos,
-            explained)
+        EXPECT_EQ(table.find("lit: explained by the encoding: largest error 0.0909, mean 0.0909, FLIP ") !=
+                      table.npos,
+                  explained)
             << table;
         EXPECT_EQ(table.find("1 pixel(s) (100 %) differ from what the encoding explains") != table.npos,
                   !explained)
@@ -162,8 +162,8 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
         return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
     });
     const std::string passes =
-        fmt::format("pass: all {} compared channels are within tolerance ({} more on one side alone)", shared,
-                    std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker));
+        fmt::format("pass: all {} compared channels are within tolerance ({} more exist on one side only)",
+                    shared, std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker));
     for (const auto& [frames, words] : cases) {
         EXPECT_EQ(verdictLine(reportWith(frames, {})), passes + words);
         options.allow_empty = true;

@@ -156,7 +156,7 @@ TEST(Baseline, AReferenceOfFewerSamplesIsNoTruthOfThem) {
     EXPECT_EQ(samplesProblem(reference, path), "") << "one of each";
     path.msaa = 4;
     EXPECT_EQ(samplesProblem(reference, path),
-              "--msaa 4: --reference-mode surface shades one surface a pixel; use --reference-mode scene "
+              "--msaa 4: --reference-mode surface shades one surface per pixel; use --reference-mode scene "
               "--spp 64");
     reference.reference_mode = ReferenceMode::scene;
     reference.spp = 3;

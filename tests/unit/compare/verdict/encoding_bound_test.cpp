@@ -71,7 +71,7 @@ TEST(EncodingUse, BeyondTheBitsFailsByName) {
     const ChannelDiff& lit = firstOf(report);
     EXPECT_EQ(lit.unexplained_pixels, 0u);
     EXPECT_EQ(lit.verdict, Verdict::fail);
-    EXPECT_NE(lit.reason.find("10.9 times what the bits of its G-buffer can do at 1,2"), std::string::npos)
+    EXPECT_NE(lit.reason.find("10.9 times the bound of its G-buffer's bits at 1,2"), std::string::npos)
         << lit.reason;
     EXPECT_NE(lit.reason.find("at 1 pixel(s)"), std::string::npos);
     frames[1].encoding_bound[0] = Image(4, 3, 1, 0.12f);

@@ -131,7 +131,7 @@ TEST(Rules, FaultsWordByWord) {
     EXPECT_EQ(fault(Json::object()), "dir/t.json: has no rules, an array");
     EXPECT_EQ(faultOfRule(7), "dir/t.json: rule 1: is no object");
     EXPECT_EQ(faultOfRule({{"max", 1}, {"because", "x"}}),
-              "dir/t.json: rule 1: has no channel, the name or pattern of what it is about");
+              "dir/t.json: rule 1: has no channel, the name or pattern of the channels it is for");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"max", 1}}),
               "dir/t.json: rule 1: has no because, the reason for it");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"max", "1"}, {"because", "x"}}),

@@ -256,7 +256,8 @@ TEST(Tolerance, LitIsGrantedWhatTheBitsAllow) {
     // 0.5 of 1.25, deferred being the baseline; and float32's shading, 1e-4.
     EXPECT_NEAR(p.of(gpu::DEBUG_lit).max, 0.4 + 1e-4, 1e-9);
     EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("up to 0.4"), std::string::npos);
-    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("at most 50 % of a pixel's own is used"), std::string::npos)
+    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("the largest error is 50 % of its pixel's bound"),
+              std::string::npos)
         << p.of(gpu::DEBUG_lit).because;
     const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
     EXPECT_NEAR(derivedTolerance(debugMode(gpu::DEBUG_lit), turned).max, 0.5 + 1.25e-4, 1e-9)

@@ -209,26 +209,31 @@ TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
     EXPECT_EQ(bgr, (Rgb8Pixel{rgb.b, rgb.g, rgb.r}));
 }
 
-// By whole factors, so that every pixel is equally large; around it the canvas's own grey.
-TEST(ViewerCanvas, FitsByTheLargestWholeFactor) {
+// As wide or as high as its panel, whichever comes first; beside it the canvas's own grey.
+TEST(ViewerCanvas, APictureFillsItsPanel) {
     const Shown shown = shownOf(10, 5);
     const CanvasRect canvas{0, 0, 37, 20};
     CanvasView view;
     view.layout = Layout::single;
     const auto places = placesOf(canvas, shown.size, view, false);
     ASSERT_EQ(places.size(), 1u);
-    EXPECT_DOUBLE_EQ(places[0].placement.scale, 3);
+    EXPECT_DOUBLE_EQ(places[0].placement.scale, 3.7);
     const auto pixels = composed(shown, canvas, places, false);
     const int left = static_cast<int>(places[0].placement.left),
               top = static_cast<int>(places[0].placement.top);
-    EXPECT_EQ(inCanvas(pixels, 37, left, top), inPicture(shown.panels[1].picture, 0, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, left + 2, top + 2), inPicture(shown.panels[1].picture, 0, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, left + 3, top), inPicture(shown.panels[1].picture, 1, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, left - 1, top), (Rgb8Pixel{26, 26, 28}));
-    const auto under = pixelUnder(places, shown.size, left + 3.5, top + 0.5);
+    EXPECT_EQ(left, 0);
+    EXPECT_EQ(top, 1);
+    EXPECT_EQ(inCanvas(pixels, 37, 0, 1), inPicture(shown.panels[1].picture, 0, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 3, 4), inPicture(shown.panels[1].picture, 0, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 4, 1), inPicture(shown.panels[1].picture, 1, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 36, 18), inPicture(shown.panels[1].picture, 9, 4));
+    EXPECT_EQ(inCanvas(pixels, 37, 0, 0), (Rgb8Pixel{26, 26, 28}));
+    const auto under = pixelUnder(places, shown.size, 4.5, 1.5);
     ASSERT_TRUE(under);
     EXPECT_EQ(under->pixel, (PixelPlace{1, 0}));
-    EXPECT_FALSE(pixelUnder(places, shown.size, left - 0.5, top));
+    EXPECT_FALSE(pixelUnder(places, shown.size, 4.5, 0.5));
+    // The larger of two factors would leave a part of the picture outside.
+    EXPECT_DOUBLE_EQ(placesOf({0, 0, 37, 10}, shown.size, view, false)[0].placement.scale, 2);
 }
 
 TEST(ViewerCanvas, OverADifferenceTheRightPanelIsShownWhileThereIsAnother) {
@@ -460,6 +465,28 @@ TEST(ViewerSettings, SizeStopsFollowingTheWindow) {
     setOption(state, "size", "320x180");
     EXPECT_FALSE(state.follow);
     EXPECT_EQ(state.subject.settings.size, sizeOf(320, 180));
+}
+
+// As the original projects had it: the heat map covers the channel, which is there again without it.
+TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
+    Look look;
+    for (const DebugMode& mode : debugModes()) {
+        look.mode = mode.number;
+        look.heat = true;
+        EXPECT_EQ(look.channel(), static_cast<int>(gpu::DEBUG_light_count)) << mode.name;
+        look.heat = false;
+        EXPECT_EQ(look.channel(), mode.number);
+    }
+}
+
+// Without panels at the side the times have a column of their own; without both the pictures have it all.
+TEST(ViewerCanvas, TimesStandBesideThePictures) {
+    InterfaceState state;
+    EXPECT_EQ(canvasOf(state, 1280, 760, 1).width, 1280 - static_cast<int>(sideWidth));
+    state.panels = false;
+    EXPECT_EQ(canvasOf(state, 1280, 760, 1).width, 1280 - static_cast<int>(timesWidth));
+    state.information = false;
+    EXPECT_EQ(canvasOf(state, 1280, 760, 1).width, 1280);
 }
 
 TEST(ViewerCommands, SayTheWholeView) {
