@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_options.h"
 
+#include "compare/audit/quantities.h"
+#include "compare/audit/relations.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace diptych::cli {
 namespace {
@@ -300,13 +306,19 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
         "materials, triangles, size, and where each would turn the choice; draws a few hundred more frames");
 }
 
+std::string namesOf(const auto& all) {
+    std::vector<std::string_view> names;
+    for (const auto& each : all) names.push_back(each.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
     app.option_defaults()->group("What is pushed");
-    app.add_option("--quantity", audit.quantities,
-                   "quantities to push (all): offset, vertex, scale, exposure, near, fov, grazing, "
-                   "intensity, range, distance, eye, cone, environment, roughness, normal_map, emission, "
-                   "color, shadow_depth, evsm_exponent, haze, lights, triangles, size, time. Pictures are "
-                   "160x90 without --size; shadows are off without --shadows, except where they are pushed")
+    app.add_option(
+           "--quantity", audit.quantities,
+           fmt::format("quantities to push (all): {}. Pictures are 160x90 without --size; shadows are off "
+                       "without --shadows, except where they are pushed",
+                       namesOf(audit::quantities())))
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -320,11 +332,7 @@ void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
                  "instead of pushing anything: what must not change its picture, on this device, without a "
                  "truth; exit code 1 where a relation is broken");
     app.add_option("--relation", audit.chosen_relations,
-                   "names of such relations (all): lights_permuted, lights_split, light_doubled, light_64th, "
-                   "dark_lights, far_lights, moved, turned, quarter_turn, mirrored, scaled, tiles_shifted, "
-                   "near_halved, draws_reversed, meshes_split, unindexed, triangles_split, "
-                   "materials_permuted, through_gltf, through_glb, repeated, assign_every, assign_tiled, "
-                   "light_kernel, prepass, still_time")
+                   fmt::format("names of such relations (all): {}", namesOf(audit::relations())))
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);

@@ -7,6 +7,7 @@
 #include "shared/text/one_line.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
@@ -68,8 +69,12 @@ int main(int argc, char** argv) {
         diptych::watchInterruption();
         const int code = run(diptych::cli::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
         errno = 0;
-        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+            // An earlier write may have failed, whose reason is gone.
+            pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+            if (errno == 0 && poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) endOfPipe();
             throw std::system_error(errno, std::generic_category(), "stdout: cannot be written");
+        }
         return code;
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::broken_pipe) endOfPipe();

@@ -111,8 +111,8 @@ mat4x3 matrixAt(PosedInstance i, uint at) {
 
 float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// A matrix's axes over its largest component, since products of what is very long or short leave float32, and
-// one over that component; 0 where all are.
+// A matrix's axes over its largest component, since products of what is very long or short leave
+// float32, and one over that component; 0 where all are.
 struct Axes {
     vec3 x, y, z;
     float scale;
@@ -123,7 +123,8 @@ Axes axesOf(mat4x3 matrix) {
     return Axes(matrix[0] * scale, matrix[1] * scale, matrix[2] * scale, scale);
 }
 
-// Of any length. Cofactors are the inverse transpose times the determinant, and exist where a matrix flattens.
+// Of any length. Cofactors are the inverse transpose times the determinant, and exist where a matrix
+// flattens.
 vec3 byCofactors(Axes a, vec3 normal) {
     return crossProduct(a.y, a.z) * normal.x + crossProduct(a.z, a.x) * normal.y +
            crossProduct(a.x, a.y) * normal.z;
@@ -136,8 +137,9 @@ struct Joined {
     float unit;     // one over that number, which is the first joint's that counts; 0: none does yet
 };
 
-// The determinant counts without its sign, which PosedInstance::handedness has. As a ratio to the first joint's it is 1
-// at a vertex of one joint, whose normal then has the bits of that joint's cofactors.
+// The determinant counts without its sign, which PosedInstance::handedness has. As a ratio to the
+// first joint's it is 1 at a vertex of one joint, whose normal then has the bits of that joint's
+// cofactors.
 void addJoint(inout Joined sum, mat4x3 matrix, float weight, bool of_joints, vec3 normal) {
     sum.matrix += weight * matrix;
     if (!of_joints) return;
@@ -218,7 +220,8 @@ struct PosedVertex {
     vec3 tangent;   // likewise
 };
 
-// `of_joints`: the normal goes by each joint's inverse transpose, else by the cofactors of the vertex's matrix.
+// `of_joints`: the normal goes by each joint's inverse transpose, else by the cofactors of the
+// vertex's matrix.
 PosedVertex posedVertex(PosedInstance i, uint vertex, bool of_joints) {
     vec3 normal = morphedNormal(i, vertex);
     Joined by = joined(i, vertex, of_joints, normal);

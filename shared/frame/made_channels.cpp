@@ -20,9 +20,9 @@ std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode)
                 return "only deferred lighting chooses which samples it shades; --path deferred makes it";
             return settings.msaa == 1 ? "every pixel is shaded once; use --msaa 4" : "";
         case MadeBy::paths_only:
-            return settings.path == Path::reference
-                       ? "the reference evaluates every light; --path forward_plus and deferred show it"
-                       : "";
+            return settings.path == Path::reference ? "the reference has neither light lists nor shadow "
+                                                      "maps; --path forward_plus and deferred show it"
+                                                    : "";
     }
     return {};
 }

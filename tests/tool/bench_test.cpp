@@ -83,7 +83,7 @@ TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
     EXPECT_EQ(bench["skipped"][0]["assign"], "per_object");
     EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"),
               std::string::npos);
-    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 lights already"),
+    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 light already"),
               std::string::npos);
     EXPECT_NE(ran.out.find("not timed: deferred, every, 16x12, 2 lights: over --max-ms 1e-06"),
               std::string::npos)

@@ -427,7 +427,7 @@ TEST(AuditOutput, ATableAPlotAndWords) {
     EXPECT_NE(plot.find("class=\"cross\""), std::string::npos);
     for (const Series& series : of.series) EXPECT_NE(plot.find(series.words()), std::string::npos);
     const std::string words = inWords(of);
-    EXPECT_NE(words.find("do not agree"), std::string::npos) << words;
+    EXPECT_NE(words.find("does not agree with the measurement"), std::string::npos) << words;
     const nlohmann::ordered_json json = toJson(audit);
     EXPECT_EQ(json["quantities"][0]["steps"].size(), of.steps.size());
     EXPECT_EQ(json["quantities"][0]["series"][1]["path"], "forward_plus");

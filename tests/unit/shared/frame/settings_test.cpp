@@ -261,6 +261,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.camera = asked.camera;
     expected.time = asked.time;
     expected.animation = asked.animation;
+    expected.skin_normals = asked.skin_normals;
     expected.scene_lights = asked.scene_lights;
     expected.lights = asked.lights;
     expected.shadows = Shadows::off;
@@ -506,8 +507,9 @@ TEST(Settings, LightsByObjectAreForwardPlussAlone) {
     s.path = Path::deferred;
     EXPECT_EQ(
         s.problem().value_or("none"),
-        "--assign per_object has no meaning for deferred: its G-buffer does not say which object a pixel is "
-        "of; use --path forward_plus, or where both paths are drawn --forward-plus assign=per_object");
+        "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a "
+        "pixel shows; use --path forward_plus, or where both paths are drawn --forward-plus "
+        "assign=per_object");
 }
 
 TEST(Settings, TheReferenceHasMoreThanThePaths) {

@@ -179,9 +179,9 @@ TEST(Posed, ANormalIsTheMeanOfWhatEachJointMakesOfIt) {
 // A joint of scale 0 has no normal to add, and one that flattens has the last word.
 TEST(Posed, JointsWithoutAnInverseLeaveNoNaN) {
     const glm::vec3 slope = glm::normalize(glm::vec3(1, 0, 1));
-    for (const auto& [scale, expected] :
+    for (const auto& [factors, expected] :
          {std::pair{glm::dvec3(0), glm::dvec3(slope)}, {glm::dvec3(1, 1, 0), Z}}) {
-        Scene scene = skinned(glm::dmat4(1), glm::scale(glm::dmat4(1), scale));
+        Scene scene = skinned(glm::dmat4(1), glm::scale(glm::dmat4(1), factors));
         only(scene).normals.assign(3, slope);
         expectNear(posed(scene).normals[1], expected, "half and half", 1e-7);
     }
