@@ -139,11 +139,11 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     settings.assign = Assignment::every;
     for (const unsigned lights : {1u, 2 * device().profile().packets_per_draw + 7}) {
         settings.lights = fmt::format("point:{}", lights);
-        const std::vector<Frame> bright = bothPaths(renderer, settings, shown);
+        const std::vector<Frame> shone = bothPaths(renderer, settings, shown);
         for (std::size_t i = 0; i < 2; ++i) {
-            EXPECT_EQ(differingPixels(bright[i].channels.at(skyAlone), dark[i].channels.at(skyAlone)), 0u)
+            EXPECT_EQ(differingPixels(shone[i].channels.at(skyAlone), dark[i].channels.at(skyAlone)), 0u)
                 << lights;
-            EXPECT_GT(differingPixels(bright[i].channels.at(skyDiffuse), dark[i].channels.at(skyDiffuse)),
+            EXPECT_GT(differingPixels(shone[i].channels.at(skyDiffuse), dark[i].channels.at(skyDiffuse)),
                       100u)
                 << lights;
             EXPECT_GT(colorAt(dark[i], skyAlone, 8, 8).g, 0.01f);
