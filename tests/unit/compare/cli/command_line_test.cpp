@@ -434,7 +434,7 @@ TEST(CommandLine, ABaselineIsAPathOrAFile) {
     EXPECT_EQ(o.baseline_file, "left.exr");
     EXPECT_TRUE(o.update_baseline && o.allow_noise);
     EXPECT_EQ(whatIsThrown({"compare", "--update-baseline"}),
-              "--update-baseline: --baseline FILE.exr says which file");
+              "--update-baseline: --baseline FILE.exr says which file, which is written whole");
     EXPECT_EQ(whatIsThrown({"compare", "--baseline", "left"}),
               "--baseline left: is none of deferred, forward_plus, reference, and no .exr file");
 }

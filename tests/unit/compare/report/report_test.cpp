@@ -332,8 +332,8 @@ TEST(Report, TheTableSaysFailuresFirstAndTheVerdictLast) {
         return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
     });
     EXPECT_TRUE(reportTable(passing()).ends_with(
-        fmt::format("pass: all {} compared channels are within tolerance ({} more on one "
-                    "side alone)\n",
+        fmt::format("pass: all {} compared channels are within tolerance ({} more exist on one "
+                    "side only)\n",
                     both, std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker))));
 }
 

@@ -226,7 +226,7 @@ TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     frames[4].notes = {"the same", "another"};
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 3 scenes: the same\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, a.glb, b.glb, with other numbers each: it took 1.5 s\n"), table.npos)
+    EXPECT_NE(table.find("\nnote, a.glb, b.glb, each with numbers of its own: it took 1.5 s\n"), table.npos)
         << table;
     EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
 }
@@ -242,7 +242,8 @@ TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 2 scenes: material 2: roughness 3\n"), table.npos) << table;
     EXPECT_NE(table.find("\nnote, a.glb: material 3: roughness 4\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, 2 scenes, with other numbers each: material 1: roughness 2\n"), table.npos)
+    EXPECT_NE(table.find("\nnote, 2 scenes, each with numbers of its own: material 1: roughness 2\n"),
+              table.npos)
         << table;
     EXPECT_EQ(countOf(table, "\nnote"), 3u) << table;
 }

@@ -131,7 +131,7 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
         std::vector<std::string> values = sweptValues(then.settings, field.option);
         for (const char* value :
              {"1", "2", "3", "0.5", "on", "all", "fp32", "0..1", "depth", "scene", "point:2", "0.5,0.5,0.5",
-              "b.exr", "component", "smoothstep", "squared", "slope"})
+              "b.exr", "component", "smoothstep", "squared", "slope", "blended"})
             values.emplace_back(value);
         for (const std::string& value : values) try {
                 now.settings.set(field.option, value);

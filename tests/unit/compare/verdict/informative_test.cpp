@@ -58,8 +58,8 @@ TEST(Informative, ARuleForLitJudgesIt) {
 TEST(Informative, TheReportSaysWhatDiffers) {
     const Report report = informedReport({gpu::DEBUG_lit});
     EXPECT_EQ(verdictLine(report),
-              "pass: all 14 compared channels are within tolerance, and 8 of light decide nothing: the "
-              "paths' Settings differ (4 more on one side alone)");
+              "pass: all 14 compared channels are within tolerance, and 9 of light decide nothing: the "
+              "paths' Settings differ (4 more exist on one side only)");
     const std::string said =
         "deferred and forward_plus have Settings of their own: --assign clustered and per_object";
     EXPECT_EQ(countOf(reportTable(report), said), 1u) << reportTable(report);
