@@ -500,7 +500,7 @@ void drawPanels(InterfaceState& state, const Contents& contents, const CanvasRec
     const std::optional<Tab> open = std::exchange(state.open, std::nullopt);
     const auto tab = [&](Tab which, const char* name, const auto& draw) {
         if (!ImGui::BeginTabItem(name, nullptr, open == which ? ImGuiTabItemFlags_SetSelected : 0)) return;
-        ImGui::BeginChild(name, {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+        ImGui::BeginChild(name, {0, 0}, false);
         draw();
         ImGui::EndChild();
         ImGui::EndTabItem();

@@ -241,9 +241,12 @@ TEST(ShadowMoments, AreBlurredAcrossAndDown) {
                 constexpr double texel = 8.0 / 500;
                 double from = 1, to = -1, middle = 0;
                 int pixels = 0;
-                for (const Crossed& c :
-                     across(drawnOnce(underARoof(1, 0, along_z, 0.1), settings, {sunSeen, materials, places}),
-                            along_z)) {
+                const Frame frame =
+                    drawnOnce(underARoof(1, 0, along_z, 0.1), settings, {sunSeen, materials, places});
+                if (shadows == Shadows::evsm)
+                    EXPECT_EQ(std::ranges::count(frame.notes, "--shadows evsm: exponent 40 in 32-bit floats"),
+                              1);
+                for (const Crossed& c : across(frame, along_z)) {
                     if (c.visibility < 0.05 || c.visibility > 0.95) continue;
                     from = std::min(from, c.at);
                     to = std::max(to, c.at);
