@@ -34,7 +34,7 @@ std::string figures(const Report& report, const CloserPath& closer) {
         "<th class=\"n\">between them</th></tr>",
         name(0), name(1));
     for (const CloserPathChannel& channel : closer.channels) {
-        out += fmt::format("<tr><td><b>{}</b></td><td></td><td></td><td></td></tr>", channel.mode->name);
+        out += fmt::format("<tr><td colspan=\"4\"><b>{}</b></td></tr>", channel.mode->name);
         out += row("mean", channel, [](const PathError& error) { return error.stats.mean; });
         out += row("p99", channel, [](const PathError& error) { return error.stats.p99; });
         out += row("p99.9", channel, [](const PathError& error) { return error.stats.p999; });
@@ -56,7 +56,7 @@ std::string materials(const Report& report, const CloserPath& closer, const Clos
         "<div class=\"scroll\"><table><tr><th>{} by material</th><th class=\"n\">pixels</th><th "
         "class=\"n\">{}</th>"
         "<th class=\"n\">{}</th></tr>",
-        channel.mode->name, name(0), name(1));
+        page::breakable(std::string(channel.mode->name)), name(0), name(1));
     for (const MaterialError& m : channel.materials)
         out += fmt::format(
             "<tr><td class=\"wide\">{} <span class=\"soft\">{}</span></td><td class=\"n\">{}</td>{}{}</tr>",
