@@ -132,6 +132,7 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
 TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     Scene scene = square();
     scene.environment = paintedSky();
+    scene.materials[0].metallic = 0;
     Settings settings = underSky({4, 4});
     settings.assign = Assignment::every;
     const std::vector<Frame> dark = bothPaths(scene, settings, shown);
