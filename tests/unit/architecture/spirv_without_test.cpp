@@ -149,8 +149,8 @@ std::vector<std::string> specialised(const fs::path& module, const std::string& 
     return canonicalSpirv(contentsOf(text), known);
 }
 
-// Scenes with much of what the list of features has, and with other of its values. Of the channels of light they
-// capture none of haze, which are constants without it.
+// Scenes with much of what the list of features has, and with other of its values. Of the channels of light
+// they capture none of haze, which are constants without it.
 const std::string otherFeatures[] = {
     "0:1 3:1 9:1 12:1 14:1 15:1 16:2 20:61440 23:1 24:3 25:1 29:3 33:1 37:1 41:1 42:7",
     "14:1 20:61440 21:1 25:2 26:2 42:1"};
