@@ -15,7 +15,7 @@ inline GltfFile withMaterial(nlohmann::json material, int images = 1) {
         f.json["images"].push_back({{"uri", twoPixels}});
         f.json["textures"].push_back({{"source", i}});
     }
-    f.json["materials"] = {std::move(material)};
+    f.json["materials"] = nlohmann::json::array({std::move(material)});
     return f;
 }
 

@@ -27,7 +27,7 @@ GltfFile square(const Json& material = Json::object()) {
     whole["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
     f.json["extensionsUsed"] = {"KHR_materials_specular"};
     whole.merge_patch(material);
-    f.json["materials"] = {whole};
+    f.json["materials"] = nlohmann::json::array({whole});
     return f;
 }
 
@@ -70,9 +70,9 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
         {{"primitives",
           {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"COLOR_0", colors}}},
             {"material", 0}}}}}};
-    f.json["materials"] = {
-        {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.5, 1, 1, 1}}}},
-         {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}}};
+    f.json["materials"] = nlohmann::json::array(
+        {{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.5, 1, 1, 1}}}},
+          {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}}});
     f.json["extensionsUsed"] = {"KHR_materials_specular", "KHR_lights_punctual"};
     f.json["nodes"] = {{{"children", {1, 2}}, {"rotation", {-s, 0, 0, s}}},
                        {{"mesh", 0}, {"scale", {1, 2, 1}}},
