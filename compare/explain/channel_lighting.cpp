@@ -15,8 +15,8 @@ constexpr int lightmapMode = static_cast<int>(gpu::DEBUG_lightmap),
 
 // clang-format off
 constexpr std::string_view carried[] = {
-    "path", "gbuffer", "prepass", "assign", "light-kernel", "pixel-lights", "skinning", "skin-normals", "spec-aa",
-    "spec-aa-variance", "spec-aa-limit", "spec-aa-normals",
+    "path", "gbuffer", "prepass", "assign", "light-kernel", "pixel-lights", "skinning", "skin-normals",
+    "spec-aa", "spec-aa-variance", "spec-aa-limit", "spec-aa-normals",
     "spec-aa-kernel", "msaa", "msaa-shading", "msaa-edges", "resolve",
     "alpha-to-coverage", "spp", "reference-mode"};
 // clang-format on

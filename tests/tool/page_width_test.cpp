@@ -143,7 +143,8 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
             keys: shown('.keys'),
                  dividers: shown('.divider'), pictures: shown('.card[open] .panel img'),
                    whole: cut === 'none',
-                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'), facts: shown('.more dl'),
+                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'),
+                 facts: shown('.more dl'),
                  closed: shown('.card[open] details:not([open])') });)");
         EXPECT_EQ(seen.console, "");
         const json& told = seen.told;
