@@ -34,7 +34,7 @@ void checkSettingsFile(const std::filesystem::path& file, bool force) {
         settingsFromJson(textIn(file, json_bytes));
     } catch (const std::exception&) {
         throw std::runtime_error(
-            fmt::format("-o {}: is there and holds no Settings; --force replaces it", file.string()));
+            fmt::format("-o {}: exists and does not contain Settings; --force replaces it", file.string()));
     }
 }
 
@@ -47,7 +47,8 @@ void checkChooseOptions(const Options& options) {
     else if (!options.out.empty())
         outputFolder(options, "", "choice (or its Settings: X.json)", choiceManifest);
     if (options.settings.path == Path::reference)
-        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+        throw std::runtime_error(
+            "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())
         throw std::runtime_error(*problem);
 }

@@ -365,7 +365,7 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     // depth alone against depth and a G-buffer
     EXPECT_GT(scene["paths"][0]["bytes_per_pixel"], scene["paths"][1]["bytes_per_pixel"]);
     const std::string words = runTool(folder, "plan builtin:triangle").out;
-    EXPECT_NE(words.find("4 bytes per pixel, 20 with light; 16 and 96 with --msaa 4"), std::string::npos)
+    EXPECT_NE(words.find("4 bytes per pixel, 20 with lighting; 16 and 96 with --msaa 4"), std::string::npos)
         << words;
     // A buffer that is as long as the picture has pixels is divided by these, whatever its rows round up to.
     ASSERT_EQ(scene["paths"][0]["samples"][1]["samples"], 4);

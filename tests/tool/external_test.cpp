@@ -200,7 +200,7 @@ TEST(External, AFrameIsComparedReportedAndWritten) {
     EXPECT_EQ(report["comparisons"].size(), 4u * 5u);
     EXPECT_EQ(comparisonWith(report, "b")["baseline"], "reference");
     EXPECT_TRUE(runTool(folder, compare_points + "--renderer a=fake.json --renderer a=fake.json")
-                    .failedOver("there are two of this name"));
+                    .failedOver("two renderers have this name"));
 }
 
 // Where we show no surface nothing is compared, whatever is shown there, nor what a filter carries across.
