@@ -107,7 +107,7 @@ CONTRACT_END
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
     X(3,  TILE_DEPTHS, storage_buffer, "vec2[lists]: least and largest view depth of a tile's list, m")    \
-    X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
+    X(4,  OVERFLOW,    storage_buffer, "uint: number of lists that overflowed")                                  \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
     X(6,  HEADS,       storage_buffer, "LightListHead[lists + 1]: the last one of all local lights")      \
     X(7,  INDICES,     storage_buffer, "uint[capacity * width]")                                          \

@@ -170,7 +170,7 @@ TEST(Motion, TimesThatCannotBeAreRefused) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     EXPECT_TRUE(runTool(folder, "render node.gltf --time -1" + reference)
-                    .failedOver("--time -1: is finite and at least 0"));
+                    .failedOver("--time -1: must be finite and at least 0"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --time 1 --times 0,1").failedOver("--times"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,soon").failedOver("--times 0,soon"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,1 --baseline b.exr")
