@@ -144,7 +144,8 @@ TEST(Command, AnEnvironmentThatCannotBeReadIsNamed) {
     folder.write("sky.exr", "not an EXR");
     for (const std::string command : {"render --path reference ", "plan "}) {
         EXPECT_TRUE(runTool(folder, command + "--env none.exr").failedOver("none.exr: no such file"));
-        EXPECT_TRUE(runTool(folder, command + "--env sky.exr").failedOver("sky.exr: is no picture"));
+        EXPECT_TRUE(
+            runTool(folder, command + "--env sky.exr").failedOver("sky.exr: is not a supported image"));
         EXPECT_TRUE(
             runTool(folder, command + "--ibl-intensity 2").failedOver("has no meaning without --env"));
         EXPECT_TRUE(runTool(folder, command + "--env sky.exr --ibl-intensity -1").failedOver("at least 0"));

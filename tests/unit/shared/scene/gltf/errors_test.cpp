@@ -170,11 +170,11 @@ TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     f.json["nodes"][0]["name"] = "[[[{{{\\\"[[[";  // brackets in strings are not nesting
     EXPECT_EQ(f.error(), "");
     f.json["extras"] = deep(128);
-    EXPECT_EQ(f.error(), (testFolder() / "scene.gltf").string() + ": nests deeper than 128");
-    EXPECT_EQ(linesFor("{\"extras\":" + std::string(1000000, '[')), "nests deeper than 128");
+    EXPECT_EQ(f.error(), (testFolder() / "scene.gltf").string() + ": is nested deeper than 128 levels");
+    EXPECT_EQ(linesFor("{\"extras\":" + std::string(1000000, '[')), "is nested deeper than 128 levels");
     std::string objects;
     for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
-    EXPECT_EQ(linesFor("{\"extras\":" + objects), "nests deeper than 128");
+    EXPECT_EQ(linesFor("{\"extras\":" + objects), "is nested deeper than 128 levels");
 }
 
 // Symbolic links are followed if they stay in the folder, and refused if they lead out of it.

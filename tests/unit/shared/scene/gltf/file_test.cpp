@@ -82,7 +82,7 @@ TEST(GltfLoading, WrongNumbersAreRefusedByName) {
              f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform", "EXT_odd"};
          }},
         {"asset: version 1.0", [](GltfFile& f) { f.json["asset"]["version"] = "1.0"; }},
-        {"nests deeper",
+        {"nested deeper",
          [](GltfFile& f) {
              Json deep;
              for (int i = 0; i < 200; ++i) deep = Json::array({deep});
@@ -273,10 +273,10 @@ TEST(GltfLoading, ObjectsAndValuesHaveALimit) {
     };
     const std::string head = R"({"asset":{"version":"2.0"},)";
     EXPECT_NE(loadBytes(head + "\"nodes\":[" + times(2097151, "{}") + "]}", "objects.gltf")
-                  .find("has 2097153 objects: at most 2097152 are read"),
+                  .find("has 2097153 objects; the limit is 2097152"),
               std::string::npos);
     EXPECT_NE(loadBytes(head + "\"extras\":[" + times(33554432, "0") + "]}", "values.gltf")
-                  .find("has 33554436 values: at most 33554432 are read"),
+                  .find("has 33554436 values; the limit is 33554432"),
               std::string::npos);
     for (const char* name : {"objects.gltf", "values.gltf"}) std::filesystem::remove(testFolder() / name);
 }

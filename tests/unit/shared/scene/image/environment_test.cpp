@@ -108,7 +108,7 @@ TEST(Environment, WhatCannotBeOneIsNamed) {
     std::filesystem::resize_file(in / "short.exr", std::filesystem::file_size(in / "short.exr") / 2);
     const std::pair<const char*, const char*> cases[] = {{"grey.exr", "has no layer with R, G and B"},
                                                          {"photo.png", "is a PNG of display colours"},
-                                                         {"text.hdr", "is no picture that is read"},
+                                                         {"text.hdr", "is not a supported image"},
                                                          {"short.exr", ""},
                                                          {"none.exr", "no such file"}};
     for (const auto& [name, fault] : cases) {
