@@ -45,7 +45,7 @@ std::string wordsOf(std::uint32_t uses) {
 #define DIPTYCH_USE_WORDS(name, features, bit, word) add(format_use::name, word);
     DEVICE_FORMAT_USES(DIPTYCH_USE_WORDS)
 #undef DIPTYCH_USE_WORDS
-    add(format_use::multisampled, "drawn to with 4 samples a pixel");
+    add(format_use::multisampled, "used with 4 samples per pixel");
     return words;
 }
 
