@@ -386,11 +386,11 @@ TEST(External, FilesAreReadStrictly) {
         {R"({})", "command: is the program and its arguments"},
         {R"({"command": "sh -c x"})", "command: is the program and its arguments"},
         {R"({"command": ["x", 3]})", "command: is the program and its arguments"},
-        {R"({"command": ["x"], "timeot": 3})", "timeot: is not a field of a renderer"},
+        {R"({"command": ["x"], "timeot": 3})", "timeot: is not a known field of a renderer"},
         {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
         {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
         {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
-         "light_faktor: is not a field of what is granted"},
+         "light_faktor: is not a known field of what is granted"},
         {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is none of linear, srgb"},
         {R"({"command")", "is not JSON"}};
     for (const auto& [text, says] : cases) {

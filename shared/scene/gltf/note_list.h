@@ -28,7 +28,7 @@ public:
 
     void moveTo(std::vector<std::string>& notes) {
         for (std::string& note : notes_) notes.push_back(std::move(note));
-        if (more_) notes.push_back(fmt::format("{} more notes on {} like these", more_, about_));
+        if (more_) notes.push_back(fmt::format("{} more notes about {}", more_, about_));
         notes_.clear();
         more_ = 0;
     }
