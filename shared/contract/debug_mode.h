@@ -28,10 +28,10 @@
     X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")  \
     X(7,  specular,         3, absolute, color,  share,    both,         "F0, specular colour at normal incidence") \
     X(8,  material_id,      1, exact,    id,     any,      both,         "material index; -1: background") \
-    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first UV set")  \
+    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first UV set")               \
     X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)") \
     X(11, position,         3, relative, vector, any,      both,         "shading position relative to the camera, world axes, m") \
-    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "triangle normal, world") \
+    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "triangle normal, world")        \
     X(20, light_count,      1, absolute, scalar, positive, paths_only,   "number of lights evaluated at the pixel") \
     X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list overflowed") \
     X(22, shaded_samples,   1, absolute, scalar, positive, deferred_only, "number of sample groups that deferred lighting shades at the pixel") \
@@ -39,11 +39,11 @@
     X(31, cascade,          1, exact,    id,     any,      paths_only,   "sun shadow cascade, or requested clipmap level, from 0; -1: none") \
     X(32, page_residency,   1, exact,    id,     any,      paths_only,   "resident minus requested clipmap level; 0: page resident; -1: no clipmap") \
     X(33, local_visibility, 1, absolute, scalar, share,    both,         "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any") \
-    X(40, lit_diffuse,      3, relative, color,  any,      both,         "radiance reflected by the diffuse lobe, W/(sr m^2)") \
+    X(40, lit_diffuse,      3, relative, color,  any,      both,         "radiance reflected by the diffuse lobe, W/(sr m^2)")  \
     X(41, lit_specular,     3, relative, color,  any,      both,         "radiance reflected by the specular lobe, W/(sr m^2)") \
     X(42, lit_ambient,      3, relative, color,  any,      both,         "radiance of reflected ambient light, W/(sr m^2)") \
     X(43, lit_haze,         3, relative, color,  any,      both,         "radiance scattered by haze in front of the surface, W/(sr m^2)") \
-    X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1") \
+    X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1")       \
     X(45, lit_environment,  3, relative, color,  any,      both,         "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  positive, both,         "lightmap irradiance / pi, W/(sr m^2)") \

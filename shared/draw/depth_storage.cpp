@@ -25,7 +25,7 @@ PipelineKey DepthStorage::stored(PipelineKey key) const {
         case VK_COMPARE_OP_ALWAYS:
             break;
         default:
-            throw std::logic_error("DepthStorage: a depth test that is not in the list");
+            throw std::logic_error("DepthStorage: unknown depth test");
     }
     return key;
 }

@@ -12,6 +12,7 @@
 #include "shared/image/png.h"
 #include "shared/image/radiance.h"
 #include "shared/image/tiff.h"
+#include "shared/text/counted.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -136,7 +137,7 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     PfmPicture pfm = readPfm(bytes, name, most);
     PictureFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
-        file.notes.lines.push_back(fmt::format("{} bytes after its pixels are ignored", pfm.behind));
+        file.notes.lines.push_back(fmt::format("{} after its pixels: ignored", counted(pfm.behind, "byte")));
     if (pfm.scale != 1)
         file.notes.lines.push_back(
             fmt::format("its values were multiplied by {}, the scale in its header", pfm.scale));

@@ -40,7 +40,9 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
                                                  set.joints[v][c], joints));
             }
     }
-    if (broken) reader.note("{} joint weights are negative or not finite: 0 is used", broken);
+    if (broken)
+        reader.note("{} negative or not finite: 0 is used",
+                    broken == 1 ? "1 joint weight is" : counted(broken, "joint weight") + " are");
     if (uneven)
         reader.note("the joint weights of {} do not add up to 1: normalized",
                     counted(uneven, "vertex", "vertices"));

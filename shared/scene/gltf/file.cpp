@@ -7,6 +7,7 @@
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/json.h"
 #include "shared/text/one_line.h"
@@ -67,8 +68,8 @@ Container readContainer(const Bytes& bytes) {
         fail(fmt::format("is cut short: {} of the {} bytes in its header", bytes.size(), length));
     Container container;
     if (length < bytes.size())
-        container.notes.push_back(
-            fmt::format("{} bytes after the {} in its header: ignored", bytes.size() - length, length));
+        container.notes.push_back(fmt::format("{} after the {} in its header: ignored",
+                                              counted(bytes.size() - length, "byte"), length));
     std::size_t binaries = 0;
     for (std::size_t at = 12, chunk = 0; at < length; ++chunk) {
         if (length - at < 8) fail(fmt::format("chunk {}: its header ends past the file", chunk));

@@ -7,6 +7,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -123,7 +124,8 @@ private:
 
         std::vector<std::uint32_t>& out = result_.indices;
         if (file_.mode == TINYGLTF_MODE_TRIANGLES) {
-            if (order.size() % 3) note("the last {} indices do not form a triangle", order.size() % 3);
+            if (order.size() % 3)
+                note("the last {} cannot form a triangle", counted(order.size() % 3, "index", "indices"));
             order.resize(order.size() - order.size() % 3);
             out = std::move(order);
             return;
@@ -176,7 +178,7 @@ private:
             if (isUsable(positions[t[0]]) && isUsable(positions[t[1]]) && isUsable(positions[t[2]]))
                 sound.insert(sound.end(), {touched_[t[0]], touched_[t[1]], touched_[t[2]]});
         }
-        note("{} of {} triangles touch vertices that are not finite or beyond {:g} m: left out",
+        note("{} of {} triangles with a vertex that is not finite or beyond {:g} m: left out",
              (result_.indices.size() - sound.size()) / 3, result_.indices.size() / 3, maxCoordinate);
         result_.indices = std::move(sound);
         keepTouched();
@@ -247,7 +249,8 @@ private:
             const double length = glm::length(sum[v]);
             result_.normals[v] = length > 0 ? glm::vec3(sum[v] / length) : glm::vec3(0, 0, 1);
         }
-        note("{} normals have no direction: triangle normals are used", broken.size());
+        note("{} no direction: triangle normals are used",
+             broken.size() == 1 ? "1 normal has" : counted(broken.size(), "normal") + " have");
     }
 
     // If the file has no tangents, a normal texture needs MikkTSpace's; nothing else reads them.
@@ -270,7 +273,9 @@ private:
             else
                 ++broken;
         }
-        if (broken) note("{} tangents have no direction: any perpendicular to the normal is used", broken);
+        if (broken)
+            note("{} no direction: any perpendicular to the normal is used",
+                 broken == 1 ? "1 tangent has" : counted(broken, "tangent") + " have");
     }
 };
 
