@@ -45,7 +45,7 @@ void checkChooseOptions(const Options& options) {
     if (isSettingsFile(options.out))
         checkSettingsFile(options.out, options.force);
     else if (!options.out.empty())
-        outputFolder(options, "", "choice (or its Settings: X.json)", choiceManifest);
+        outputFolder(options, "", "choice (X.json: only its Settings)", choiceManifest);
     if (options.settings.path == Path::reference)
         throw std::runtime_error(
             "--path reference: errors are measured against it; use deferred or forward_plus");

@@ -50,7 +50,7 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
         throw std::runtime_error(
             "--test path=reference: explain works with the two rendered paths; use deferred or forward_plus");
     if (test == baseline)
-        throw std::runtime_error("--test: both images have the same Settings; name one that differs");
+        throw std::runtime_error("--test: both images have the same Settings; give one that differs");
     if (const auto problem = test.problem()) throw std::runtime_error(*problem);
     return test;
 }
@@ -194,7 +194,7 @@ int explainFiles(const Options& options) {
     for (int i = 0; i < 3 && !a.scene.empty() && !b.scene.empty(); ++i)
         if (std::abs(a.camera.eye[i] - b.camera.eye[i]) > 1e-6 * (1 + std::abs(a.camera.eye[i])))
             throw std::runtime_error(
-                fmt::format("{} and {} have different camera positions; explain takes two images of one view",
+                fmt::format("{} and {} have different camera positions; explain needs two images of one view",
                             options.scenes[0], options.scenes[1]));
     if (!a.scene.empty() && !(options.settings == Settings()))
         note(options, "Settings come from the files; those of the command line are not used");

@@ -181,7 +181,7 @@ void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     diff.metric_given = !parsed.metric.empty();
     if (diff.failing && diff.metric_given)
         throw std::runtime_error("--failing: counts pixels by the channel's own error; leave out --metric");
-    if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: must be a number of pixels");
+    if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: must be a finite number of pixels");
     const Figure& figure = *findFigure(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
@@ -222,7 +222,7 @@ std::optional<std::uint64_t> bytesOf(const std::string& word) {
         if (rest == unit && number > 0 && number * size < 0x1p63)
             return static_cast<std::uint64_t>(number * size);
     throw std::runtime_error(
-        fmt::format("--max-bytes {}: takes a number of bytes above 0, or one with KiB, MiB or GiB", word));
+        fmt::format("--max-bytes {}: takes a number above 0, in bytes or with KiB, MiB or GiB", word));
 }
 
 void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
@@ -389,8 +389,8 @@ Options parseCommandLine(const std::vector<std::string>& given) {
     app.set_version_flag("--version", std::string("diptych ") + versionName());
     bool manual = false;
     std::string shell;
-    app.add_flag("--manual", manual, "print the manual page, for man -l -");
-    app.add_option("--completion", shell, "print a script that completes diptych's words in a shell")
+    app.add_flag("--manual", manual, "print the manual page (view it with man -l -)");
+    app.add_option("--completion", shell, "print a shell completion script")
         ->type_name(std::string(completedShells));
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(44);

@@ -93,7 +93,7 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
                    "Settings as JSON, as every report prints them; applied before other options")
         ->type_name("FILE.json");
     app.add_option("--frames", parsed.frames,
-                   "number of pictures; file numbers start at 0000, times at --time (1)")
+                   "number of pictures, numbered from 0000; the first is at --time (1)")
         ->type_name("N");
     app.add_option("--fps", parsed.fps, "pictures per second of --frames (30)")->type_name("F");
 }
@@ -172,8 +172,8 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
     app.add_flag("--strict", options.strict,
-                 "fail, instead of a note, if only one side has a channel, a colour profile or pixel aspect "
-                 "is not applied, or a picture is empty");
+                 "make failures of these notes: a channel on only one side, a colour profile or pixel aspect "
+                 "that is not applied, an empty picture");
     app.add_flag(
         "--allow-empty", options.allow_empty,
         "no warning about pictures that are black, empty, or show the scene on less than 1 % of the pixels");
@@ -298,7 +298,7 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
                    "longest frame time, ms; without --max-error, finds the most accurate Settings within it")
         ->type_name("T");
     app.add_option("--max-bytes", parsed.max_bytes,
-                   "largest memory of a frame, bytes, or with KiB, MiB or GiB")
+                   "largest memory of a frame: bytes, or a number with KiB, MiB or GiB")
         ->type_name("B");
     app.add_flag("--explain-choice", choose.explain,
                  "explain the choice of path: the effect of overdraw, lights per pixel, transparency, "
@@ -488,8 +488,8 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addTolerances(app, options);
         addReport(app, options, parsed);
         addFiles(app, options,
-                 "X.exr: errors of every channel; X.png: errors of the channel with the verdict; any other "
-                 "name: report folder (nothing)");
+                 "X.exr: errors of every channel; X.png: errors of the deciding channel; any other name: "
+                 "report folder; without -o: no files");
         return addOutput(app, options);
     }
 
@@ -511,12 +511,12 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         return addOutput(app, options);
     }
     if (command == "accept") {
-        app.add_option("report", options.scenes, "a report, and one of its scenes (all that fail)")
+        app.add_option("report", options.scenes, "a report, and one of its scenes (all failing ones)")
             ->type_name("DIR [SCENE]");
-        app.add_option("--channel", options.accept.channel, "channel to accept (all that fail)")
+        app.add_option("--channel", options.accept.channel, "channel to accept (all failing ones)")
             ->type_name("NAME");
         app.add_option("--because", options.accept.because, "reason, which reports print")->type_name("TEXT");
-        addFiles(app, options, "file of rules to add to (accepted.json)");
+        addFiles(app, options, "rules file to extend (accepted.json)");
         return addOutput(app, options);
     }
     if (command == "merge") {
@@ -576,7 +576,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             ->type_name("all|lit|none");
         app.add_flag("--allow-noise", options.allow_noise,
                      "on a GPU, add the difference between two runs of one path to its tolerance");
-        app.add_flag("--explain", options.explain, "name the causes of a lit difference even where it passes")
+        app.add_flag("--explain", options.explain, "name the causes of a lit difference even if it passes")
             ->group(output_group);
         app.option_defaults()->group(output_group);
         app.add_option("--pixel", parsed.pixel,
@@ -597,10 +597,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     } else if (command == "choose") {
         addFiles(app, options,
                  "X.json: the chosen Settings (several scenes: one choice for all); any other name: folder "
-                 "with a page, choice.json and settings.json (nothing)");
+                 "with a page, choice.json and settings.json; without -o: no files");
         addGrid(app, options, "each Setting alone, and helpful combinations");
     } else if (command == "explain") {
-        addFiles(app, options, "folder for the page, maps and JSON (nothing)");
+        addFiles(app, options, "folder for the page, maps and JSON; without -o: no files");
         app.add_option("--baseline", parsed.baseline, "picture taken as correct (deferred)")
             ->type_name("deferred|forward_plus");
         addRenderers(app, parsed, "another renderer as the second picture");

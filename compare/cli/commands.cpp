@@ -54,7 +54,7 @@ std::filesystem::path outputFolder(const Options& options, const char* name, con
                                    const char* manifest) {
     const Output output = outputOf(options.out.empty() ? name : options.out, true);
     if (output.kind != OutputKind::folder)
-        throw std::runtime_error(fmt::format("-o {}: a {} is a folder; give a name without an extension",
+        throw std::runtime_error(fmt::format("-o {}: the {} is a folder; give a name without an extension",
                                              output.path.string(), what));
     checkReplaceable(output, manifest, options.force);
     return output.path;

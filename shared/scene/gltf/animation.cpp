@@ -222,7 +222,8 @@ private:
         if (times.count == 0) fail(who, "has no keys");
         for (std::size_t i = 0; i < times.count; ++i) {
             const float t = times.values[i];
-            if (!std::isfinite(t) || t < 0) fail(who, fmt::format("key {} is at {:g} s", i, t));
+            if (!std::isfinite(t) || t < 0)
+                fail(who, fmt::format("key {} has the invalid time {:g} s", i, t));
             if (i > 0 && t < times.values[i - 1])
                 fail(who, fmt::format("key {} at {:g} s is before the previous key", i, t));
         }

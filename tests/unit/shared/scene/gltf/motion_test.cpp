@@ -214,15 +214,15 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, 0.5f});
                   }},
-             Case{"input: key 1 is at nan s",
+             Case{"input: key 1 has the invalid time nan s",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, NAN, 2});
                   }},
-             Case{"input: key 0 is at -1 s",
+             Case{"input: key 0 has the invalid time -1 s",
                   [](AnimatedFile& f) {
                       withTimes(f, {-1, 0, 2});
                   }},
-             Case{"input: key 2 is at inf s",
+             Case{"input: key 2 has the invalid time inf s",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, INFINITY});
                   }},
