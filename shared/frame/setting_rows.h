@@ -12,16 +12,16 @@ namespace diptych {
 // Several rows share these words and checks.
 namespace row {
 
-inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";
-inline constexpr std::string_view needs_evsm4 = "has no meaning without --shadows evsm4";
-inline constexpr std::string_view needs_clipmap = "has no meaning without --shadows clipmap";
+inline constexpr std::string_view needs_evsm = "has no effect without --shadows evsm or evsm4";
+inline constexpr std::string_view needs_evsm4 = "has no effect without --shadows evsm4";
+inline constexpr std::string_view needs_clipmap = "has no effect without --shadows clipmap";
 inline constexpr std::string_view exponents =
     "must be 0 to 44.36, or 0 to 5.54 with 16-bit moments; larger squares exceed the format";
-inline constexpr std::string_view needs_shadows = "has no meaning without --shadows";
+inline constexpr std::string_view needs_shadows = "has no effect without --shadows";
 inline constexpr std::string_view needs_cascades =
-    "has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4";
+    "has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4";
 inline constexpr std::string_view needs_reference =
-    "has no meaning without a reference (--path reference, compare: --baseline reference)";
+    "has no effect without a reference (--path reference, compare: --baseline reference)";
 inline constexpr std::string_view every_light = "the reference evaluates every light";
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
 inline constexpr std::string_view only_reference = "only the reference takes several samples of a surface";
@@ -31,8 +31,8 @@ inline constexpr int most_pages = 16384;
 inline constexpr int most_samples = 65536;  // more take a day for a small picture
 
 inline constexpr std::string_view needs_env =
-    "has no meaning without --env (--env scene uses the environment in the scene's file)";
-inline constexpr std::string_view needs_haze = "has no meaning without --haze on";
+    "has no effect without --env (--env scene uses the environment in the scene's file)";
+inline constexpr std::string_view needs_haze = "has no effect without --haze on";
 inline constexpr std::string_view scattering = "components must be 0 to 1e6 1/m";
 inline constexpr std::string_view scale_height = "must be 0.01 to 1e9 m";
 inline bool isHazy(const Settings& s) {
@@ -58,7 +58,7 @@ inline bool isFiniteFrom0(double value) {
 inline bool isReference(const Settings& s) {
     return s.path == Path::reference;
 }
-inline constexpr std::string_view needs_msaa = "has no meaning without --msaa 4";
+inline constexpr std::string_view needs_msaa = "has no effect without --msaa 4";
 inline constexpr std::string_view own_samples = "the reference takes --spp samples per pixel";
 inline bool hasMsaa(const Settings& s) {
     return s.msaa > 1;
@@ -69,7 +69,7 @@ inline bool hasOneSample(const Settings& s) {
 inline bool hasReferenceSamples(const Settings& s) {
     return isReference(s) && s.reference_mode == ReferenceMode::scene && s.spp > 1;
 }
-inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
+inline constexpr std::string_view needs_spec_aa = "has no effect without --spec-aa on";
 inline constexpr std::string_view unfiltered =
     "the reference takes several samples instead of filtering roughness";
 constexpr bool shadesCaptures(const Settings& s) {
@@ -153,7 +153,7 @@ void Settings::rows(Visit&& visit) {
           &Settings::lighting);
     visit(Field{.option = "depth-format",
                 .help = "depth format: reversed float, standard float, or reversed integers of 24 or 16 bits",
-                .default_only = {"has no meaning with --msaa 4, which shades interpolated positions instead "
+                .default_only = {"cannot be used with --msaa 4, which shades interpolated positions instead "
                                  "of the stored depth",
                                  row::hasOneSample},
                 .ignored = {.reference = "the reference stores no depth"},
@@ -297,7 +297,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "pixel-lights",
                 .help = "lights shaded per pixel with --assign per_object",
                 .valid = {"must be at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
-                .default_only = {"has no meaning without --assign per_object",
+                .default_only = {"has no effect without --assign per_object",
                                  [](const Settings& s) { return s.assign == Assignment::per_object; }},
                 .ignored = {.reference = row::every_light},
                 .sweep = "0,1,2,4,8",
@@ -513,7 +513,7 @@ void Settings::rows(Visit&& visit) {
           &Settings::msaa_edges);
     visit(Field{.option = "resolve",
                 .help = "average of a pixel's samples: plain, or weighted by 1 / (1 + largest component)",
-                .default_only = {"has no meaning without --msaa 4 or a reference",
+                .default_only = {"has no effect without --msaa 4 or a reference",
                                  [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
                 .ignored = {.reference = "the reference takes one sample per pixel",
                             .unless = row::hasReferenceSamples},
@@ -521,17 +521,17 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "msaa",
                 .for_surfaces = "linear"},
           &Settings::resolve);
-    visit(Field{.option = "alpha-to-coverage",
-                .help = "alpha masks cover a fraction of a pixel's samples, sharpened at the cutoff",
-                .default_only = {"has no meaning without --msaa 4 and --msaa-shading pixel: a single sample "
-                                 "is covered or not",
-                                 [](const Settings& s) {
-                                     return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel;
-                                 }},
-                .ignored = {.reference = row::own_samples},
-                .sweep = "on",
-                .sweep_with = "msaa"},
-          &Settings::alpha_to_coverage);
+    visit(
+        Field{
+            .option = "alpha-to-coverage",
+            .help = "alpha masks cover a fraction of a pixel's samples, sharpened at the cutoff",
+            .default_only =
+                {"has no effect without --msaa 4 and --msaa-shading pixel: a single sample is covered or not",
+                 [](const Settings& s) { return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel; }},
+            .ignored = {.reference = row::own_samples},
+            .sweep = "on",
+            .sweep_with = "msaa"},
+        &Settings::alpha_to_coverage);
     visit(Field{.option = "spec-aa",
                 .help = "specular antialiasing: roughness grows where the normal varies within a pixel",
                 .off = "off",
@@ -584,7 +584,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) {
                               return s.transparency_layers >= 1 && s.transparency_layers <= 256;
                           }},
-                .default_only = {"has no meaning without --transparency list",
+                .default_only = {"has no effect without --transparency list",
                                  [](const Settings& s) { return s.transparency == Transparency::list; }},
                 .ignored = {.reference = "the reference sorts blended surfaces by depth"},
                 .sweep = "4,8,16",

@@ -20,13 +20,13 @@ std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
 
 std::optional<std::string> deferredKnowsNoObjects(const Settings& s) {
     if (s.path != Path::deferred || s.assign != Assignment::per_object) return {};
-    return "--assign per_object has no meaning with --path deferred: its G-buffer does not store the object; "
+    return "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
            "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered";
 }
 
 std::optional<std::string> tilesNeedDepths(const Settings& s) {
     if (s.path != Path::forward_plus || s.assign != Assignment::tiled || s.prepass != Switch::off) return {};
-    return "--assign tiled has no meaning with --prepass off: it needs the depths of a tile; use --prepass "
+    return "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass "
            "on";
 }
 
@@ -34,7 +34,7 @@ std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
     const bool steps = s.depth_format == DepthFormat::d24 || s.depth_format == DepthFormat::d16;
     if (s.path != Path::forward_plus || s.prepass != Switch::off || !steps) return {};
     return fmt::format(
-        "--depth-format {} has no meaning with --prepass off: shading needs the stored depth; use --prepass "
+        "--depth-format {} cannot be used with --prepass off: shading needs the stored depth; use --prepass "
         "on",
         nameOf(s.depth_format));
 }

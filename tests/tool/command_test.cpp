@@ -81,9 +81,9 @@ TEST(Command, WhatHasNoMeaningIsNamedAndExitTwo) {
     for (const std::string option :
          {"--spec-aa-limit 0.5", "--msaa-shading sample", "--alpha-to-coverage on"})
         for (const std::string command : {"compare ", "render ", "plan "})
-            EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " has no meaning"));
+            EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " has no effect"));
     EXPECT_TRUE(runTool(folder, "plan --shadows off --shadow-lights 1")
-                    .failedOver("--shadow-lights 1 has no meaning without --shadows"));
+                    .failedOver("--shadow-lights 1 has no effect without --shadows"));
     EXPECT_TRUE(
         runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
@@ -146,8 +146,7 @@ TEST(Command, AnEnvironmentThatCannotBeReadIsNamed) {
         EXPECT_TRUE(runTool(folder, command + "--env none.exr").failedOver("none.exr: no such file"));
         EXPECT_TRUE(
             runTool(folder, command + "--env sky.exr").failedOver("sky.exr: is not a supported image"));
-        EXPECT_TRUE(
-            runTool(folder, command + "--ibl-intensity 2").failedOver("has no meaning without --env"));
+        EXPECT_TRUE(runTool(folder, command + "--ibl-intensity 2").failedOver("has no effect without --env"));
         EXPECT_TRUE(runTool(folder, command + "--env sky.exr --ibl-intensity -1").failedOver("at least 0"));
     }
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));

@@ -508,7 +508,7 @@ TEST(Settings, LightsByObjectAreForwardPlussAlone) {
     s.path = Path::deferred;
     EXPECT_EQ(
         s.problem().value_or("none"),
-        "--assign per_object has no meaning with --path deferred: its G-buffer does not store the object; "
+        "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
         "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered");
 }
 
@@ -530,10 +530,9 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     }
     s.spp = 1;
     s.path = Path::deferred;
-    EXPECT_EQ(
-        s.problem().value_or("none"),
-        "--reference-mode scene has no meaning without a reference (--path reference, compare: --baseline "
-        "reference); use surface");
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--reference-mode scene has no effect without a reference (--path reference, compare: "
+              "--baseline reference); use surface");
 }
 
 // The reference traces shadows and samples lights: Settings of particular techniques for these do not affect
@@ -588,12 +587,12 @@ TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
     s.shadows = Shadows::clipmap;
     s.shadow_cascades = 2;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--shadow-cascades 2 has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
+              "--shadow-cascades 2 has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
     s = {};
     s.shadows = Shadows::pcf;
     s.clipmap_pages = 64;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--clipmap-pages 64 has no meaning without --shadows clipmap; use 512");
+              "--clipmap-pages 64 has no effect without --shadows clipmap; use 512");
 }
 
 // The Settings of moments belong to one shadow technique only.
@@ -604,7 +603,7 @@ TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::clipmap}) {
         s.shadows = shadows;
         EXPECT_EQ(s.problem().value_or("none"),
-                  "--evsm-exponent 5 has no meaning without --shadows evsm or evsm4; use 0");
+                  "--evsm-exponent 5 has no effect without --shadows evsm or evsm4; use 0");
     }
     s.shadows = Shadows::evsm;
     EXPECT_EQ(s.problem().value_or("none"), "none");
@@ -639,7 +638,7 @@ TEST(Settings, StepsOfDepthAreReadBackAndHaveOneSample) {
     s.path = Path::forward_plus;
     s.prepass = Switch::off;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--depth-format d16 has no meaning with --prepass off: shading needs the stored depth; use "
+              "--depth-format d16 cannot be used with --prepass off: shading needs the stored depth; use "
               "--prepass on");
     s.depth_format = DepthFormat::d32f_standard;
     EXPECT_EQ(s.problem().value_or("none"), "none");
