@@ -25,10 +25,10 @@ void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::span<const ImageRef> targets, VkFormat format) {
     const gpu::uint most = inputs.device.profile().packets_per_draw;
     if (inputs.longest_list > most)
-        throw std::runtime_error(fmt::format(
-            "lighting of channels walks {} packets of lights at most, and a list has {}; use --assign "
-            "clustered or tiled, or --light-cutoff",
-            most, inputs.longest_list));
+        throw std::runtime_error(
+            fmt::format("relighting from channels reads up to {} light list entries, but a list has {}; use "
+                        "--assign clustered or tiled, or --light-cutoff",
+                        most, inputs.longest_list));
     Pass& pass = passes.draw(name);
     for (const ImageRef target : targets) pass.color(target, Load::clear);
     inputs.lists.read(passes, pass);

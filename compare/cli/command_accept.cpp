@@ -5,6 +5,7 @@
 #include "compare/run/print.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -58,7 +59,7 @@ AllFailing failingOf(const Place& comparisons, const std::string& scene, const s
             const std::string its = of.textOr("name", "");
             if (of.textOr("verdict", "") != "fail" || (!channel.empty() && its != channel)) continue;
             if (!of.has("max") || !of.at("max").json().is_number())
-                fail(fmt::format("{}, {}: differs by NaN or infinity, which no rule can grant", name, its));
+                fail(fmt::format("{}, {}: differs by NaN or infinity; no rule can accept that", name, its));
             Failing& failing = all[{name, its}];
             if (of.at("max").number() < failing.max) continue;
             failing = {of.at("max").number(), fmt::format("{} against {}", comparison.textOr("test", ""),
@@ -66,13 +67,13 @@ AllFailing failingOf(const Place& comparisons, const std::string& scene, const s
         }
         if (!comparison.has("failures") || !channel.empty()) continue;
         if (const std::vector<std::string> failures = comparison.at("failures").texts(); !failures.empty())
-            fail(fmt::format("{}: fails for a reason that belongs to no channel and cannot be accepted: {}",
-                             name, failures.front()));
+            fail(fmt::format("{}: fails as a whole, not in one channel; no rule can accept that: {}", name,
+                             failures.front()));
     }
     if (!met) fail(fmt::format("accept {}: the report has no such scene", scene));
     if (all.empty())
-        fail(fmt::format("accept{}{}: nothing fails there", scene.empty() ? "" : " " + scene,
-                         channel.empty() ? "" : " --channel " + channel));
+        fail(fmt::format("accept{}{}: nothing fails, so there is nothing to accept",
+                         scene.empty() ? "" : " " + scene, channel.empty() ? "" : " --channel " + channel));
     return all;
 }
 
@@ -81,7 +82,7 @@ AllFailing failingIn(const fs::path& where, const std::string& scene, const std:
         nlohmann::json report = reportIn(where);
         const Place top(report);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
-            fail("is no report that compare wrote; give its folder or report.json");
+            fail("is not a report written by compare; give its folder or its report.json");
         return report;
     });
     return failingOf(Place(json).at("comparisons"), scene, channel);
@@ -99,12 +100,14 @@ Json rulesIn(const fs::path& file) {
 int runAccept(const Options& options) {
     if (!options.scene_given || options.scenes.size() > 2)
         throw std::runtime_error(
-            "accept: give a report, and one of its scenes or none for all, as accept report Box.glb");
+            "accept: give a report, and at most one of its scenes (none: all), for example accept report "
+            "Box.glb");
     const fs::path report = options.scenes.front();
     const std::string scene = options.scenes.size() > 1 ? options.scenes[1] : "";
     const fs::path out = options.out.empty() ? "accepted.json" : options.out;
     if (out.extension() != ".json")
-        throw std::runtime_error(fmt::format("-o {}: rules are a .json file", out.string()));
+        throw std::runtime_error(
+            fmt::format("-o {}: rules go into a .json file; give a name that ends in .json", out.string()));
     Json rules = rulesIn(out);
     const AllFailing failing = failingIn(report, scene, options.accept.channel);
     for (const auto& [of, how] : failing) {
@@ -119,13 +122,13 @@ int runAccept(const Options& options) {
                        {"channel", channel},
                        {"max", how.max},
                        {"because", options.accept.because.empty()
-                                       ? fmt::format("accepted as {} was in {}", how.pair, report.string())
+                                       ? fmt::format("accepted: {} as in {}", how.pair, report.string())
                                        : options.accept.because}});
     }
     writeFile(linkedFile(out), jsonText(rules) + "\n");
     if (!options.quiet)
-        printOut("{}: {} rule{} written; compare --tolerances {} holds to {}\n", out.string(), failing.size(),
-                 failing.size() == 1 ? "" : "s", out.string(), failing.size() == 1 ? "it" : "them");
+        printOut("{}: {} written; use with compare --tolerances {}\n", out.string(),
+                 counted(failing.size(), "rule"), out.string());
     return 0;
 }
 

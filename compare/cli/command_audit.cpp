@@ -13,6 +13,7 @@
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/run/version.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -47,14 +48,15 @@ Settings auditedSettings(const Options& options) {
 void checkAuditOptions(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
-            fmt::format("{}: an audit is of one scene; run it once for each", options.scenes[1]));
+            fmt::format("{}: audit takes one scene; run it once for each", options.scenes[1]));
     if (options.cameras.size() != 1)
-        throw std::runtime_error(fmt::format("--camera {}: an audit is from one camera", options.cameras[1]));
+        throw std::runtime_error(
+            fmt::format("--camera {}: audit takes one camera; run it once for each", options.cameras[1]));
     if (options.path_given)
-        throw std::runtime_error("--path: an audit is of both paths, against the reference; leave it out");
+        throw std::runtime_error("--path: audit compares both paths with the reference; leave it out");
     if (options.settings.msaa > 1)
         throw std::runtime_error(
-            "--msaa: an audit compares one sample per pixel, as its reference has; leave it out");
+            "--msaa: audit compares one sample per pixel, like its reference; leave it out");
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
 }
 
@@ -96,14 +98,16 @@ public:
         const Stage& stage = opened_.stage();
         if (!options_.shadows_given)
             audit_.notes.emplace_back(
-                "--shadows off, but for quantities of shadows: a filter's own error would hide others");
+                "--shadows off, except for shadow quantities: a shadow filter's error would hide other "
+                "errors");
         audit::Measurer measurer(opened_.device(), subject,
                                  [&](const std::string& step) { say(options_, step); });
         KeptFolder kept(opened_.folder(), "audit", keyOf(measurer, subject));
         if (kept.isRenewed())
             note(options_,
-                 "what an audit that was cut short left is of another scene, device or Settings: anew");
-        sayWhenInterrupted("the steps so far are kept: the same command goes on from there");
+                 "the results of an interrupted audit belong to another scene, device or Settings; starting "
+                 "anew");
+        sayWhenInterrupted("finished steps are kept: the same command continues from there");
         // What is required is pushed, too.
         std::vector<std::string> names = options_.audit.quantities;
         for (const auto& [name, magnitude] : options_.audit.required)
@@ -126,8 +130,7 @@ public:
         checkValidation(opened_.device());
         stage.at(0.98, "write");
         if (audit_.kept > 0)
-            note(options_,
-                 fmt::format("{} steps had been measured by a command that was cut short", audit_.kept));
+            note(options_, fmt::format("{} kept from an interrupted run", counted(audit_.kept, "step")));
         const std::string json = audit::writeAudit(audit_, opened_.folder(), options_.force);
         kept.remove();
         opened_.progress().wipe();
@@ -179,7 +182,7 @@ private:
                 return step;
             },
             required));
-        stage.at(1, fmt::format("{}: reduce what fails", quantity.name));
+        stage.at(1, fmt::format("{}: reduce failures", quantity.name));
         const TrialFolder folder;
         std::vector<std::string> device;
         if (!options_.device.empty()) device = {"--device", options_.device};
@@ -198,7 +201,7 @@ private:
         try {
             return runCommand(parseCommandLine(words)) == 1;
         } catch (const std::runtime_error& error) {
-            say(options_, fmt::format("{}: shows nothing: {}", words.back(), error.what()));
+            say(options_, fmt::format("{}: does not reproduce the failure: {}", words.back(), error.what()));
             return false;
         }
     }

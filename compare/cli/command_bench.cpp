@@ -21,12 +21,13 @@ constexpr int fewestKernelRuns = 15;
 void checkBenchOptions(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
-            fmt::format("{}: a benchmark is of one scene; run it once for each", options.scenes[1]));
+            fmt::format("{}: bench takes one scene; run it once for each", options.scenes[1]));
     if (options.cameras.size() != 1)
-        throw std::runtime_error("--camera: a benchmark is of one camera; run it once for each");
-    if (options.runs < 1) throw std::runtime_error("--runs 0: a benchmark needs times; 1 or more");
+        throw std::runtime_error("--camera: bench takes one camera; run it once for each");
+    if (options.runs < 1) throw std::runtime_error("--runs 0: bench measures times; use 1 or more");
     if (options.settings.path == Path::reference)
-        throw std::runtime_error("--path reference: is no path to be timed; use another");
+        throw std::runtime_error(
+            "--path reference: bench does not time the reference; use deferred or forward_plus");
 }
 
 BenchCases casesOf(const Options& options, const BenchOptions& bench) {
@@ -50,14 +51,14 @@ int runBench(const Options& options) {
     const BenchOptions requested = benchOptions(options);
     const BenchCases cases = casesOf(options, requested);
     const std::filesystem::path folder = outputFolder(options, "diptych-bench", "benchmark", benchManifest);
-    if (options.debug_given) note(options, "--debug is not used: a benchmark makes no picture");
-    if (!options.channels.empty()) note(options, "--channels is not used: a benchmark makes no channels");
+    if (options.debug_given) note(options, "--debug is not used: bench writes no image of a channel");
+    if (!options.channels.empty()) note(options, "--channels is not used: bench writes no channels");
 
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
     const bool grows = requested.table == BenchTable::growth;
-    Bench bench{grows ? "how a frame grows" : options.scenes.front(),
+    Bench bench{grows ? "growth of frame time" : options.scenes.front(),
                 options.settings,
                 requested,
                 reportDevice(device),

@@ -77,14 +77,13 @@ int runCalibrate(const Options& options) {
         for (const std::string& line : granted) out += fmt::format("granted {}\n", line);
         for (const external::Deviation& one : deviations)
             out += fmt::format("FAIL {}: {}{}\n", one.name, one.words,
-                               one.grant.empty() ? "; nothing can be granted for it" : "");
-        if (deviations.empty()) out += "pass: it means what it is told\n";
+                               one.grant.empty() ? "; no input correction exists for it" : "");
+        if (deviations.empty()) out += "pass: it interprets its inputs as Diptych does\n";
         if (!grants.empty())
-            out += fmt::format("to grant it, in {}{}: \"granted\": {}\n", renderer.file.string(),
-                               granted.empty() ? ""
-                                               : ", on top of what is granted already (factors multiply, "
-                                                 "offsets add)",
-                               grants.dump());
+            out += fmt::format(
+                "to correct its inputs, add to {}{}: \"granted\": {}\n", renderer.file.string(),
+                granted.empty() ? "" : ", on top of the present \"granted\" (factors multiply, offsets add)",
+                grants.dump());
         printColored(options, out);
     }
     return deviations.empty() ? 0 : 1;

@@ -34,7 +34,7 @@ void checkSettingsFile(const std::filesystem::path& file, bool force) {
         settingsFromJson(textIn(file, json_bytes));
     } catch (const std::exception&) {
         throw std::runtime_error(
-            fmt::format("-o {}: is there and holds no Settings; --force replaces it", file.string()));
+            fmt::format("-o {}: exists and does not contain Settings; --force replaces it", file.string()));
     }
 }
 
@@ -45,9 +45,10 @@ void checkChooseOptions(const Options& options) {
     if (isSettingsFile(options.out))
         checkSettingsFile(options.out, options.force);
     else if (!options.out.empty())
-        outputFolder(options, "", "choice (or its Settings: X.json)", choiceManifest);
+        outputFolder(options, "", "choice (X.json: only its Settings)", choiceManifest);
     if (options.settings.path == Path::reference)
-        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+        throw std::runtime_error(
+            "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())
         throw std::runtime_error(*problem);
 }

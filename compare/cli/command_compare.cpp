@@ -26,9 +26,9 @@ namespace {
 // The one scene, camera and time that a picture can be of.
 void checkOnePicture(const Options& options, const std::vector<Settings>& settings) {
     if (options.scenes.size() != 1 || settings.size() != 2)
-        throw std::runtime_error(fmt::format("--baseline {}: is one picture, so give one scene, one camera{}",
-                                             options.baseline_file.string(),
-                                             options.times.size() > 1 ? " and one time" : ""));
+        throw std::runtime_error(
+            fmt::format("--baseline {}: a file holds one view; give one scene, one camera{}",
+                        options.baseline_file.string(), options.times.size() > 1 ? " and one time" : ""));
 }
 
 // Which of the Frames drawn becomes the baseline: as the file says, or --path.
@@ -38,7 +38,8 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
                           : options.settings.path;
     for (const Frame& frame : frames)
         if (frame.settings.path == path) return frame;
-    throw std::runtime_error(fmt::format("--path {}: compare draws deferred and forward_plus", nameOf(path)));
+    throw std::runtime_error(
+        fmt::format("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path)));
 }
 
 }  // namespace
@@ -53,8 +54,9 @@ int runCompare(const Options& given) {
     const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)
-        note(options, "--path is not used: compare draws both");
-    if (options.heat) note(options, "--heat is not used: the report shows every channel, light_count too");
+        note(options, "--path is not used: compare renders both");
+    if (options.heat)
+        note(options, "--heat is not used: the report shows every channel, including light_count");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
     std::optional<Frame> baseline;
     if (!options.baseline_file.empty()) {

@@ -84,7 +84,7 @@ int runDevices(const Options& options) {
     // Drivers install their files where the loader finds them, but for those that come with a program.
     if (!options.json && !options.quiet && options.device.empty())
         printOut(
-            "Devices of several drivers in one process, as for compare --against-device: "
+            "To use devices of several drivers at once (compare --against-device), set "
             "VK_DRIVER_FILES=FILE.json:FILE.json\n");
     return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;
 }

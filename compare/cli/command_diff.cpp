@@ -6,6 +6,7 @@
 #include "compare/report/picture_diff_text.h"
 #include "compare/run/print.h"
 #include "compare/verdict/picture_diff.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -39,9 +40,9 @@ void print(const Options& options, const std::string& text) {
 int diffFolders(const Options& options, PictureDiffOptions settings, const std::optional<Output>& output) {
     namespace fs = std::filesystem;
     if (output && output->kind != OutputKind::folder)
-        throw std::runtime_error(
-            fmt::format("-o {}: two folders make a report, which is a folder; give a name without ending",
-                        output->path.string()));
+        throw std::runtime_error(fmt::format(
+            "-o {}: comparing two folders writes a report folder; give a name without an extension",
+            output->path.string()));
     FolderDiff diff{options.scenes.at(0), options.scenes.at(1), {}, {}, {}, {}};
     const fs::path left = diff.reference, right = diff.test;
     PictureFolders folders = pictureFolders(left, right);
@@ -62,8 +63,9 @@ int diffFolders(const Options& options, PictureDiffOptions settings, const std::
         }
     }
     if (diff.pictures.empty())
-        throw std::runtime_error(fmt::format("none of the {} pictures can be compared; the first: {}",
-                                             folders.both.size(), diff.errors.front().message));
+        throw std::runtime_error(fmt::format("none of {} can be compared; the first: {}",
+                                             counted(folders.both.size(), "image"),
+                                             diff.errors.front().message));
     diff.reference_alone = std::move(folders.reference_alone);
     diff.test_alone = std::move(folders.test_alone);
     const bool passed = diff.passed();

@@ -32,7 +32,7 @@ namespace {
 Settings testOf(const Options& options, const Settings& baseline, std::string& name) {
     if (!options.test.empty() && options.sides.any())
         throw std::runtime_error(
-            "--test: --deferred and --forward-plus say what the two pictures are; give no --test");
+            "--test: --deferred and --forward-plus already define both images; leave out --test");
     const Path other = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
     Settings test = options.sides.of(options.settings, options.test.empty() ? other : options.baseline);
     for (const SettingDifference& of : settingDifferences(baseline, test))
@@ -40,17 +40,17 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
     for (const auto& [option, value] : options.test) {
         if (std::ranges::find(viewOptions(), std::string_view(option)) != viewOptions().end())
             throw std::runtime_error(
-                fmt::format("--test {}={}: both pictures are of one view of one scene", option, value));
+                fmt::format("--test {0}={1}: both images show one view of one scene; give --{0} {1} instead",
+                            option, value));
         test.set(option, value);
         if (option != "path") name += fmt::format(" --{} {}", option, value);
     }
     name = fmt::format("{}{}", nameOf(test.path), name);
     if (test.path == Path::reference)
         throw std::runtime_error(
-            "--test path=reference: explain swaps what the two paths share; use deferred or "
-            "forward_plus");
+            "--test path=reference: explain works with the two rendered paths; use deferred or forward_plus");
     if (test == baseline)
-        throw std::runtime_error("--test: both pictures have the same Settings; name one that differs");
+        throw std::runtime_error("--test: both images have the same Settings; give one that differs");
     if (const auto problem = test.problem()) throw std::runtime_error(*problem);
     return test;
 }
@@ -89,22 +89,22 @@ Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours,
 int explainScene(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
-            fmt::format("{}: an explanation is of one scene; run it once for each", options.scenes[1]));
+            fmt::format("{}: explain takes one scene; run it once for each", options.scenes[1]));
     if (!options.scene_file.empty())
-        throw std::runtime_error(fmt::format("--scene {}: is of two EXR files; here it is {}",
-                                             options.scene_file, options.scenes.front()));
+        throw std::runtime_error(
+            fmt::format("--scene {}: names the scene of two EXR files; the scene here is {}",
+                        options.scene_file, options.scenes.front()));
     ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
     const Settings baseline = options.sides.of(options.settings, options.baseline);
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
     const bool external = !options.renderers.empty();
     if (external && (options.renderers.size() > 1 || !options.test.empty()))
-        throw std::runtime_error(
-            "--renderer: an explanation is of two pictures; give one renderer, and no --test");
+        throw std::runtime_error("--renderer: explain compares two images; give one renderer and no --test");
     const bool across = !options.against_device.empty();
     if (across && (external || !options.test.empty()))
-        throw std::runtime_error(fmt::format(
-            "--against-device {}: an explanation is of two pictures; give no --renderer and no --test",
-            options.against_device));
+        throw std::runtime_error(
+            fmt::format("--against-device {}: explain compares two images; give no --renderer and no --test",
+                        options.against_device));
     if (across) checkAgainstDevice(options, {baseline});
     const Settings test = external || across ? baseline : testOf(options, baseline, of.test);
     if (external) of.test = options.renderers.front().name;
@@ -116,9 +116,8 @@ int explainScene(const Options& options) {
         again = withOption(withOption(std::move(again), "--against-device", options.against_device),
                            "--device", options.device.empty() ? "0" : options.device);
     of.commands = {{"Explain it again", shellLine(again)},
-                   {"The baseline by itself", commandOf("render", of.scene, baseline)}};
-    if (!external && !across)
-        of.commands.push_back({"The test by itself", commandOf("render", of.scene, test)});
+                   {"The baseline alone", commandOf("render", of.scene, baseline)}};
+    if (!external && !across) of.commands.push_back({"The test alone", commandOf("render", of.scene, test)});
     if (options.test.empty() && !external)
         of.commands.push_back(
             {"Every channel of both",
@@ -175,8 +174,8 @@ Frame readPicture(const Options& options, const std::string& file) {
     }
     if (isReferenceFrame(frame))
         throw std::runtime_error(
-            fmt::format("{}: is of the reference, which lights otherwise than the channels that explain "
-                        "swaps; give pictures of deferred or forward_plus",
+            fmt::format("{}: is an image of the reference, which does not light from the channels that "
+                        "explain replaces; give images of deferred or forward_plus",
                         file));
     if (frame.settings.path == Path::reference)
         frame.settings.path = Path::forward_plus;  // of another renderer
@@ -189,21 +188,21 @@ int explainFiles(const Options& options) {
     const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
     if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
         throw std::runtime_error(
-            fmt::format("{} is of {}, {} of {}: an explanation is of one scene; --scene FILE says which, "
-                        "where both mean the same",
+            fmt::format("{} shows {}, {} shows {}: explain takes one scene; if both are the same scene, give "
+                        "--scene FILE",
                         options.scenes[0], a.scene, options.scenes[1], b.scene));
     for (int i = 0; i < 3 && !a.scene.empty() && !b.scene.empty(); ++i)
         if (std::abs(a.camera.eye[i] - b.camera.eye[i]) > 1e-6 * (1 + std::abs(a.camera.eye[i])))
             throw std::runtime_error(
-                fmt::format("{} and {} are seen from different places: an explanation is of one view",
+                fmt::format("{} and {} have different camera positions; explain needs two images of one view",
                             options.scenes[0], options.scenes[1]));
     if (!a.scene.empty() && !(options.settings == Settings()))
-        note(options, "Settings are those of the files; those of the command line are not used");
+        note(options, "Settings come from the files; those of the command line are not used");
     std::string where = options.scene_file;
     for (const Frame* frame : {&a, &b})
         if (where.empty()) where = frame->scene;
     if (where.empty())
-        throw std::runtime_error(fmt::format("{}, {}: neither names its scene; give --scene FILE",
+        throw std::runtime_error(fmt::format("{}, {}: neither file names its scene; give --scene FILE",
                                              options.scenes[0], options.scenes[1]));
     std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
     if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);
@@ -232,19 +231,20 @@ int explainFiles(const Options& options) {
 int runExplain(const Options& options) {
     if (!options.out.empty()) outputFolder(options, "", "explanation", explanationManifest);
     if (options.cameras.size() != 1)
-        throw std::runtime_error(fmt::format(
-            "--camera {}: an explanation is of one view; run it once for each", options.cameras[1]));
+        throw std::runtime_error(
+            fmt::format("--camera {}: explain takes one view; run it once for each", options.cameras[1]));
     if (options.baseline == Path::reference || !options.baseline_file.empty())
         throw std::runtime_error(
-            "--baseline reference or FILE.exr: explain swaps what the two paths share; use deferred or "
+            "--baseline reference or FILE.exr: explain works with the two rendered paths; use deferred or "
             "forward_plus");
     if (std::ranges::none_of(options.scenes, isExr)) return explainScene(options);
     if (options.scenes.size() != 2 || !std::ranges::all_of(options.scenes, isExr))
         throw std::runtime_error(
-            fmt::format("{}: an explanation is of a scene, or of two EXR files", options.scenes.front()));
+            fmt::format("{}: explain takes one scene or two EXR files", options.scenes.front()));
     if (!options.test.empty())
-        throw std::runtime_error(fmt::format("--test {}={}: the files say what they are",
-                                             options.test[0].first, options.test[0].second));
+        throw std::runtime_error(
+            fmt::format("--test {}={}: the two files define both images; leave out --test",
+                        options.test[0].first, options.test[0].second));
     return explainFiles(options);
 }
 

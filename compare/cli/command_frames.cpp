@@ -43,7 +43,7 @@ fs::path numberedFile(fs::path file, const std::string& number) {
 void checkOneView(const Options& options) {
     if (options.scenes.size() > 1 || options.cameras.size() > 1)
         throw std::runtime_error(
-            fmt::format("--frames {}: are of one scene and one camera; {} were given", options.frames,
+            fmt::format("--frames {}: takes one scene and one camera; {} are given", options.frames,
                         options.scenes.size() > 1 ? fmt::format("{} scenes", options.scenes.size())
                                                   : fmt::format("{} cameras", options.cameras.size())));
 }
@@ -118,7 +118,7 @@ private:
         const auto lit = first.channels.find(static_cast<int>(gpu::DEBUG_lit));
         if (output_.kind == OutputKind::exr || lit == first.channels.end()) return;
         picture_.exposure = exposureFor(picture_, &lit->second, coverage(first, first)).factor;
-        exposure_line_ += "; of the first picture, and taken for all";
+        exposure_line_ += "; chosen from the first image, used for all";
     }
 
     // FRAME.0007.exr and CHANNEL.0007.png.
@@ -138,8 +138,8 @@ private:
     void print(const Frame& frame, const fs::path& place, int number) {
         const double ms = frame.time.runs > 0 ? frame.time.median : frame.made_in_ms;
         printOut("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", place.string(), frame.scene, frame.settings.time,
-                 frame.settings.size.width, frame.settings.size.height, frame.time.runs > 0 ? "" : "made in ",
-                 ms);
+                 frame.settings.size.width, frame.settings.size.height,
+                 frame.time.runs > 0 ? "" : "rendered in ", ms);
         if (number == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)
             if (said_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);

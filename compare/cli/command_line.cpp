@@ -10,6 +10,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/image/picture_file.h"
 #include "shared/scene/builtin/builtin.h"
+#include "shared/text/counted.h"
 #include "shared/text/did_you_mean.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -92,10 +93,10 @@ double timeOf(const std::string& word, const std::string& list) {
         settings.set("time", word);
     } catch (const std::runtime_error&) {
         throw std::runtime_error(
-            fmt::format("--times {}: \"{}\" is no time; takes seconds, separated by commas", list, word));
+            fmt::format("--times {}: \"{}\" is not a time; give seconds, separated by commas", list, word));
     }
     if (settings.problem())
-        throw std::runtime_error(fmt::format("--times {}: each is finite and at least 0 s", list));
+        throw std::runtime_error(fmt::format("--times {}: each time must be finite and at least 0 s", list));
     return settings.time;
 }
 
@@ -110,7 +111,7 @@ void resolveTimes(Options& options, const ParsedOptions& parsed) {
             const std::string word = list.substr(at, end - at);
             const double time = timeOf(word, list);
             if (std::ranges::find(options.times, time) != options.times.end())
-                throw std::runtime_error(fmt::format("--times {}: {} is there twice", list, word));
+                throw std::runtime_error(fmt::format("--times {}: {} is given twice", list, word));
             options.times.push_back(time);
             at = end + 1;
         }
@@ -119,16 +120,18 @@ void resolveTimes(Options& options, const ParsedOptions& parsed) {
     options.frames = parsed.frames.value_or(options.frames);
     options.fps = parsed.fps.value_or(options.fps);
     if (!(options.fps > 0) || !std::isfinite(options.fps))
-        throw std::runtime_error(fmt::format("--fps {}: above 0, finite", options.fps));
-    if (options.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", options.frames));
+        throw std::runtime_error(fmt::format("--fps {}: must be above 0 and finite", options.fps));
+    if (options.frames < 1)
+        throw std::runtime_error(fmt::format("--frames {}: must be 1 or more", options.frames));
     if (options.frames > 1 && options.command != "render")
-        throw std::runtime_error(fmt::format("--frames {}: render draws them{}", options.frames,
+        throw std::runtime_error(fmt::format("--frames {}: only render takes it{}", options.frames,
                                              options.command == "compare" ? "; compare takes --times" : ""));
     if (parsed.fps && !parsed.frames)
-        throw std::runtime_error(fmt::format("--fps {}: of how many --frames?", options.fps));
+        throw std::runtime_error(fmt::format("--fps {}: needs --frames N", options.fps));
     if (!std::isfinite(timeOfFrame(options, options.frames - 1)))
         throw std::runtime_error(
-            fmt::format("--fps {}: the last of {} frames is at no finite time", options.fps, options.frames));
+            fmt::format("--fps {}: the time of the last of {} frames is not finite; use a higher --fps",
+                        options.fps, options.frames));
 }
 
 void resolveBaseline(Options& options, const ParsedOptions& parsed) {
@@ -139,19 +142,20 @@ void resolveBaseline(Options& options, const ParsedOptions& parsed) {
     const PictureName name = pictureName(parsed.baseline);
     if (!isPath && name.file.extension() != ".exr")
         throw std::runtime_error(
-            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file{}",
+            fmt::format("--baseline {}: is not deferred, forward_plus, reference or an .exr file{}",
                         parsed.baseline, didYouMean(parsed.baseline, pathNames())));
     if (!isPath) options.baseline_file = parsed.baseline;
     if (options.update_baseline && (isPath || !name.part.empty()))
         throw std::runtime_error(
-            "--update-baseline: --baseline FILE.exr says which file, which is written whole");
+            "--update-baseline: needs --baseline FILE.exr (without ?part=), the file to replace");
 }
 
 void resolveTest(Options& options, const ParsedOptions& parsed) {
     for (const std::string& given : parsed.test) {
         const std::size_t at = given.find('=');
         if (at == std::string::npos || at == 0)
-            throw std::runtime_error(fmt::format("--test {}: NAME=VALUE, as gbuffer=compact", given));
+            throw std::runtime_error(
+                fmt::format("--test {}: takes NAME=VALUE, for example gbuffer=compact", given));
         const std::string name = given.substr(0, at);
         if (std::ranges::none_of(settingFields(), [&](const Field& field) { return field.option == name; }))
             throw std::runtime_error(fmt::format("--test {}: there is no Setting {}", given, name));
@@ -164,7 +168,7 @@ void resolveRenderers(Options& options, const ParsedOptions& parsed) {
         external::Renderer renderer = external::readRenderer(words);
         if (std::ranges::count(options.renderers, renderer.name, &external::Renderer::name) > 0)
             throw std::runtime_error(
-                fmt::format("--renderer {}: there are two of this name; give each its own", renderer.name));
+                fmt::format("--renderer {}: two renderers have this name; give each its own", renderer.name));
         options.renderers.push_back(std::move(renderer));
         options.renderer_words.insert(options.renderer_words.end(), {"--renderer", words});
     }
@@ -176,17 +180,17 @@ void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     diff.metric = figureOfMetric(parsed.metric.empty() ? "flip" : parsed.metric);
     diff.metric_given = !parsed.metric.empty();
     if (diff.failing && diff.metric_given)
-        throw std::runtime_error("--failing: counts pixels by the channel's own errors; leave out --metric");
-    if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: is no number of pixels");
+        throw std::runtime_error("--failing: counts pixels by the channel's own error; leave out --metric");
+    if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: must be a finite number of pixels");
     const Figure& figure = *findFigure(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
     diff.tolerance = parsed.tolerance.value_or(identity);
     diff.tolerance_given = parsed.tolerance.has_value();
     if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
-        throw std::runtime_error(fmt::format("--tolerance {}: 0 or more", diff.tolerance));
+        throw std::runtime_error(fmt::format("--tolerance {}: must be 0 or more", diff.tolerance));
     if (diff.failing && !parsed.tolerance)
-        throw std::runtime_error("--failing: --tolerance says above which error a pixel fails");
+        throw std::runtime_error("--failing: needs --tolerance T, the error above which a pixel fails");
 }
 
 void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
@@ -199,7 +203,7 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     if (!parsed.light_counts.empty()) bench.light_counts = benchLightCounts(parsed.light_counts);
     bench.max_ms = parsed.max_ms;
     if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))
-        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", parsed.max_ms));
+        throw std::runtime_error(fmt::format("--max-ms {}: must be above 0 and finite", parsed.max_ms));
     if (parsed.kernels != "on" && parsed.kernels != "off" && parsed.kernels != "only")
         throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", parsed.kernels));
     bench.table = benchTableOf(parsed.bench_table);
@@ -218,24 +222,25 @@ std::optional<std::uint64_t> bytesOf(const std::string& word) {
         if (rest == unit && number > 0 && number * size < 0x1p63)
             return static_cast<std::uint64_t>(number * size);
     throw std::runtime_error(
-        fmt::format("--max-bytes {}: takes a number above 0, with KiB, MiB or GiB behind or nothing", word));
+        fmt::format("--max-bytes {}: takes a number above 0, in bytes or with KiB, MiB or GiB", word));
 }
 
 void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
     choose.max_bytes = bytesOf(parsed.max_bytes);
     if (choose.max_error && !(*choose.max_error >= 0 && std::isfinite(*choose.max_error)))
-        throw std::runtime_error(fmt::format("--max-error {}: 0 or more, finite", *choose.max_error));
+        throw std::runtime_error(
+            fmt::format("--max-error {}: must be 0 or more and finite", *choose.max_error));
     if (choose.max_ms && !(*choose.max_ms > 0 && std::isfinite(*choose.max_ms)))
-        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", *choose.max_ms));
+        throw std::runtime_error(fmt::format("--max-ms {}: must be above 0 and finite", *choose.max_ms));
 }
 
 void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
     audit::relationsOf(audit.chosen_relations);
     audit.relations = audit.relations || !audit.chosen_relations.empty();
     if (audit.relations && !audit.quantities.empty())
-        throw std::runtime_error("--quantity: --relations pushes nothing; give one of the two");
+        throw std::runtime_error("--quantity: --relations stresses no quantity; give one of the two");
     if (audit.relations && !parsed.require.empty())
-        throw std::runtime_error("--require: --relations pushes nothing; give one of the two");
+        throw std::runtime_error("--require: --relations stresses no quantity; give one of the two");
     audit::quantitiesOf(audit.quantities);  // throws where there is none of a name
     for (const std::string& words : parsed.require) {
         const std::size_t at = words.find('=');
@@ -244,8 +249,9 @@ void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
         const char* const begin = at == words.npos ? end : words.data() + at + 1;
         if (std::from_chars(begin, end, magnitude).ptr != end || !(magnitude >= 0) ||
             !std::isfinite(magnitude))
-            throw std::runtime_error(
-                fmt::format("--require {}: is NAME=MAGNITUDE, 0 or more, as offset=1e7", words));
+            throw std::runtime_error(fmt::format(
+                "--require {}: takes NAME=MAGNITUDE with MAGNITUDE 0 or more, for example offset=1e7",
+                words));
         const std::string name = words.substr(0, at);
         audit::quantitiesOf(std::array{name}, "--require");
         audit.required.emplace_back(name, magnitude);
@@ -278,7 +284,7 @@ Options::Pixel pixelOf(const std::string& words) {
     }
     if (!sound)
         throw std::runtime_error(
-            fmt::format("--pixel {}: is X,Y in pixels from the top left, as 320,180", words));
+            fmt::format("--pixel {}: takes X,Y in pixels from the top left, for example 320,180", words));
     return pixel;
 }
 
@@ -303,12 +309,13 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
     options.runs = parsed.runs.value_or(usualRuns(options.command));
-    if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: 0 or more", options.runs));
+    if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: must be 0 or more", options.runs));
     if (options.picture.exposure &&
         !(*options.picture.exposure > 0 && std::isfinite(*options.picture.exposure)))
-        throw std::runtime_error(fmt::format("--exposure {}: above 0, finite", *options.picture.exposure));
+        throw std::runtime_error(
+            fmt::format("--exposure {}: must be above 0 and finite", *options.picture.exposure));
     if (options.picture.ev100 && !std::isfinite(*options.picture.ev100))
-        throw std::runtime_error(fmt::format("--ev100 {}: finite", *options.picture.ev100));
+        throw std::runtime_error(fmt::format("--ev100 {}: must be finite", *options.picture.ev100));
     resolveTimes(options, parsed);
     options.keep = keepOf(parsed.keep);
     options.twice = twiceOf(parsed.twice);
@@ -376,21 +383,20 @@ Options parseCommandLine(const std::vector<std::string>& given) {
     ParsedOptions parsed;
 
     CLI::App app(
-        "Draws one glTF scene through a deferred and a forward+ path and says where the two differ,\n"
-        "by how much, why, and what each costs.",
+        "Renders a glTF scene with a deferred and a forward+ renderer and reports where the two differ,\nby "
+        "how much, why, and what each costs.",
         "diptych");
     app.set_version_flag("--version", std::string("diptych ") + versionName());
     bool manual = false;
     std::string shell;
-    app.add_flag("--manual", manual, "print the manual page, for man -l -");
-    app.add_option("--completion", shell, "print a script that completes diptych's words in a shell")
+    app.add_flag("--manual", manual, "print the manual page (view it with man -l -)");
+    app.add_option("--completion", shell, "print a shell completion script")
         ->type_name(std::string(completedShells));
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(44);
     app.footer(
-        "Example: diptych compare builtin:gallery\nEach command has its own --help, and --help all with "
-        "every option.\n"
-        "Exit codes: 0 parity, 1 a difference beyond tolerance, 2 could not do it.");
+        "Example: diptych compare builtin:gallery\nCOMMAND --help lists its common options, COMMAND --help "
+        "all every option.\nExit codes: 0 parity, 1 difference beyond tolerance, 2 error.");
     for (const Command& command : allCommands()) {
         CLI::App& sub = *app.add_subcommand(command.name, command.does);
         sub.footer("Example: " + command.example +
@@ -428,8 +434,8 @@ Options parseCommandLine(const std::vector<std::string>& given) {
                       : hideSeldomUsed(*sub,
                                        *std::ranges::find(allCommands(), sub->get_name(), &Command::name));
             if (more > 0)
-                sub->footer(fmt::format("{} more options: diptych {} --help all\n\n{}", more, sub->get_name(),
-                                        sub->get_footer()));
+                sub->footer(fmt::format("{}: diptych {} --help all\n\n{}", counted(more, "more option"),
+                                        sub->get_name(), sub->get_footer()));
         }
         options.help = chosen->help(chosen == &app ? "" : "diptych");
         return options;
@@ -476,12 +482,13 @@ Options parseReported(const std::vector<std::string>& words) {
         }
         const bool unread = isOneOf(left_out, name);
         if (!unread && !isOneOf(taken, name) && !isSetting(name))
-            throw std::runtime_error(fmt::format(
-                "the command of the comparison has {}: view takes scene, Settings and what counts "
-                "from a report",
-                oneLine(name)));
+            throw std::runtime_error(
+                fmt::format("the command of the comparison has {}: view takes only scene, Settings and "
+                            "comparison options from a report",
+                            oneLine(name)));
         if (name == word && i + 1 == words.size())
-            throw std::runtime_error(fmt::format("the command of the comparison ends at {}", name));
+            throw std::runtime_error(
+                fmt::format("the command of the comparison ends after {}, without its value", name));
         // Joined, so that a value is never taken for an option.
         const std::string value = name == word ? name + "=" + words[++i] : word;
         if (!unread) read.push_back(value);

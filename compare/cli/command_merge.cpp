@@ -3,6 +3,7 @@
 #include "compare/cli/compare_many.h"
 #include "compare/cli/tradeoff_many.h"
 #include "compare/shards/merge.h"
+#include "shared/text/counted.h"
 #include "shared/text/json_at.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ Keep keepOf(const nlohmann::ordered_json& plan) {
 int runMerge(const Options& options) {
     if (!options.scene_given)
         throw std::runtime_error(
-            "merge: the folders of shards are missing; as diptych merge shard-*/ -o report");
+            "merge: the folders of the shards are missing; for example diptych merge shard-*/ -o report");
     const bool tradeoffs = std::ranges::any_of(options.scenes, [](const std::string& shard) {
         return std::filesystem::exists(std::filesystem::path(shard) / tradeoffsManifest);
     });
@@ -35,8 +36,8 @@ int runMerge(const Options& options) {
     if (joined.report.parts.empty() && joined.report.errors.empty() && !joined.problems.empty())
         throw std::runtime_error(joined.problems.front());
     if (joined.report.parts.empty() && !joined.report.errors.empty())
-        throw std::runtime_error(fmt::format("none of the {} scenes was drawn; the first: {}",
-                                             joined.manifest.items.size(),
+        throw std::runtime_error(fmt::format("none of {} was rendered; the first: {}",
+                                             counted(joined.manifest.items.size(), "scene"),
                                              joined.report.errors.front().message));
     ReportOptions report;
     report.keep = keepOf(joined.manifest.plan);

@@ -20,49 +20,50 @@ namespace diptych::cli {
 namespace {
 
 const Command commands[] = {
-    {"compare", "Draws a scene through both paths and compares every channel: table, pictures, verdict",
+    {"compare", "Renders a scene with both paths and compares every channel: table, pictures, verdict",
      "diptych compare helmet.glb --lights point:32 -o helmet-report",
      "gbuffer assign shadows lights camera size baseline tolerances out json"},
-    {"render", "Draws one Frame: an EXR with every channel, and a PNG",
+    {"render", "Renders one Frame: an EXR with every channel, and a PNG",
      "diptych render helmet.glb --path deferred --debug normals -o normals.png",
      "path debug channels lights shadows camera size time exposure out"},
-    {"diff", "Compares any two EXR, PNG, JPEG, TIFF, HDR or PFM images, whoever rendered them",
+    {"diff", "Compares any two EXR, PNG, JPEG, TIFF, HDR or PFM images from any renderer",
      "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference",
      "metric tolerance failing channels map mask crop tolerances out json"},
-    {"tradeoff", "Draws a scene under many Settings: time and error of each, and the Pareto front",
+    {"tradeoff", "Renders a scene with many Settings: time and error of each, and the Pareto front",
      "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff",
      "grid lights shadows camera size runs shard device out json"},
     {"explain", "Ranks the causes of a lit difference: which channels and Settings, by how much, and where",
      "diptych explain helmet.glb --gbuffer compact -o helmet-causes",
      "gbuffer test baseline scene lights camera size device out json"},
-    {"choose", "Finds the fastest Settings within an error, or the most accurate within a time or a memory",
+    {"choose",
+     "Finds the fastest Settings within an error budget, or the most accurate within a time or memory budget",
      "diptych choose helmet.glb --max-error 0.02 -o helmet-choice",
      "max-error max-ms max-bytes figure grid lights size device out json"},
-    {"audit", "Pushes scene and camera to numerical extremes: where does each path break?",
+    {"audit", "Pushes scene and camera to numerical extremes and finds where each path breaks",
      "diptych audit helmet.glb --quantity near,fov",
      "quantity require shadows lights camera size device out force json"},
-    {"plan", "Lists what a scene needs modelled, what is left out and why; passes and bytes",
+    {"plan", "Lists the features a scene needs and those left out, with reasons; passes and bytes",
      "diptych plan helmet.glb --gbuffer compact",
      "estimate compile-on gbuffer assign lights shadows msaa device json verbose"},
-    {"view", "Opens a window with both paths live: wipe, differences, channels, the verdict, a pixel's story",
+    {"view", "Opens a window with both paths live: wipe, differences, channels, verdict, pixel breakdown",
      "diptych view helmet.glb", "report watch debug baseline gbuffer lights shadows camera size device"},
     {"bench", "Times frames and passes of several Settings side by side",
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9",
      "table paths assign light-counts sizes kernels runs device out json"},
-    {"calibrate", "Finds how another renderer means what it is told, from charts whose answer is known",
+    {"calibrate", "Finds how another renderer interprets its inputs, from charts with a known result",
      "diptych calibrate three.json"},
-    {"merge", "Joins the reports of shards, in any order, into one", "diptych merge shard-*/ -o report"},
-    {"submit", "Runs a command over many scenes as an array of Slurm jobs, and joins their reports",
+    {"merge", "Merges the reports of shards, in any order, into one", "diptych merge shard-*/ -o report"},
+    {"submit", "Runs a command over many scenes as a Slurm job array and merges the reports",
      "diptych submit slurm --shards 16 --at-once 4 -- compare scenes/ -o report"},
     {"accept", "Writes rules that accept the differences of a report",
      "diptych accept diptych-report Box.glb --channel lit -o accepted.json"},
     {"devices", "Lists Vulkan devices and what each can and cannot do here", "diptych devices"},
 };
 
-const char* const pixel_group = "Settings, which may change a pixel";
+const char* const pixel_group = "Settings (may change a pixel)";
 const char* const picture_group = "Channels and pictures";
 const char* const output_group = "Output";
-const char* const selection_group = "What counts";
+const char* const selection_group = "Comparison";
 const char* const device_group = "Device and timing";
 
 void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except = "") {
@@ -80,32 +81,31 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
     }
     app.add_option("--camera", parsed.cameras,
                    std::string(settingField("camera").help) +
-                       "; may be given several times. A scene without a camera is seen from (+1, +0.6, +1) "
-                       "around it, or from another side or from inside where that shows clearly more")
+                       "; repeatable. A scene without a camera is seen from direction (+1, +0.6, +1), or "
+                       "from another side or from inside if that shows clearly more")
         ->type_name("CAMERA")
         ->allow_extra_args(false);
     app.add_option_function<std::string>(
            "--sort", [&parsed](const std::string& words) { parsed.settings.emplace_back("sort", words); },
-           "older name: on means --transparency sorted, off means unsorted")
+           "old name: on means --transparency sorted, off means unsorted")
         ->type_name("on|off");
     app.add_option("--settings", parsed.settings_file,
                    "Settings as JSON, as every report prints them; applied before other options")
         ->type_name("FILE.json");
     app.add_option("--frames", parsed.frames,
-                   "number of pictures, numbered from 0000, the first at --time (1)")
+                   "number of pictures, numbered from 0000; the first is at --time (1)")
         ->type_name("N");
     app.add_option("--fps", parsed.fps, "pictures per second of --frames (30)")->type_name("F");
 }
 
 void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.option_defaults()->group(picture_group);
-    app.add_option("--debug", parsed.debug, "the channel that the picture shows (lit)")
-        ->type_name("NAME|NUMBER");
+    app.add_option("--debug", parsed.debug, "channel that the picture shows (lit)")->type_name("NAME|NUMBER");
     app.add_flag(
         "--heat", options.heat,
-        "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
+        "the picture shows the number of lights each pixel evaluates, with a legend; overrides --debug");
     app.add_option("--channels", parsed.channels,
-                   "the channels to make, separated by commas (all); render: a PNG of each")
+                   "channels to render, separated by commas (all); render: one PNG each")
         ->type_name("NAME|NUMBER,...");
     app.add_flag("--list-channels", options.list_channels, "list all channels and exit");
     CLI::Option* exposure =
@@ -116,7 +116,7 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
             ->type_name("F")
             ->excludes(exposure);
     app.add_option("--match-exposure", options.match_exposure,
-                   "the exposure that a picture of this EXR or HDR file gets")
+                   "use the automatic exposure of this EXR or HDR file")
         ->type_name("FILE")
         ->excludes(exposure)
         ->excludes(ev100);
@@ -129,7 +129,7 @@ ColorChoice colorOf(const std::string& word) {
     for (const auto& [name, choice] :
          {std::pair{"auto", ColorChoice::automatic}, {"on", ColorChoice::on}, {"off", ColorChoice::off}})
         if (word == name) return choice;
-    throw std::runtime_error(fmt::format("--color {}: auto, on or off", word));
+    throw std::runtime_error(fmt::format("--color {}: takes auto, on or off", word));
 }
 
 void addOutput(CLI::App& app, Options& options) {
@@ -147,7 +147,7 @@ void addOutput(CLI::App& app, Options& options) {
 void addFiles(CLI::App& app, Options& options, const std::string& usual) {
     app.option_defaults()->group(output_group);
     app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE")->check([](const std::string& word) {
-        return std::string(word.empty() ? "\"\" names neither folder nor file" : "");
+        return std::string(word.empty() ? "\"\" names no folder or file" : "");
     });
     app.add_flag("--force", options.force, "also replace files that diptych did not write");
 }
@@ -155,51 +155,52 @@ void addFiles(CLI::App& app, Options& options, const std::string& usual) {
 // Which pixels count.
 void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
-    app.add_option("--mask", selection.mask, "compare only where this picture is at least half white")
+    app.add_option("--mask", selection.mask, "compare only pixels where this picture is at least half white")
         ->type_name("FILE");
-    app.add_option("--ids", selection.ids, "compare only these materials of the reference")
+    app.add_option("--ids", selection.ids, "compare only pixels with these material ids in the reference")
         ->type_name("ID,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--ignore-edges", selection.ignore_edges,
-                   "leave out pixels within N pixels of another object")
+                   "exclude pixels within N pixels of another object")
         ->type_name("N")
         ->check(CLI::Range(0, 1000));
-    app.add_option("--crop", parsed.crop, "compare only this rectangle, from the top left")
+    app.add_option("--crop", parsed.crop, "compare only this rectangle; X,Y from the top left")
         ->type_name("X,Y,WxH");
 }
 
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
     app.add_flag("--strict", options.strict,
-                 "a failure, not a note: a channel that one side alone has, a colour profile or a pixel's "
-                 "shape that is not applied, a picture that shows nothing");
-    app.add_flag("--allow-empty", options.allow_empty,
-                 "print nothing about pictures that are black, empty, or show the scene on less than 1 % of "
-                 "the pixels");
+                 "make failures of these notes: a channel on only one side, a colour profile or pixel aspect "
+                 "that is not applied, an empty picture");
+    app.add_flag(
+        "--allow-empty", options.allow_empty,
+        "no warning about pictures that are black, empty, or show the scene on less than 1 % of the pixels");
     app.add_option("--tolerances", options.tolerances,
-                   "rules for what may differ, see compare/verdict/tolerances.schema.json")
+                   "rules for allowed differences, see compare/verdict/tolerances.schema.json")
         ->type_name("FILE.json");
 }
 
 void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
     app.add_option("--metric", parsed.metric,
-                   "metric that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
+                   "metric for the verdict: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
         ->type_name("NAME");
-    app.add_option("--tolerance", parsed.tolerance,
-                   "largest value that passes, for psnr and ssim the smallest (only equal pictures pass)")
+    app.add_option(
+           "--tolerance", parsed.tolerance,
+           "largest metric value that passes; for psnr and ssim the smallest (only equal images pass)")
         ->type_name("T");
     app.add_option("--warn", diff.warn, "warn beyond this value")->type_name("T");
     app.add_option("--failing", diff.failing,
-                   "instead of --metric, the share of pixels whose error may exceed the tolerance")
+                   "instead of --metric: fraction of pixels whose error may exceed the tolerance")
         ->type_name("SHARE")
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--channels", diff.channels, "names of the channels to compare, * and ? allowed (all)")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--map", diff.names, "what another renderer's channels are called here; repeatable")
+    app.add_option("--map", diff.names, "Diptych's names for another renderer's channels; repeatable")
         ->type_name("NAME=CHANNEL,...")
         ->allow_extra_args(false);
     app.add_option("--blur", diff.blur, "blur both pictures first, standard deviation in pixels (0)")
@@ -215,7 +216,7 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
         ->type_name("STOPS");
     app.add_option("--stop-exposure", diff.flip.stop_exposure, "HDR-FLIP: the brightest exposure, stops")
         ->type_name("STOPS");
-    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: how many between them")
+    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: number of exposures")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
 }
@@ -239,7 +240,7 @@ void hideUnread(CLI::App& app, const std::string& command) {
                    "--update-baseline", "--explain", "--force", "--json", "--strict", "--allow-empty"});
     if (command == "compare") {
         hide(app, {"--debug", "--heat"});
-        app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
+        app.get_option("--path")->description("path that --update-baseline writes (the file's own)");
     }
     if (command == "bench" || command == "tradeoff" || command == "choose" || command == "explain")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
@@ -259,20 +260,19 @@ void hideUnread(CLI::App& app, const std::string& command) {
 void addShard(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
     app.add_option("--shard", options.shard,
-                   "draw one part of the scenes: the I-th of N, counted from 1; slurm: the task of a Slurm "
-                   "array, of N where the array is irregular. merge joins the reports")
+                   "render one part of the scenes: the I-th of N, from 1; slurm: the task of a Slurm array "
+                   "(slurm/N if its indices are irregular). merge joins the reports")
         ->type_name("I/N|slurm[/N]");
-    app.add_option(
-           "--timings", options.timings,
-           "earlier report whose times say which scenes take long; those are dealt out first (by size)")
+    app.add_option("--timings", options.timings,
+                   "earlier report with the scenes' times, to balance shards (by file size)")
         ->type_name("DIR|report.json");
 }
 
 void addSince(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
     app.add_option("--since", options.since,
-                   "earlier report to compare with: new failures, mended ones, and metrics that moved by "
-                   "more than their noise")
+                   "earlier report to compare with: new failures, fixed failures, and metrics that changed "
+                   "by more than their noise")
         ->type_name("DIR|report.json");
 }
 
@@ -281,8 +281,8 @@ void addGrid(CLI::App& app, Options& options, const char* usual) {
     app.add_option(
            "--grid", options.grid,
            fmt::format(
-               "the Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", \"full\"], \"size\": "
-               "[\"1/2\"] }} }} is every combination, a list of such one after the other ({})",
+               "Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", \"full\"], \"size\": "
+               "[\"1/2\"] }} }} tries every combination; a list of such objects tries each in turn ({})",
                usual))
         ->type_name("FILE.json|JSON");
 }
@@ -290,20 +290,20 @@ void addGrid(CLI::App& app, Options& options, const char* usual) {
 void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
     app.option_defaults()->group("Budgets (one or two)");
     app.add_option("--max-error", choose.max_error,
-                   "largest error of lit; chooses the fastest Settings within it")
+                   "largest error of lit; finds the fastest Settings within it")
         ->type_name("E");
     app.add_option("--figure", choose.figure, "error metric of --max-error (flip)")
         ->type_name("flip|relative_rmse|relative_p99");
     app.add_option("--max-ms", choose.max_ms,
-                   "longest frame time, ms; without --max-error chooses the most accurate Settings within it")
+                   "longest frame time, ms; without --max-error, finds the most accurate Settings within it")
         ->type_name("T");
     app.add_option("--max-bytes", parsed.max_bytes,
-                   "largest memory of a frame: bytes, or with KiB, MiB or GiB")
+                   "largest memory of a frame: bytes, or a number with KiB, MiB or GiB")
         ->type_name("B");
-    app.add_flag(
-        "--explain-choice", choose.explain,
-        "explain what decided between the paths: overdraw, lights per pixel, transparency, samples, "
-        "materials, triangles, size, and where each would turn the choice; draws a few hundred more frames");
+    app.add_flag("--explain-choice", choose.explain,
+                 "explain the choice of path: the effect of overdraw, lights per pixel, transparency, "
+                 "samples, materials, triangles and size, and the value at which each would reverse the "
+                 "choice; renders a few hundred more frames");
 }
 
 std::string namesOf(const auto& all) {
@@ -313,26 +313,25 @@ std::string namesOf(const auto& all) {
 }
 
 void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
-    app.option_defaults()->group("What is pushed");
-    app.add_option(
-           "--quantity", audit.quantities,
-           fmt::format("quantities to push (all): {}. Pictures are 160x90 without --size; shadows are off "
-                       "without --shadows, except where they are pushed",
-                       namesOf(audit::quantities())))
+    app.option_defaults()->group("Stress test");
+    app.add_option("--quantity", audit.quantities,
+                   fmt::format("quantities to push (all): {}. Defaults: --size 160x90; --shadows off, except "
+                               "for shadow quantities",
+                               namesOf(audit::quantities())))
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--require", parsed.require,
-                   "exit code 1 where a path's error reaches 1e-2 between the scene as it is and this "
+                   "exit code 1 if a path's error reaches 1e-2 between the original scene and this "
                    "magnitude; repeatable")
         ->type_name("NAME=MAGNITUDE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_flag("--relations", audit.relations,
-                 "instead of pushing anything: what must not change its picture, on this device, without a "
-                 "truth; exit code 1 where a relation is broken");
+                 "instead of pushing quantities, test changes that must not change the picture, on this "
+                 "device, without a reference; exit code 1 if a relation is broken");
     app.add_option("--relation", audit.chosen_relations,
-                   fmt::format("names of such relations (all): {}", namesOf(audit::relations())))
+                   fmt::format("relations to test (all): {}", namesOf(audit::relations())))
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -344,25 +343,25 @@ void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.add_option("--keep", parsed.keep, "comparisons whose pictures and EXRs the report keeps (all)")
         ->type_name("all|failing|none");
     app.add_flag("--single-file", options.single_file,
-                 "one page that embeds its pictures at half size; beside it only what CI reads");
+                 "embed the pictures in the page at half size; other files only for CI");
 }
 
 void addView(CLI::App& app, ViewOptions& view) {
-    app.option_defaults()->group("What is shown");
+    app.option_defaults()->group("View");
     app.add_option("--report", view.report,
-                   "open a report of compare: its first failing channel, or that of --debug, at the worst "
-                   "pixel; of several scenes that of SCENE")
+                   "open a report of compare at the worst pixel of its first failing channel; --debug "
+                   "selects another channel, SCENE another scene")
         ->type_name("DIR");
-    app.add_flag("--watch", view.watch, "read the scene again when its files change on disk");
-    app.get_option("--pixel")->description("pixel to look into first");
+    app.add_flag("--watch", view.watch, "reload the scene when its files change on disk");
+    app.get_option("--pixel")->description("pixel to inspect first");
 }
 
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
-    app.option_defaults()->group("What is timed");
+    app.option_defaults()->group("Benchmark");
     app.add_option("--table", parsed.bench_table,
-                   "what to time: every mode; each path by samples per pixel, with and without blended "
-                   "surfaces, and its memory; or each path by the growth of one quantity (modes)")
+                   "modes: every mode; msaa: each path by samples per pixel, with and without blended "
+                   "surfaces, and its memory; growth: each path as one quantity grows (modes)")
         ->type_name("modes|msaa|growth");
     app.add_option(
            "--axes", parsed.bench_axes,
@@ -370,23 +369,23 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
         ->type_name("AXIS,...");
     app.add_option("--paths", parsed.bench_paths, "paths to time (deferred,forward_plus)")
         ->type_name("PATH,...");
-    app.add_option("--assign", parsed.bench_assign, "light assignments to time (all that can be drawn)")
+    app.add_option("--assign", parsed.bench_assign, "light assignments to time (all supported)")
         ->type_name(acceptedValues("assign") + ",...");
     app.add_option("--sizes", parsed.bench_sizes, "picture sizes to time (--size)")->type_name("WxH,...");
     app.add_option("--transparencies", parsed.bench_transparencies,
                    "orderings of blended surfaces to time (--transparency)")
         ->type_name(acceptedValues("transparency") + ",...");
-    app.add_option("--lightings", parsed.bench_lightings, "ways to shade the G-buffer to time (--lighting)")
+    app.add_option("--lightings", parsed.bench_lightings, "G-buffer shading methods to time (--lighting)")
         ->type_name(acceptedValues("lighting") + ",...");
     app.add_option("--light-counts", parsed.light_counts,
-                   "numbers of lights to time: of builtin:spheres, of a --lights file whose name holds {}, "
-                   "or of a seeded rig (the scene's own)")
+                   "light counts to time: of builtin:spheres, of a --lights file with {} in its name, or of "
+                   "a seeded rig (the scene's own lights)")
         ->type_name("N,...");
     app.add_option("--max-ms", parsed.max_ms,
-                   "a frame that takes longer is not repeated, nor tried with more lights, ms (2000)")
+                   "longer frames are not repeated or tried with more lights, ms (2000)")
         ->type_name("T");
     app.add_option("--kernels", parsed.kernels,
-                   "time one light at one pixel beside hand-written AVX2: on, off, or nothing else (on)")
+                   "also time one light at one pixel against hand-written AVX2: on, off, or only that (on)")
         ->type_name("on|off|only");
 }
 
@@ -395,7 +394,7 @@ void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
     app.add_option(
            "--renderer", parsed.renderers,
            fmt::format(
-               "{}; repeatable. The file names its command, see compare/external/renderer.schema.json", what))
+               "{}; repeatable. The file gives its command, see compare/external/renderer.schema.json", what))
         ->type_name("NAME=FILE.json")
         ->allow_extra_args(false)
         ->group(picture_group);
@@ -404,9 +403,9 @@ void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
 // Settings of one path.
 void addSides(CLI::App& app, ParsedOptions& parsed) {
     for (std::size_t side = 0; side < drawn_paths.size(); ++side)
-        app.add_option(
-               sideOption(drawn_paths.at(side)), parsed.sides.at(side),
-               fmt::format("Settings of {} alone, as assign=every,shadows=off", nameOf(drawn_paths.at(side))))
+        app.add_option(sideOption(drawn_paths.at(side)), parsed.sides.at(side),
+                       fmt::format("Settings of {} only, for example assign=every,shadows=off",
+                                   nameOf(drawn_paths.at(side))))
             ->type_name("NAME=VALUE,...")
             ->allow_extra_args(false)
             ->group(pixel_group);
@@ -414,7 +413,8 @@ void addSides(CLI::App& app, ParsedOptions& parsed) {
 
 void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
-    app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
+    app.add_option("--device", options.device,
+                   "index or part of a name, see diptych devices (a GPU if there is one)")
         ->type_name("INDEX|NAME");
     app.add_flag("--validate", options.validate,
                  "run under the Vulkan validation layers; any message is a failure");
@@ -451,8 +451,9 @@ void refuseHexadecimals(CLI::App& app) {
     for (CLI::Option* option : app.get_options())
         if (std::ranges::count(numbers, option->get_type_name()) > 0)
             option->check([](const std::string& word) {
-                return word.find_first_of("xX") == word.npos ? std::string()
-                                                             : word + " is no decimal number, as 0.5";
+                return word.find_first_of("xX") == word.npos
+                           ? std::string()
+                           : word + " is not a decimal number; write for example 0.5";
             });
 }
 
@@ -463,17 +464,17 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addDevice(app, options);
         app.add_flag("--probe", options.probe,
                      "run the shaders' functions on millions of inputs and compare them with double "
-                     "precision, in ULP; exit code 1 where an error exceeds what Vulkan allows");
-        addFiles(app, options, "refused: devices writes no file, --json prints one");
+                     "precision, in ULP; exit code 1 if an error exceeds Vulkan's limit");
+        addFiles(app, options, "not accepted: devices writes no file; use --json");
         return addOutput(app, options);
     }
 
     if (command == "calibrate") {
-        app.add_option("renderer", options.scenes, "the file that names its command")
+        app.add_option("renderer", options.scenes, "file that gives the renderer's command")
             ->type_name("FILE.json")
             ->expected(1)
             ->required();
-        addFiles(app, options, "refused: calibrate writes no file, --json prints one");
+        addFiles(app, options, "not accepted: calibrate writes no file; use --json");
         return addOutput(app, options);
     }
 
@@ -487,41 +488,40 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addTolerances(app, options);
         addReport(app, options, parsed);
         addFiles(app, options,
-                 "X.exr: the errors of every channel; X.png: those of the channel that decides; any other "
-                 "name: a folder with a report; without -o nothing is written");
+                 "X.exr: errors of every channel; X.png: errors of the deciding channel; any other name: "
+                 "report folder; without -o: no files");
         return addOutput(app, options);
     }
 
     if (command == "submit") {
-        app.add_option("engine", options.submit.engine, "what runs the jobs")->type_name("slurm")->required();
+        app.add_option("engine", options.submit.engine, "job system")->type_name("slurm")->required();
         app.add_option("--shards", options.submit.shards,
-                       "number of parts that the scenes are split into (one each, at most 16)")
+                       "number of shards to split the scenes into (one per scene, at most 16)")
             ->type_name("N")
             ->check(CLI::Range(1, 1000000));
-        app.add_option("--at-once", options.submit.at_once, "number of parts that run at a time (no limit)")
+        app.add_option("--at-once", options.submit.at_once, "number of shards that run at a time (no limit)")
             ->type_name("K")
             ->check(CLI::Range(1, 1000000));
         app.add_option("--sbatch", options.submit.options,
-                       "an option of sbatch for the shards, such as --sbatch=--partition=long; repeatable")
+                       "sbatch option for the shards, such as --sbatch=--partition=long; repeatable")
             ->type_name("OPTION")
             ->allow_extra_args(false);
         app.add_flag("--dry-run", options.submit.dry_run, "print both scripts; write and submit nothing");
-        addFiles(app, options, "refused: the command behind -- says where its report is");
+        addFiles(app, options, "not accepted: give -o to the command after --");
         return addOutput(app, options);
     }
     if (command == "accept") {
-        app.add_option("report", options.scenes, "a report, and one of its scenes (all that fail)")
+        app.add_option("report", options.scenes, "a report, and one of its scenes (all failing ones)")
             ->type_name("DIR [SCENE]");
-        app.add_option("--channel", options.accept.channel, "the channel to accept (all that fail)")
+        app.add_option("--channel", options.accept.channel, "channel to accept (all failing ones)")
             ->type_name("NAME");
-        app.add_option("--because", options.accept.because, "the reason, which reports print")
-            ->type_name("TEXT");
-        addFiles(app, options, "file of rules to add to (accepted.json)");
+        app.add_option("--because", options.accept.because, "reason, which reports print")->type_name("TEXT");
+        addFiles(app, options, "rules file to extend (accepted.json)");
         return addOutput(app, options);
     }
     if (command == "merge") {
-        app.add_option("folders", options.scenes, "the reports of all shards")->type_name("DIR...");
-        addFiles(app, options, "folder of the report (diptych-report)");
+        app.add_option("folders", options.scenes, "report folders of all shards")->type_name("DIR...");
+        addFiles(app, options, "report folder (diptych-report)");
         addSince(app, options);
         return addOutput(app, options);
     }
@@ -540,10 +540,11 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         ->type_name("N");
 
     if (command == "compare" || command == "explain")
-        app.add_option("--against-device", options.against_device,
-                       command == "compare"
-                           ? "also draw each path on this device, and compare it with itself on --device"
-                           : "draw the baseline's path on this device, and explain what differs")
+        app.add_option(
+               "--against-device", options.against_device,
+               command == "compare"
+                   ? "also render each path on this device, and compare it with the same path on --device"
+                   : "render the baseline's path on this device too, and explain the difference")
             ->type_name("INDEX|NAME")
             ->group(device_group);
 
@@ -556,13 +557,13 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             ->group(pixel_group)
             ->excludes(app.get_option("--time"));
         addFiles(app, options,
-                 command == "view" ? "folder for the files that P writes (the current one)"
-                                   : "folder of the report (diptych-report)");
+                 command == "view" ? "folder for the files that the key P writes (the current one)"
+                                   : "report folder (diptych-report)");
         app.add_option("--baseline", parsed.baseline,
-                       "the left panel: deferred or forward_plus; with reference or an EXR both paths are "
+                       "left panel: deferred or forward_plus; with reference or an EXR, both paths are "
                        "compared with it (deferred)")
             ->type_name("PATH|FILE.exr");
-        addRenderers(app, parsed, "another renderer, whose picture is compared with the left panel");
+        addRenderers(app, parsed, "another renderer to compare with the left panel");
         addReport(app, options, parsed);
         if (command == "compare") addShard(app, options);
         if (command == "compare") addSince(app, options);
@@ -571,16 +572,16 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addSelection(app, options.selection, parsed);
         addTolerances(app, options);
         app.add_option("--twice", parsed.twice,
-                       "channels to draw a second time; two runs that differ are a race (lit)")
+                       "channels to render a second time; a difference between the two runs is a race (lit)")
             ->type_name("all|lit|none");
         app.add_flag("--allow-noise", options.allow_noise,
                      "on a GPU, add the difference between two runs of one path to its tolerance");
-        app.add_flag("--explain", options.explain, "name the causes of a lit difference even where it passes")
+        app.add_flag("--explain", options.explain, "name the causes of a lit difference even if it passes")
             ->group(output_group);
         app.option_defaults()->group(output_group);
         app.add_option("--pixel", parsed.pixel,
-                       "instead of a report, print one pixel's whole story: both surfaces, each light's "
-                       "term, the first step that differs; exit code 0 if it could be told")
+                       "instead of a report, print one pixel's breakdown: both surfaces, each light's term, "
+                       "the first step that differs; exit code 0 if that succeeds")
             ->type_name("X,Y");
         if (command == "view") addView(app, options.view);
     } else if (command == "render") {
@@ -589,44 +590,44 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
             "X.exr: every channel; X.png: the picture; any other name: a folder with both (diptych-render)");
         app.add_flag("--list-scenes", options.list_scenes, "list the built-in scenes and exit");
     } else if (command == "tradeoff") {
-        addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
+        addFiles(app, options, "folder for the page, table and plots (diptych-tradeoff)");
         addShard(app, options);
-        addGrid(app, options, "each alone, and declared pairs");
-        addRenderers(app, parsed, "another renderer, which gets a row");
+        addGrid(app, options, "each Setting alone, and declared pairs");
+        addRenderers(app, parsed, "another renderer to add as a row");
     } else if (command == "choose") {
         addFiles(app, options,
-                 "X.json: the chosen Settings, of several scenes those for all; any other name: a folder "
-                 "with a page, choice.json and settings.json; without -o nothing is written");
-        addGrid(app, options, "each alone, and those that help together");
+                 "X.json: the chosen Settings (several scenes: one choice for all); any other name: folder "
+                 "with a page, choice.json and settings.json; without -o: no files");
+        addGrid(app, options, "each Setting alone, and helpful combinations");
     } else if (command == "explain") {
-        addFiles(app, options, "folder of the page, the maps and the JSON; without -o nothing is written");
-        app.add_option("--baseline", parsed.baseline, "the picture taken as right (deferred)")
+        addFiles(app, options, "folder for the page, maps and JSON; without -o: no files");
+        app.add_option("--baseline", parsed.baseline, "picture taken as correct (deferred)")
             ->type_name("deferred|forward_plus");
-        addRenderers(app, parsed, "another renderer, whose picture is the other one");
-        app.add_option("--scene", options.scene_file, "scene of two EXR files that do not name it")
+        addRenderers(app, parsed, "another renderer as the second picture");
+        app.add_option("--scene", options.scene_file, "scene of two EXR files, if they do not name it")
             ->type_name("FILE");
         app.get_option("scenes")->description(
             "a glTF file or builtin:NAME (builtin:gallery); or two EXR files");
         app.add_option(
                "--test", parsed.test,
-               "a Setting of the other picture, such as gbuffer=compact; repeatable (path: the other one)")
+               "Setting of the second picture, such as gbuffer=compact; repeatable (path: the other path)")
             ->type_name("NAME=VALUE")
             ->allow_extra_args(false);
     } else if (command == "bench") {
-        addFiles(app, options, "folder of the table, the plot and the page (diptych-bench)");
+        addFiles(app, options, "folder for the page, table and plot (diptych-bench)");
     } else {
         addFiles(app, options,
-                 command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
+                 command == "plan" ? "not accepted: plan writes no file; use --json" : "output folder");
         if (command == "plan") {
             app.add_flag("--estimate", options.estimate,
-                         "draw the frames, count their work, and estimate their time on some GPUs")
-                ->group("What is planned");
+                         "render the frames, count their workload, and estimate their time on some GPUs")
+                ->group("Plan");
             app.add_option("--compile-on", options.compile_on,
-                           "what this device's compiler reports of each pipeline: index or part of a name; "
-                           "or a family of AMD GPUs (vega10, navi21, navi31, gfx1201, ...), which RADV of "
-                           "Mesa 25 compiles for without such a GPU")
+                           "compile each pipeline for this device and print the compiler's statistics: index "
+                           "or part of a name, or an AMD GPU family (vega10, navi21, navi31, gfx1201, ...), "
+                           "for which RADV of Mesa 25 compiles without the GPU")
                 ->type_name("DEVICE")
-                ->group("What is planned");
+                ->group("Plan");
         }
     }
     if (command == "bench") addBench(app, parsed);
@@ -635,7 +636,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     if (command == "audit") {
         addAudit(app, options.audit, parsed);
         app.get_option("--size")->description("picture size, WxH (160x90)");
-        app.get_option("--shadows")->description("shadow technique (off, except where shadows are pushed)");
+        app.get_option("--shadows")->description("shadow technique (off, except for shadow quantities)");
     }
 }
 

@@ -20,26 +20,25 @@ void checkOnePixel(const Options& options) {
     const auto [x, y] = *options.pixel;
     const std::string pixel = fmt::format("--pixel {},{}", x, y);
     if (options.scenes.size() != 1)
-        throw std::runtime_error(
-            fmt::format("{}: is told of one scene, and {} are given; run it once for each", pixel,
-                        options.scenes.size()));
+        throw std::runtime_error(fmt::format("{}: takes one scene, and {} are given; run it once for each",
+                                             pixel, options.scenes.size()));
     if (options.cameras.size() != 1 || options.times.size() != 1)
         throw std::runtime_error(fmt::format(
-            "{}: is told of one picture; give one --camera and one --time, or run it once for each", pixel));
+            "{}: takes one view; give one --camera and one --time, or run it once for each", pixel));
     if (options.baseline == Path::reference || !options.baseline_file.empty())
-        throw std::runtime_error(fmt::format(
-            "--baseline {}: {} tells of the two paths, with the reference beside them; take deferred or "
-            "forward_plus",
-            options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel));
+        throw std::runtime_error(
+            fmt::format("--baseline {}: {} compares the two paths and shows the reference beside them; use "
+                        "deferred or forward_plus",
+                        options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel));
     const Size& size = options.settings.size;
     if (x >= size.width || y >= size.height)
         throw std::runtime_error(
-            fmt::format("{}: outside the picture, whose pixels are 0,0 to {},{}; --size sets how large it is",
-                        pixel, size.width - 1, size.height - 1));
+            fmt::format("{}: is outside the image (pixels 0,0 to {},{}); --size sets its size", pixel,
+                        size.width - 1, size.height - 1));
     if (!options.out.empty())
-        throw std::runtime_error(fmt::format(
-            "-o {}: --pixel writes no file; compare --pixel {},{} --json > FILE keeps what it says",
-            options.out.string(), x, y));
+        throw std::runtime_error(
+            fmt::format("-o {}: --pixel writes no file; use compare --pixel {},{} --json > FILE",
+                        options.out.string(), x, y));
 }
 
 }  // namespace
@@ -50,8 +49,8 @@ int runPixel(const Options& options) {
     const std::vector<Settings> settings = settingsOf(options, {Path::reference, options.baseline, test});
     const CompareOptions compare = compareOptions(options);
     if (options.selection.any())
-        note(options, "--mask, --ids, --ignore-edges and --crop are not used: --pixel says which pixel");
-    if (!options.channels.empty()) note(options, "--channels is not used: --pixel tells of every channel");
+        note(options, "--mask, --ids, --ignore-edges and --crop are not used: --pixel selects the pixel");
+    if (!options.channels.empty()) note(options, "--channels is not used: --pixel prints every channel");
     const std::string& where = options.scenes.front();
     Progress progress(progressOutput(options));
     const Stage stage(progress, where);

@@ -68,15 +68,16 @@ Json jsonOf(const ScenePlan& plan, const FrameWork& work) {
 }
 
 void print(const ScenePlan& plan, const FrameWork& work) {
-    printOut("  {} asks for\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n", nameOf(work.path),
-             "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute", "MB");
+    printOut("  workload of {}\n    {:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}\n",
+             nameOf(work.path), "pass", "vertices", "triangles", "fragments", "texels", "lights", "compute",
+             "MB");
     for (const PassWork& pass : work.passes)
         printOut("    {:<26} {:>10} {:>10} {:>10} {:>10.0f} {:>10.0f} {:>10} {:>9.2f}\n", pass.counts.name,
                  pass.counts.vertices, pass.counts.triangles, pass.counts.fragments, pass.texels, pass.lights,
                  pass.counts.compute,
                  (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
     for (const bench::FrameEstimate& estimate : estimatesOf(plan, work))
-        printOut("    on paper, {}\n", bench::inWords(estimate));
+        printOut("    estimate, {}\n", bench::inWords(estimate));
 }
 
 Json jsonOf(const ScenePlan& plan) {
@@ -122,7 +123,7 @@ Json jsonOf(const ScenePlan& plan) {
 // "16 bytes per pixel, 48 with lit; with --msaa 4 96 and 176"
 std::string bytesInWords(const PathPlan& path) {
     const SampledBytes& planned = path.bytes.front();
-    std::string words = fmt::format("{} bytes per pixel, {} with light", planned.geometry, planned.all);
+    std::string words = fmt::format("{} bytes per pixel, {} with lighting", planned.geometry, planned.all);
     for (const SampledBytes& other : path.bytes)
         if (other.samples != planned.samples)
             words += fmt::format("; {} and {} with --msaa {}", other.geometry, other.all, other.samples);
@@ -140,12 +141,11 @@ void print(const ScenePlan& plan) {
             if (line.modelled == modelled) printOut("    {:<26} {}\n", line.what, line.why);
     }
     for (const PathPlan& path : plan.paths) {
-        printOut(
-            "  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
-            path.shared_bytes_per_pixel > 0
-                ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
-                : "");
-        printOut("    {} of {} triangles are in view, {} are drawn, by {} of {}; vertices: {}\n",
+        printOut("  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
+                 path.shared_bytes_per_pixel > 0
+                     ? fmt::format("; images that share memory save {} more", path.shared_bytes_per_pixel)
+                     : "");
+        printOut("    {} of {} triangles are in view; {} are drawn with {} and {}; vertices: {}\n",
                  path.drawn.in_view, needs.triangles, path.drawn.drawn, counted(path.drawn.draws, "draw"),
                  counted(path.drawn.instances, "instance"), path.drawn.vertices);
         for (const std::string& line : path.notes) printOut("    {}\n", line);
@@ -162,7 +162,7 @@ int runPlan(const Options& options) {
     std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
     if (options.path_given) paths = {options.settings.path};
     if (paths.front() == Path::reference)
-        throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");
+        throw std::runtime_error("--path reference: has no passes to plan; use deferred or forward_plus");
     const std::vector<Settings> settings = settingsOf(options, paths);
     std::optional<DeviceCompiler> compiler;
     if (!options.compile_on.empty()) compiler.emplace(options.compile_on);

@@ -16,7 +16,7 @@ int runRelations(const Options& options, const Settings& settings) {
                         audit::relationsManifest);
     audit::RelationAudit audited{opened.audited(), {}};
     if (!options.shadows_given)
-        audited.notes.emplace_back("--shadows off: most relations say nothing of shadow maps");
+        audited.notes.emplace_back("--shadows off: most relations do not test shadow maps");
     audit::RelationMeasurer measurer(opened.device(), opened.subject(),
                                      [&](const std::string& step) { say(options, step); });
     for (const std::string& left : measurer.leftOut()) audited.notes.push_back("not drawn: " + left);

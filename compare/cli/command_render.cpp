@@ -112,7 +112,7 @@ int runRender(const Options& options) {
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)
         throw std::runtime_error(fmt::format(
-            "-o {}: holds one Frame, and several were asked for; give a folder", output.path.string()));
+            "-o {}: a file holds one Frame, but several are rendered; give a folder", output.path.string()));
     if (output.kind == OutputKind::png)
         for (const std::filesystem::path& file : pictureFiles(output.path, shownChannels(options)))
             checkReplaceable({OutputKind::png, file}, single_manifest, options.force);

@@ -4,6 +4,7 @@
 #include "compare/files/scene_folders.h"
 #include "compare/run/print.h"
 #include "compare/shards/slurm.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -39,18 +40,19 @@ std::vector<std::string> withoutOut(const std::vector<std::string>& words) {
 
 int runSubmit(const Options& options) {
     if (options.submit.engine != "slurm")
-        throw std::runtime_error(fmt::format("submit {}: there is slurm", options.submit.engine));
+        throw std::runtime_error(
+            fmt::format("submit {}: is not supported; use slurm", options.submit.engine));
     const std::vector<std::string>& words = options.submit.words;
     if (words.empty())
         throw std::runtime_error(
-            "submit slurm: a command is missing; as submit slurm -- compare scenes/ -o report");
+            "submit slurm: a command is missing; for example submit slurm -- compare scenes/ -o report");
     const Options command = parseCommandLine(words);  // whatever is wrong is said here, not in a log
     if (!command.help.empty() || (command.command != "compare" && command.command != "tradeoff"))
         throw std::runtime_error(fmt::format(
-            "submit slurm: {}: compare and tradeoff are what can be cut into shards", words.front()));
+            "submit slurm: {}: only compare and tradeoff can be split into shards", words.front()));
     if (!command.shard.empty())
-        throw std::runtime_error(
-            fmt::format("--shard {}: the jobs say it; --shards N says how many", command.shard));
+        throw std::runtime_error(fmt::format(
+            "--shard {}: the jobs set it; give submit --shards N, the number of shards", command.shard));
     const auto scenes = scenesOf(command.scenes).size();
     shards::SlurmJob job;
     std::error_code error;
@@ -66,15 +68,16 @@ int runSubmit(const Options& options) {
     job.at_once = options.submit.at_once;
     job.options = options.submit.options;
     if (options.submit.dry_run) {
-        printOut("# {}\n{}\n# {}, behind it\n{}", (shards::slurmFolder(job.out) / "array.sh").string(),
+        printOut("# {}\n{}\n# {}, runs after it\n{}", (shards::slurmFolder(job.out) / "array.sh").string(),
                  arrayScript(job), (shards::slurmFolder(job.out) / "merge.sh").string(), mergeScript(job));
         return 0;
     }
     const shards::Submitted jobs = submit(job);
     if (!options.quiet)
-        printOut("job {}: {} shards of {} scenes{}\njob {}: joins them in {}\nlogs: {}\n", jobs.array,
-                 job.shards, scenes, job.at_once > 0 ? fmt::format(", {} at a time", job.at_once) : "",
-                 jobs.merge, (job.out / "index.html").string(), shards::slurmFolder(job.out).string());
+        printOut("job {}: {} of {}{}\njob {}: merges them into {}\nlogs: {}\n", jobs.array,
+                 counted(static_cast<std::uint64_t>(job.shards), "shard"), counted(scenes, "scene"),
+                 job.at_once > 0 ? fmt::format(", {} at a time", job.at_once) : "", jobs.merge,
+                 (job.out / "index.html").string(), shards::slurmFolder(job.out).string());
     return 0;
 }
 

@@ -44,9 +44,10 @@ double msSince(Clock::time_point start) {
 }
 
 void checkTradeoffOptions(const Options& options) {
-    if (options.runs < 1) throw std::runtime_error("--runs 0: a tradeoff needs times; 1 or more");
+    if (options.runs < 1) throw std::runtime_error("--runs 0: tradeoff measures times; use 1 or more");
     if (options.settings.path == Path::reference)
-        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+        throw std::runtime_error(
+            "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())
         throw std::runtime_error(*problem);
 }
@@ -137,8 +138,9 @@ public:
         SweepState state(folder_, keyOf(options_, tradeoff_, references));
         if (state.isRenewed())
             note(options_,
-                 "what a sweep that was cut short left is of another scene, device or Settings: anew");
-        sayWhenInterrupted(fmt::format("the rows so far are kept in {}: the same command goes on from there",
+                 "the results of an interrupted sweep belong to another scene, device or Settings; starting "
+                 "anew");
+        sayWhenInterrupted(fmt::format("finished rows are kept in {}: the same command continues from there",
                                        SweepState::folderOf(folder_).string()));
         const double drawn =
             referenceDone + (0.98 - referenceDone) * 0.7;  // captures and errors are in the first visit
@@ -289,8 +291,8 @@ int runTradeoff(const Options& words) {
     const Settings& given = options.settings;
     const SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
-    if (options.debug_given) note(options, "--debug is not used: errors are of lit");
-    if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
+    if (options.debug_given) note(options, "--debug is not used: errors are measured in lit");
+    if (!options.channels.empty()) note(options, "--channels is not used: errors are measured in lit");
     if (options.scenes.size() == 1 && options.shard.empty()) return Sweep(options, sweep).run();
     return tradeoffMany(options, outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest),
                         [&](const Options& one) { Sweep(one, sweep).run(); });

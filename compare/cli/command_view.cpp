@@ -86,7 +86,7 @@ ReportedView readReport(const Options& options) {
     const std::filesystem::path file = options.view.report / "report.json";
     return named("--report " + options.view.report.string(), [&] {
         if (!isOurManifest(file))
-            fail("is no folder that compare has written: no report.json of ours is there");
+            fail("is not a report folder written by compare: it has no report.json of Diptych");
         static const std::set<std::string> wanted{"comparisons", "scene", "command", "channels",
                                                   "number",      "name",  "verdict", "worst_pixel"};
         const nlohmann::json report = parseJson(
@@ -96,8 +96,8 @@ ReportedView readReport(const Options& options) {
         ReportedView view{
             .command = comparison.at("command").texts(), .channel = channel.at("name").text(), .pixel = {}};
         if (view.command.empty() || view.command.front() != "compare")
-            fail("is not of two paths: view shows those of compare");
-        if (!findDebugMode(view.channel)) channel.at("name").fail("is no channel");
+            fail("is not a report of compare, which view needs");
+        if (!findDebugMode(view.channel)) channel.at("name").fail("is not a channel");
         if (const Place worst = channel.at("worst_pixel"); worst.json().is_array()) {
             const int x = worst[0].whole(-1, most_side), y = worst[1].whole(-1, most_side);
             if (x >= 0 && y >= 0) view.pixel = Options::Pixel{x, y};
@@ -125,11 +125,11 @@ Options reported(const Options& given) {
 
 void checkOneWindow(const Options& options) {
     if (options.scenes.size() > 1)
-        throw std::runtime_error(
-            fmt::format("view shows one scene, and {} are given", options.scenes.size()));
+        throw std::runtime_error(fmt::format("view shows one scene, and {} are given; run it once for each",
+                                             options.scenes.size()));
     if (options.cameras.size() > 1)
-        throw std::runtime_error(fmt::format("--camera {}: view begins at one camera, and N goes to the next",
-                                             options.cameras[1]));
+        throw std::runtime_error(fmt::format(
+            "--camera {}: view starts at one camera, and the key N goes to the next", options.cameras[1]));
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ int runView(const Options& given) {
         view.look.file = options.baseline_file;
         if (!std::filesystem::exists(pictureName(options.baseline_file).file))
             throw std::runtime_error(
-                fmt::format("--baseline {}: is not there", options.baseline_file.string()));
+                fmt::format("--baseline {}: no such file", options.baseline_file.string()));
     }
     const PictureChoice picture = pictureChoice(options);
     view.look.exposure = picture.exposure;
@@ -162,8 +162,8 @@ int runView(const Options& given) {
     if (options.pixel) view.pixel = viewer::PixelPlace{options.pixel->x, options.pixel->y};
     if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
                        view.pixel->y >= view.subject.settings.size.height))
-        throw std::runtime_error(fmt::format(
-            "--pixel {},{}: outside the picture; --size sets how large it is", view.pixel->x, view.pixel->y));
+        throw std::runtime_error(fmt::format("--pixel {},{}: is outside the image; --size sets its size",
+                                             view.pixel->x, view.pixel->y));
     for (const Path path : drawn_paths) {
         const Settings settings = options.sides.of(withoutReference(view.subject.settings), path);
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
@@ -171,7 +171,7 @@ int runView(const Options& given) {
     // What is wrong with the command is said before a window opens; what goes wrong later, in it.
     if (std::filesystem::is_directory(view.subject.scene))
         throw std::runtime_error(fmt::format(
-            "{}: is a folder; view shows one scene, a .gltf or .glb file of it", view.subject.scene));
+            "{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene));
     checkScene(view.subject.scene);
     say(options, "on " + Device(deviceOptions(options)).info().name);
     view.watch = options.view.watch;

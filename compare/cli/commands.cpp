@@ -54,8 +54,8 @@ std::filesystem::path outputFolder(const Options& options, const char* name, con
                                    const char* manifest) {
     const Output output = outputOf(options.out.empty() ? name : options.out, true);
     if (output.kind != OutputKind::folder)
-        throw std::runtime_error(
-            fmt::format("-o {}: a {} is a folder; give a name without ending", output.path.string(), what));
+        throw std::runtime_error(fmt::format("-o {}: the {} is a folder; give a name without an extension",
+                                             output.path.string(), what));
     checkReplaceable(output, manifest, options.force);
     return output.path;
 }
@@ -110,7 +110,7 @@ std::unique_ptr<Device> againstDevice(const Options& options) {
 
 void refuseOut(const Options& options) {
     if (!options.out.empty())
-        throw std::runtime_error(fmt::format("-o {}: {} writes no file; {} --json > FILE keeps what it says",
+        throw std::runtime_error(fmt::format("-o {}: {} writes no file; use {} --json > FILE",
                                              options.out.string(), options.command, options.command));
 }
 
@@ -140,7 +140,7 @@ void sayErrors(const std::vector<SceneError>& errors) {
     if (errors.empty()) return;
     wipeProgress();
     printMessage(errorText(errors.front()) +
-                 (errors.size() == 1 ? "" : fmt::format("; and {} more like it", errors.size() - 1)));
+                 (errors.size() == 1 ? "" : fmt::format("; and {} more", errors.size() - 1)));
 }
 
 void sayProblems(const Options& options, const std::vector<std::string>& problems,
@@ -148,7 +148,7 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
     for (std::size_t i = 1; i < problems.size(); ++i) say(options, problems[i]);
     sayErrors(
         {{"",
-          fmt::format("{}{}; {} has what is there", problems.front(),
+          fmt::format("{}{}; {} shows the results so far", problems.front(),
                       problems.size() == 1 ? "" : fmt::format(" (and {} more, see -v)", problems.size() - 1),
                       page.string())}});
 }
@@ -166,7 +166,7 @@ std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& repo
 void checkSince(const Options& options) {
     if (options.since.empty()) return;
     if (!options.shard.empty())
-        throw std::runtime_error("--since: a shard has not all scenes; give it to merge");
+        throw std::runtime_error("--since: a shard does not have all scenes; give --since to merge");
     trendsSince(options.since, {}, {});
 }
 

@@ -17,6 +17,7 @@
 #include "compare/shards/manifest.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
+#include "shared/text/counted.h"
 #include "shared/text/input_file.h"
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ public:
         findKept();
         checkHeaders();
         sayWhenInterrupted(fmt::format(
-            "the scenes so far are kept in {}: the same command goes on from there", kept_.path().string()));
+            "finished scenes are kept in {}: the same command continues from there", kept_.path().string()));
         compareAll();
         sayWhenInterrupted("");
         return finish();
@@ -85,7 +86,7 @@ private:
         const Json there = kept_.find("device");
         if (there.is_object() && there.value("device", Json()) != device)
             throw std::runtime_error(fmt::format(
-                "{}: holds scenes that were drawn on another device ({}); remove it, or give that --device",
+                "{}: holds scenes rendered on another device ({}); remove it, or use that --device",
                 kept_.path().string(), there["device"].dump()));
         kept_.keep("device", {{"device", device}});
     }
@@ -101,12 +102,12 @@ private:
             try {
                 parts_.emplace(item, readPart(kept_.path(), item->folder));
             } catch (const std::runtime_error& problem) {
-                note(options_, fmt::format("{}; the scene is compared again", problem.what()));
+                note(options_, fmt::format("{}; comparing the scene again", problem.what()));
             }
         }
         if (!parts_.empty())
-            note(options_, fmt::format("{} of {} scenes were compared before the last run ended",
-                                       parts_.size(), items_.mine.size()));
+            note(options_, fmt::format("{} of {} scenes are kept from an interrupted run", parts_.size(),
+                                       items_.mine.size()));
     }
 
     // Runs what is about one scene. One that cannot be read or drawn becomes an error of the report, and the
@@ -118,7 +119,7 @@ private:
             throw;  // of this machine
         } catch (const std::runtime_error& error) {
             errors_.emplace(item, SceneError{item->scene, error.what()});
-            say(options_, fmt::format("{}; the other scenes are compared", error.what()));
+            say(options_, fmt::format("{}; continuing with the other scenes", error.what()));
         }
     }
 
@@ -201,8 +202,9 @@ private:
                 whole.parts.push_back({std::move(part->second), kept_.path(), true});
         }
         if (whole.parts.empty() && options_.shard.empty())
-            throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
-                                                 items_.all.size(), whole.errors.front().message));
+            throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
+                                                 counted(items_.all.size(), "scene"),
+                                                 whole.errors.front().message));
         if (!options_.shard.empty())
             whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items_.plan, items_.shard,
                                                   items_.all, whole.errors});
@@ -240,12 +242,11 @@ private:
 
 int compareMany(const Options& options, const std::vector<Settings>& settings, const fs::path& folder) {
     if (!options.baseline_file.empty())
-        throw std::runtime_error(fmt::format("--shard {}: --baseline {} is of one picture; leave out --shard",
+        throw std::runtime_error(fmt::format("--shard {}: --baseline {} holds one view; leave out --shard",
                                              options.shard, options.baseline_file.string()));
     if (options.single_file && !options.shard.empty())
         throw std::runtime_error(
-            "--single-file: a shard's pictures stand beside its page, from where merge takes them; leave it "
-            "out");
+            "--single-file: merge takes a shard's images from beside its page; leave it out");
     return Collection(options, settings, folder).run();
 }
 

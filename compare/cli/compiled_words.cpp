@@ -84,17 +84,15 @@ std::string addedInWords(const FeatureCost& cost) {
         const ShaderCost::Value with = cost.with.*row.value, without = cost.without.*row.value;
         if (!row.shown || !with || !without || *with == *without) continue;
         words.push_back(row.value == &ShaderCost::occupancy
-                            ? fmt::format("occupancy {:.0f} to {:.0f}", *without, *with)
+                            ? fmt::format("occupancy {:.0f} -> {:.0f}", *without, *with)
                             : fmt::format("{:+.0f} {}", *with - *without, row.heading));
     }
-    return words.empty() ? "other code, of the same cost" : fmt::format("{}", fmt::join(words, ", "));
+    return words.empty() ? "different code, same cost" : fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& device) {
     std::string text = fmt::format(
-        "  the compiler of {} ({}) says, of each shader's heaviest variant (occupancy: waves that a SIMD "
-        "unit "
-        "keeps at once)\n",
+        "  compiled for {} ({}): each shader's heaviest variant (occupancy: waves resident on a SIMD unit)\n",
         device.name, device.driver);
     std::string columns;
     for (const ShaderCostRow& row : shaderCostRows())
@@ -121,7 +119,7 @@ std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& 
     }
     for (const CompiledPath& path : paths) {
         if (!path.features.empty())
-            text += fmt::format("  what features add to {}'s heaviest pipelines\n", nameOf(path.path));
+            text += fmt::format("  cost of each feature in {}'s heaviest pipelines\n", nameOf(path.path));
         for (const FeatureCost& cost : path.features)
             text += fmt::format("    {:<26} {} ({})\n", cost.feature, addedInWords(cost), cost.shader);
     }

@@ -111,7 +111,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
     const std::vector<int> channels = explainedChannels();
     const bool file = !left.origin.file.empty(), external = right.origin.external;
     if (file && external)
-        throw std::runtime_error("neither picture is drawn by diptych: what lights them is not known");
+        throw std::runtime_error("Diptych rendered neither image, so it cannot explain their lighting");
     // Where --channels left some out.
     std::optional<Frame> again[2];
     RenderOptions render = renderOptions(options);
@@ -132,7 +132,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
         if (external)
             words = withOption(std::move(words), "--renderer",
                                fmt::format("{}={}", right.name, right.origin.file));
-        of.commands = {{"With every cause's own map",
+        of.commands = {{"With a map of each cause",
                         shellLine(withOption(std::move(words), "-o", "diptych-explanation"))}};
     }
     const Explanation explanation = explain(device, drawing.renderer, drawing.scene, a, b, progress);
@@ -155,8 +155,8 @@ void addExplanations(const Options& options, Device& device, Report& report, con
         const Frame &left = report.baseline(comparison), &right = report.test(comparison);
         if (isReferenceFrame(left)) {
             comparison.explained = notExplained(
-                "the reference lights otherwise than the channels that are swapped; both paths against each "
-                "other are explained");
+                "the reference does not light from the channels that explain replaces; the comparison of "
+                "both paths is explained");
             continue;
         }
         const auto done = static_cast<double>(i);

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
             // An earlier write may have failed, whose reason is gone.
             pollfd reader{STDOUT_FILENO, POLLOUT, 0};
             if (errno == 0 && poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) endOfPipe();
-            throw std::system_error(errno, std::generic_category(), "stdout: cannot be written");
+            throw std::system_error(errno, std::generic_category(), "stdout: cannot write");
         }
         return code;
     } catch (const std::system_error& error) {

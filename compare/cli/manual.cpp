@@ -233,8 +233,8 @@ std::string fishCompletion(const CLI::App& app, const Words& scenes) {
 
 std::string manualPage(const CLI::App& app, const std::string& version) {
     std::string page = fmt::format(
-        ".TH DIPTYCH 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\ndiptych \\- draws a scene through two render "
-        "paths and says where they differ\n",
+        ".TH DIPTYCH 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\ndiptych \\- renders a scene with two render "
+        "paths and reports where they differ\n",
         roff(version));
     page += ".SH SYNOPSIS\n.B diptych\n.I COMMAND\n[\\fIOPTION\\fR]... [\\fISCENE\\fR]...\n";
     page += fmt::format(
@@ -258,8 +258,8 @@ std::string manualPage(const CLI::App& app, const std::string& version) {
         page += fmt::format(".PP\n.nf\n{}\n.fi\n", roff(command->get_footer()));
     }
     page +=
-        ".SH EXIT STATUS\n.TP\n0\nparity holds, a budget is met, a picture is written\n.TP\n1\na difference "
-        "beyond tolerance, a budget that is not met\n.TP\n2\ncould not do it: one line on stderr says what "
+        ".SH EXIT STATUS\n.TP\n0\nparity holds, a budget is met, an image is written\n.TP\n1\na difference "
+        "is beyond tolerance, or a budget is not met\n.TP\n2\nan error: one line on stderr says what failed "
         "and where\n";
     return page;
 }
@@ -269,7 +269,7 @@ std::string completion(const CLI::App& app, const std::string& shell,
     if (shell == "bash") return bashCompletion(app, scenes);
     if (shell == "zsh") return zshCompletion(app, scenes);
     if (shell == "fish") return fishCompletion(app, scenes);
-    throw std::runtime_error(fmt::format("--completion {}: is one of {}", shell, completedShells));
+    throw std::runtime_error(fmt::format("--completion {}: takes one of {}", shell, completedShells));
 }
 
 }  // namespace diptych::cli

@@ -143,7 +143,7 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
         if (!options.channels.empty() &&
             std::ranges::count(options.channels, static_cast<int>(gpu::DEBUG_lit)) == 0)
             throw std::runtime_error(fmt::format(
-                "--msaa {}: lit alone is compared with the reference; add it to --channels", s.msaa));
+                "--msaa {}: only lit is compared with the reference; add it to --channels", s.msaa));
     }
 }
 
@@ -155,13 +155,13 @@ void checkAgainstDevice(const Options& options, const std::vector<Settings>& set
     if (againstReference(options) || !options.baseline_file.empty())
         refuse(
             "compares each path with itself on another device; leave out --baseline reference or FILE.exr");
-    if (options.pixel) refuse("compares whole pictures; leave out --pixel");
+    if (options.pixel) refuse("compares whole images; leave out --pixel");
     if (!options.renderers.empty()) refuse("compares two devices; leave out --renderer");
     for (const Settings& of : settings)
         if (of.msaa > 1)
             refuse(
-                fmt::format("--msaa {}: lit is of several samples and its surfaces are those of the first; "
-                            "give --msaa 1",
+                fmt::format("--msaa {}: lit averages several samples, but the surface channels hold only the "
+                            "first; use --msaa 1",
                             of.msaa));
 }
 

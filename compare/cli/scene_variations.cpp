@@ -168,14 +168,15 @@ private:
 
     Property overdraw() const {
         Property property{.name = "overdraw",
-                          .unit = "fragments a covered pixel",
+                          .unit = "fragments per covered pixel",
                           .how =
-                              "surfaces drawn once and three times more just below themselves first, with "
-                              "as many triangles more",
+                              "one and three copies of every surface are drawn first, just below it, which "
+                              "also adds triangles",
                           .value = overdrawOf(here_),
                           .least = 1,
                           .most = 32};
-        if (property.value <= 0) property.not_varied = "this device counts no fragments, or nothing is solid";
+        if (property.value <= 0)
+            property.not_varied = "this device does not count fragments, or no surface is opaque";
         for (const int copies : {1, 3})
             if (property.not_varied.empty())
                 property.others.push_back(
@@ -186,8 +187,8 @@ private:
 
     Property lights() const {
         Property property{.name = "light density",
-                          .unit = "lights a pixel",
-                          .how = "every other light, and each two and four times",
+                          .unit = "lights per pixel",
+                          .how = "every other light, and two and four copies of each",
                           .value = lightsOf(here_),
                           .least = 0,
                           .most = 1024};
@@ -196,7 +197,7 @@ private:
         const SceneView& view = of_.views.at(viewRequest(seen));
         std::vector<Light> lights = view.lights;
         if (view.sun && !lights.empty()) lights.pop_back();  // the environment's, which is taken out again
-        if (lights.empty()) property.not_varied = "there is none that could be fewer or more";
+        if (lights.empty()) property.not_varied = "the scene has no light to remove or copy";
         for (const double factor : {0.5, 2.0, 4.0}) {
             if (lights.empty() || (factor < 1 && lights.size() < 2)) continue;
             property.others.push_back(
@@ -210,7 +211,7 @@ private:
         const auto [share, surface] = blendedShare(of_.references, here_.surface);
         Property property{.name = "transparency",
                           .unit = "% of the pixels",
-                          .how = "every material opaque, and every one blended",
+                          .how = "all materials opaque, and all blended",
                           .value = 100 * share,
                           .least = 0,
                           .most = 100};
@@ -227,8 +228,8 @@ private:
     Property samples() const {
         const int now = of_.settings[0].msaa, other = now > 1 ? 1 : 4;
         Property property{.name = "MSAA",
-                          .unit = now == 1 ? "sample a pixel" : "samples a pixel",
-                          .how = "both paths' Settings with as many samples",
+                          .unit = now == 1 ? "sample per pixel" : "samples per pixel",
+                          .how = "both paths' Settings with this number of samples",
                           .value = static_cast<double>(now),
                           .least = 1,
                           .most = 8,
@@ -239,7 +240,7 @@ private:
             if (const auto problem = each.problem()) property.not_varied = *problem;
         const std::vector<int> can = sampleCounts(of_.device);
         if (std::ranges::count(can, other) == 0)
-            property.not_varied = fmt::format("this device draws no {} samples", other);
+            property.not_varied = fmt::format("this device does not support {} samples", other);
         if (property.not_varied.empty()) property.others.push_back(withSettings(other, settings));
         return property;
     }
@@ -248,7 +249,7 @@ private:
         const auto count = static_cast<double>(materialsIn(scene_));
         Property property{.name = "materials",
                           .unit = count == 1 ? "material" : "materials",
-                          .how = "one for all solid surfaces, and one for each part of a mesh",
+                          .how = "one for all opaque surfaces, and one for each primitive",
                           .value = count,
                           .least = 1,
                           .most = 1024};
@@ -264,7 +265,7 @@ private:
     Property triangles() const {
         Property property{.name = "triangles",
                           .unit = "triangles drawn",
-                          .how = "each eight times more, which cover no pixel",
+                          .how = "eight more per triangle, which cover no pixel",
                           .value = trianglesOf(here_),
                           .least = 1,
                           .most = 1e8};
@@ -278,7 +279,7 @@ private:
         const double pixels = static_cast<double>(now.width) * now.height;
         Property property{.name = "size",
                           .unit = "pixels",
-                          .how = "half and twice the width and height",
+                          .how = "half and double the width and height",
                           .value = pixels,
                           .least = 16 * 9,
                           .most = 7680.0 * 4320};

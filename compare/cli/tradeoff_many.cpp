@@ -14,6 +14,7 @@
 #include "compare/run/print.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -72,7 +73,7 @@ Swept sweptIn(const fs::path& root, const shards::Item& item) {
     return named((root / name).string(), [&] {
         const nlohmann::json json = parseJson(textBelow(root, name, json_bytes));
         const Place top(json);
-        if (top.textOr("software", "") != softwareName) fail("is no tradeoff");
+        if (top.textOr("software", "") != softwareName) fail("is not a report of tradeoff");
         return sweptOf(item, top);
     });
 }
@@ -96,18 +97,14 @@ std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>&
         failed = "<section class=\"box failures\"><h4>Failures</h4><ul>" + failed + "</ul></section>\n";
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error of {0} "
-        "scenes</title>\n"
-        "<style>{1}</style></head>\n<body><header><p class=\"brand\">Diptych</p><h1>Time against error of "
-        "{0} "
-        "scenes</h1></header>\n{2}<section class=\"index\"><div class=\"box "
-        "scroll\"><table><thead><tr>{3}</tr>"
-        "</thead><tbody>{4}</tbody></table></div></section>\n<p class=\"soft small\">Times are of the device "
-        "that the "
-        "row names, and those of several devices are no "
-        "scale.</p>\n<script>{5}sortable(document.querySelector('.index "
-        "table'), true);</script>\n</body></html>\n",
-        all.size(), page::style, failed,
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error of "
+        "{0}</title>\n<style>{1}</style></head>\n<body><header><p class=\"brand\">Diptych</p><h1>Time "
+        "against error of {0}</h1></header>\n{2}<section class=\"index\"><div class=\"box "
+        "scroll\"><table><thead><tr>{3}</tr></thead><tbody>{4}</tbody></table></div></section>\n<p "
+        "class=\"soft small\">Times were measured on the device in the row; times of different devices do "
+        "not compare.</p>\n<script>{5}sortable(document.querySelector('.index table'), "
+        "true);</script>\n</body></html>\n",
+        counted(all.size(), "scene"), page::style, failed,
         [] {
             std::string heads;
             for (const auto& [name, number] : {std::pair{"scene", false},
@@ -152,7 +149,7 @@ void showMany(const Options& options, const fs::path& folder, const shards::Mani
     if (options.json)
         printText(text);
     else if (!options.quiet)
-        printOut("{} scenes: {}\n", done.size(), (folder / "index.html").string());
+        printOut("{}: {}\n", counted(done.size(), "scene"), (folder / "index.html").string());
 }
 
 int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
@@ -193,12 +190,13 @@ int tradeoffMany(const Options& options, const fs::path& folder,
             throw;  // of this machine
         } catch (const std::runtime_error& error) {
             manifest.errors.push_back({item->scene, error.what()});
-            say(options, fmt::format("{}; the other scenes are swept", error.what()));
+            say(options, fmt::format("{}; continuing with the other scenes", error.what()));
         }
     }
     if (done.empty() && !manifest.errors.empty() && options.shard.empty())
-        throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
-                                             items.all.size(), manifest.errors.front().message));
+        throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
+                                             counted(items.all.size(), "scene"),
+                                             manifest.errors.front().message));
     const int code = finish(options, folder, manifest, done);
     kept.remove();
     return code;

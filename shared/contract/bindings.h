@@ -27,7 +27,7 @@ CONTRACT_END
     X(4,  AREA_LIGHTS,  texel_buffer,   "AreaLight[], three texels each")                     \
     X(5,  LTC_TABLE,    image,          "ltc.h")                                              \
     X(6,  LIST_HEADS,   texel_buffer,   "LightListHead[lists + 1], a texel each")             \
-    X(7,  LIST_INDICES, texel_buffer,   "uint[]: numbers of lights, a packet a texel")        \
+    X(7,  LIST_INDICES, texel_buffer,   "uint[]: light indices, one list entry per texel")    \
     X(8,  LIST_COUNTS,  storage_buffer, "uint[2 lists + 1]: light_list.h")                    \
     X(9,  ALBEDO,       texel_buffer,   "vec4[]: each sample of albedo.h with the next one")      \
     X(10, OBJECT_LIST,  storage_buffer, "ObjectLight[]")                                      \
@@ -37,7 +37,7 @@ CONTRACT_END
     X(14, SHADOW_MAP,   image,          "depth or moments of the cascades, a layer each; pages") \
     X(15, LOCAL_SHADOW_LIGHTS, texel_buffer, "LocalCasters, then nine texels a light")        \
     X(16, LOCAL_SHADOW_MAP, image,      "depth in the tiles of local lights, an array of one layer") \
-    X(17, ENVIRONMENT,      texel_buffer, "where its maps lie, and its harmonics: environment.h")     \
+    X(17, ENVIRONMENT,      texel_buffer, "offsets of its maps, and its harmonics: environment.h")   \
     X(18, ENVIRONMENT_MAPS, image,      "octahedral maps, RGBA32F, W/(sr m^2)")                      \
     X(19, SKY,              image,      "the environment, lat-long, RGBA32F, W/(sr m^2)") \
     X(20, HAZE,             texel_buffer, "Haze, five texels, then HazeMarch, three: haze.h")

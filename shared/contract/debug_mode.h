@@ -27,30 +27,30 @@
     X(5,  emission,         3, relative, color,  positive, both,         "emitted radiance, W/(sr m^2)") \
     X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")  \
     X(7,  specular,         3, absolute, color,  share,    both,         "F0, specular colour at normal incidence") \
-    X(8,  material_id,      1, exact,    id,     any,      both,         "index of the material, -1 in the background") \
-    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first texture coordinates")  \
+    X(8,  material_id,      1, exact,    id,     any,      both,         "material index; -1: background") \
+    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first UV set")               \
     X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)") \
-    X(11, position,         3, relative, vector, any,      both,         "shading position, world axes, from the camera, m") \
-    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world") \
-    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel") \
-    X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list found no room") \
-    X(22, shaded_samples,   1, absolute, scalar, positive, deferred_only, "Surfaces that deferred lighting shades at the pixel, of several samples") \
-    X(30, shadow_visibility, 1, absolute, scalar, share,   both,         "share of the casting sun that is seen; 1 where none casts") \
-    X(31, cascade,          1, exact,    id,     any,      paths_only,   "cascade of the sun's shadow map, or the clipmap's level that is asked for, from 0; -1 where none serves") \
-    X(32, page_residency,   1, exact,    id,     any,      paths_only,   "levels by which that which serves is coarser; 0: the page is there; -1 without a clipmap") \
-    X(33, local_visibility, 1, absolute, scalar, share,    both,         "share that is seen of the points and spots that cast, weighted by irradiance; 1 where none does") \
-    X(40, lit_diffuse,      3, relative, color,  any,      both,         "reflected by the diffuse lobe, W/(sr m^2)") \
-    X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \
-    X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \
-    X(43, lit_haze,         3, relative, color,  any,      both,         "scattered to the viewer by haze before the surface, W/(sr m^2)") \
-    X(44, transmittance,    3, absolute, color,  share,    both,         "share of the surface's light that haze lets through") \
-    X(45, lit_environment,  3, relative, color,  any,      both,         "the environment's part of lit_diffuse and lit_specular, W/(sr m^2)") \
+    X(11, position,         3, relative, vector, any,      both,         "shading position relative to the camera, world axes, m") \
+    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "triangle normal, world")        \
+    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "number of lights evaluated at the pixel") \
+    X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list overflowed") \
+    X(22, shaded_samples,   1, absolute, scalar, positive, deferred_only, "number of sample groups that deferred lighting shades at the pixel") \
+    X(30, shadow_visibility, 1, absolute, scalar, share,   both,         "visible fraction of the shadow-casting sun; 1 without one") \
+    X(31, cascade,          1, exact,    id,     any,      paths_only,   "sun shadow cascade, or requested clipmap level, from 0; -1: none") \
+    X(32, page_residency,   1, exact,    id,     any,      paths_only,   "resident minus requested clipmap level; 0: page resident; -1: no clipmap") \
+    X(33, local_visibility, 1, absolute, scalar, share,    both,         "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any") \
+    X(40, lit_diffuse,      3, relative, color,  any,      both,         "radiance reflected by the diffuse lobe, W/(sr m^2)")  \
+    X(41, lit_specular,     3, relative, color,  any,      both,         "radiance reflected by the specular lobe, W/(sr m^2)") \
+    X(42, lit_ambient,      3, relative, color,  any,      both,         "radiance of reflected ambient light, W/(sr m^2)") \
+    X(43, lit_haze,         3, relative, color,  any,      both,         "radiance scattered by haze in front of the surface, W/(sr m^2)") \
+    X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1")       \
+    X(45, lit_environment,  3, relative, color,  any,      both,         "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
-    X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)") \
-    X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent that the normal map is read with, world; 0 without one") \
+    X(51, lightmap,         3, relative, color,  positive, both,         "lightmap irradiance / pi, W/(sr m^2)") \
+    X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent of the normal map, world; 0 without a normal map") \
     X(53, handedness,       1, exact,    scalar, any,      forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map") \
-    X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "the normal map's normal in tangent space, unit; 0 without one") \
-    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer alone")
+    X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "normal map's normal, tangent space, unit; 0 without a normal map") \
+    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer")
 // clang-format on
 
 // name  image  component: where a channel stands in the images of four components that captures draw, its

@@ -39,7 +39,7 @@
     X(4, SPECULAR, image, "specular")        \
     X(5, IDS,      image, "material ids")    \
     X(6, LIGHTMAP, image, "lightmap")        \
-    X(7, SHADED,   image, "shaded places")
+    X(7, SHADED,   image, "shaded sample locations")
 // clang-format on
 
 CONTRACT_BEGIN

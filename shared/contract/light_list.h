@@ -107,15 +107,15 @@ CONTRACT_END
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
     X(3,  TILE_DEPTHS, storage_buffer, "vec2[lists]: least and largest view depth of a tile's list, m")    \
-    X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
+    X(4,  OVERFLOW,    storage_buffer, "uint: number of lists that overflowed")                           \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
-    X(6,  HEADS,       storage_buffer, "LightListHead[lists + 1]: the last one of all local lights")      \
+    X(6,  HEADS,       storage_buffer, "LightListHead[lists + 1]: the last one lists all local lights")   \
     X(7,  INDICES,     storage_buffer, "uint[capacity * width]")                                          \
     X(8,  LISTED,      storage_buffer, "uint[2 lists + 1]: lights of each list, for channels; then with"  \
                                        " several samples the bits of the largest view depth of each tile") \
     X(9,  USED_WORDS,  storage_buffer, "uint[words / 32][list_stride]: which words have any bits")        \
     X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then their begins") \
-    X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")                     \
+    X(11, MASK_TEXELS, texel_buffer,   "the masks again, four lists of a row per texel")                  \
     X(12, CANDIDATES,  storage_buffer, "uint[words][tiles + slices]: as masks, of whole tiles and slices")
 // clang-format on
 

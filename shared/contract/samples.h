@@ -41,7 +41,7 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 // number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
-    X(14, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: how many are listed")            \
+    X(14, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \
     X(15, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
     X(16, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
                                       " batch in compute the diffuse sum")                     \

@@ -86,7 +86,7 @@ void ClusterTriangles::add(const ClusterTriangles& others) {
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     const std::size_t values = values_.size(), numbers = numbers_.size();
     if (values + others.values_.size() > most || numbers + others.numbers_.size() > most)
-        throw std::runtime_error("the scene has over 2^29 triangles: more than culling can number");
+        throw std::runtime_error("the scene has over 2^29 triangles, too many for culling");
     values_.insert(values_.end(), others.values_.begin(), others.values_.end());
     numbers_.insert(numbers_.end(), others.numbers_.begin(), others.numbers_.end());
     for (Entry entry : others.entries_) {

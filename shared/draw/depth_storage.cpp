@@ -25,7 +25,7 @@ PipelineKey DepthStorage::stored(PipelineKey key) const {
         case VK_COMPARE_OP_ALWAYS:
             break;
         default:
-            throw std::logic_error("DepthStorage: a depth test that is not in the list");
+            throw std::logic_error("DepthStorage: unknown depth test");
     }
     return key;
 }
@@ -67,10 +67,10 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
                 VK_SAMPLE_COUNT_1_BIT) != 0;
     };
     if (!draws(depthStorage(settings.depth_format).format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))
-        return lacks("depth-format", "draws to no such images", "d32f");
+        return lacks("depth-format", "does not support this format as an attachment", "d32f");
     if (!draws(litFormatOf(settings.lit_format),
                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT))
-        return lacks("lit-format", "draws to no such images", "fp32");
+        return lacks("lit-format", "does not support this format as an attachment", "fp32");
     if (settings.path == Path::deferred && settings.lighting == Lighting::compute) {
         const auto samples = static_cast<VkSampleCountFlags>(settings.msaa);
         const bool stores = settings.msaa == 1 || device.support().storesSamples();
@@ -79,13 +79,15 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
                                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
              samples) == 0)
-            return lacks("lighting",
-                         fmt::format("stores to no such images of --msaa {}", settings.msaa).c_str(),
-                         "fragment");
+            return lacks(
+                "lighting",
+                fmt::format("does not support the storage images that it needs with --msaa {}", settings.msaa)
+                    .c_str(),
+                "fragment");
     }
     if (settings.shading_precision == ShadingPrecision::fp16 &&
         !device.support().has(DeviceFeature::shaderFloat16))
-        return lacks("shading-precision", "has no shaderFloat16", "fp32");
+        return lacks("shading-precision", "lacks shaderFloat16", "fp32");
     return {};
 }
 

@@ -207,10 +207,10 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
         indices.push_back(of.rest.indices);
     }
     if (3 * triangles.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::runtime_error(fmt::format(
-            "--transparency triangles: {} blended triangles are more than one buffer of indices holds; use "
-            "--transparency sorted",
-            triangles.size()));
+        throw std::runtime_error(
+            fmt::format("--transparency triangles: {} blended triangles do not fit in one index buffer; use "
+                        "--transparency sorted",
+                        triangles.size()));
     std::ranges::stable_sort(triangles, std::greater{}, &Triangle::depth);
     list.sorted_indices.reserve(3 * triangles.size());
     for (const Triangle& t : triangles) {

@@ -79,7 +79,7 @@ std::uint32_t indexCountOf(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives) sum += p.indices.size();
     if (2 * sum > std::numeric_limits<std::uint32_t>::max())
-        throw std::runtime_error("the scene has over 2^31 indices: more than one buffer holds");
+        throw std::runtime_error("the scene has over 2^31 indices, too many for one buffer");
     return static_cast<std::uint32_t>(sum);
 }
 
@@ -137,7 +137,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
             if (positions.size() + p.positions.size() > std::numeric_limits<std::int32_t>::max())
-                throw std::runtime_error("the scene has over 2^31 vertices: more than one buffer holds");
+                throw std::runtime_error("the scene has over 2^31 vertices, too many for one buffer");
             PrimitiveRange range;
             range.first_index = static_cast<std::uint32_t>(indices.size());
             range.index_count = static_cast<std::uint32_t>(p.indices.size());

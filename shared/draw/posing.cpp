@@ -62,10 +62,10 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     const std::size_t again = i.groups > 0 ? i.normals_end - i.positions_end : 0;
     const std::size_t rounds = deltas.size() + corners * i.positions_end + again;
     if (rounds > mostRounds)
-        throw std::runtime_error(fmt::format(
-            "morph targets have a weight in {} attributes of a vertex at once, which takes {} additions: a "
-            "shader makes up to {}",
-            deltas.size(), rounds, mostRounds));
+        throw std::runtime_error(
+            fmt::format("morph targets change {} attributes of a vertex at once, which needs {} additions; "
+                        "the limit is {}",
+                        deltas.size(), rounds, mostRounds));
     return deltas;
 }
 
@@ -169,7 +169,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         return;
     }
     if (skinning == Skinning::compute && vertices_ > std::numeric_limits<std::int32_t>::max())
-        throw std::runtime_error("the pose has over 2^31 vertices: more than one buffer holds");
+        throw std::runtime_error("the deformed meshes have over 2^31 vertices, too many for one buffer");
     makes_tangents_ = groups > 0;
     pose_ = arena.makeBuffer(device, "pose");
     constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |

@@ -56,7 +56,7 @@ void checkSamples(const FrameInputs& inputs) {
         throw std::runtime_error(fmt::format("--msaa {}: {} {}", samples, device.info().name, why));
     };
     if (device.limits().standardSampleLocations != VK_TRUE)
-        fail("has no standard places of samples; use --msaa 1");
+        fail("has no standard sample locations; use --msaa 1");
     std::vector<VkFormat> formats{inputs.lit_format, depthFormat};
     for (const VkFormat format : inputs.gbuffer.formats)
         if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
@@ -66,14 +66,14 @@ void checkSamples(const FrameInputs& inputs) {
                                                  : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         if ((device.support().sampleCounts(format, attachment | VK_IMAGE_USAGE_SAMPLED_BIT) &
              inputs.samples) == 0)
-            fail(fmt::format("does not draw to images of {} with this number of samples; use --msaa {}",
+            fail(fmt::format("does not support {} attachments with this number of samples; use --msaa {}",
                              nameOf(format), samples > 4 ? 4 : 1));
     }
     const gpu::uint most = device.profile().packets_per_draw;
     if (inputs.longest_list > most)
         fail(
-            fmt::format("walks {} packets of lights in a draw, and a list has {}; use --assign clustered or "
-                        "tiled, or --light-cutoff",
+            fmt::format("reads up to {} light list entries per draw, but a list has {}; use --assign "
+                        "clustered or tiled, or --light-cutoff",
                         most, inputs.longest_list));
 }
 

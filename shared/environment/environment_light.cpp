@@ -48,7 +48,7 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
     const Image& radiance = background.radiance;
     const auto most = static_cast<int>(device_.limits().maxImageDimension2D);
     if (radiance.width > most || radiance.height > most)
-        throw std::runtime_error(fmt::format("environment {}: {} x {} pixels; {} holds {} x {}",
+        throw std::runtime_error(fmt::format("environment {}: has {} x {} pixels; {} supports up to {} x {}",
                                              background.name, radiance.width, radiance.height,
                                              device_.info().name, most, most));
     const auto start = std::chrono::steady_clock::now();
@@ -73,8 +73,8 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
     images->sky = uploaded(device_, uploader, "sky", radiance.width, radiance.height, sky);
     const TruncationError raw = truncationError(maps, 0), windowed = truncationError(maps, images->window);
     images->note = fmt::format(
-        "environment: {} maps of up to {} texels a side, {} in {:.0f} ms; of irradiance's peak harmonics are "
-        "off by {:.2g} % on the mean and {:.2g} % at worst, windowed ({:.2g}) by {:.2g} and {:.2g} %",
+        "environment: {} maps of up to {} texels per side, {} in {:.0f} ms; error of spherical harmonics in "
+        "% of the peak irradiance: mean {:.2g}, largest {:.2g}; windowed ({:.2g}): {:.2g} and {:.2g}",
         maps.levels.size(), maps.levels.front().side, wasKept ? "read" : "made", ms, 100 * raw.mean,
         100 * raw.worst, images->window, 100 * windowed.mean, 100 * windowed.worst);
     made_.push_back(std::move(images));

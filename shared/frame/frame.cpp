@@ -26,7 +26,8 @@ bool isReferenceFrame(const Frame& frame) {
 
 std::string uncertaintyNote(double relative) {
     return fmt::format(
-        "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
+        "reference: relative half-width of the 95 % confidence interval of lit is at most {:.2g} at 99.9 % "
+        "of the pixels",
         relative);
 }
 

@@ -13,15 +13,15 @@ std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode)
             return {};
         case MadeBy::forward_only:
             return settings.path == Path::deferred
-                       ? "the deferred path's G-buffer does not carry it; --path forward_plus makes it"
+                       ? "the deferred path's G-buffer does not store it; use --path forward_plus"
                        : "";
         case MadeBy::deferred_only:
             if (settings.path != Path::deferred)
-                return "only deferred lighting chooses which samples it shades; --path deferred makes it";
+                return "only deferred lighting selects samples to shade; use --path deferred";
             return settings.msaa == 1 ? "every pixel is shaded once; use --msaa 4" : "";
         case MadeBy::paths_only:
-            return settings.path == Path::reference ? "the reference has neither light lists nor shadow "
-                                                      "maps; --path forward_plus and deferred show it"
+            return settings.path == Path::reference ? "the reference has no light lists or shadow maps; use "
+                                                      "--path forward_plus or deferred"
                                                     : "";
     }
     return {};

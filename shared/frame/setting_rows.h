@@ -12,29 +12,29 @@ namespace diptych {
 // Several rows share these words and checks.
 namespace row {
 
-inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";
-inline constexpr std::string_view needs_evsm4 = "has no meaning without --shadows evsm4";
-inline constexpr std::string_view needs_clipmap = "has no meaning without --shadows clipmap";
+inline constexpr std::string_view needs_evsm = "has no effect without --shadows evsm or evsm4";
+inline constexpr std::string_view needs_evsm4 = "has no effect without --shadows evsm4";
+inline constexpr std::string_view needs_clipmap = "has no effect without --shadows clipmap";
 inline constexpr std::string_view exponents =
-    "is 0 to 44.36, in 16 bits to 5.54: the largest whose square the format holds";
-inline constexpr std::string_view needs_shadows = "has no meaning without --shadows";
+    "must be 0 to 44.36, or 0 to 5.54 with 16-bit moments; larger squares exceed the format";
+inline constexpr std::string_view needs_shadows = "has no effect without --shadows";
 inline constexpr std::string_view needs_cascades =
-    "has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4";
+    "has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4";
 inline constexpr std::string_view needs_reference =
-    "has no meaning without a reference (--path reference, compare: --baseline reference)";
+    "has no effect without a reference (--path reference, compare: --baseline reference)";
 inline constexpr std::string_view every_light = "the reference evaluates every light";
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
-inline constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
+inline constexpr std::string_view only_reference = "only the reference takes several samples of a surface";
 
 inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
 inline constexpr int most_pages = 16384;
 inline constexpr int most_samples = 65536;  // more take a day for a small picture
 
 inline constexpr std::string_view needs_env =
-    "has no meaning without --env (--env scene takes that of the scene's own file)";
-inline constexpr std::string_view needs_haze = "has no meaning without --haze on";
-inline constexpr std::string_view scattering = "components are 0 to 1e6 1/m";
-inline constexpr std::string_view scale_height = "is 0.01 to 1e9 m";
+    "has no effect without --env (--env scene uses the environment in the scene's file)";
+inline constexpr std::string_view needs_haze = "has no effect without --haze on";
+inline constexpr std::string_view scattering = "components must be 0 to 1e6 1/m";
+inline constexpr std::string_view scale_height = "must be 0.01 to 1e9 m";
 inline bool isHazy(const Settings& s) {
     return s.haze;
 }
@@ -58,8 +58,8 @@ inline bool isFiniteFrom0(double value) {
 inline bool isReference(const Settings& s) {
     return s.path == Path::reference;
 }
-inline constexpr std::string_view needs_msaa = "has no meaning without --msaa 4";
-inline constexpr std::string_view own_samples = "the reference takes as many samples as --spp says";
+inline constexpr std::string_view needs_msaa = "has no effect without --msaa 4";
+inline constexpr std::string_view own_samples = "the reference takes --spp samples per pixel";
 inline bool hasMsaa(const Settings& s) {
     return s.msaa > 1;
 }
@@ -69,8 +69,9 @@ inline bool hasOneSample(const Settings& s) {
 inline bool hasReferenceSamples(const Settings& s) {
     return isReference(s) && s.reference_mode == ReferenceMode::scene && s.spp > 1;
 }
-inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
-inline constexpr std::string_view unfiltered = "the reference takes samples where a roughness is filtered";
+inline constexpr std::string_view needs_spec_aa = "has no effect without --spec-aa on";
+inline constexpr std::string_view unfiltered =
+    "the reference takes several samples instead of filtering roughness";
 constexpr bool shadesCaptures(const Settings& s) {
     return s.reference_mode == ReferenceMode::surface;
 }
@@ -115,7 +116,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::assign);
     visit(Field{.option = "light-kernel",
-                .help = "how light lists are filled: per light (scatter) or per tile (gather)",
+                .help = "filling of light lists: per light (scatter) or per tile (gather)",
                 .ignored = {.reference = row::every_light},
                 .sweep = "scatter,gather"},
           &Settings::light_kernel);
@@ -127,13 +128,13 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "on,off",
                 .for_surfaces = "on"},
           &Settings::prepass);
-    visit(Field{.option = "cull",
-                .help = "skip triangles of opaque surfaces that cannot be seen: outside the view, facing "
-                        "away, or between samples; same picture",
-                .off = "off",
-                .ignored = {.reference = "the reference draws no triangles"},
-                .for_surfaces = "on"},
-          &Settings::cull);
+    visit(
+        Field{.option = "cull",
+              .help = "skip opaque triangles outside the view, facing away, or between samples; same picture",
+              .off = "off",
+              .ignored = {.reference = "the reference draws no triangles"},
+              .for_surfaces = "on"},
+        &Settings::cull);
     visit(Field{.option = "gbuffer",
                 .help = "encoding of the deferred path's G-buffer",
                 .ignored = {.forward_plus = "forward_plus has no G-buffer",
@@ -143,8 +144,8 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "full"},  // the geometric normal is not packed either
           &Settings::gbuffer);
     visit(Field{.option = "lighting",
-                .help = "what shades the deferred path's G-buffer: fragments of a full-screen triangle, or "
-                        "compute shaders; same picture",
+                .help = "shading of the deferred path's G-buffer: by fragments of a full-screen triangle, or "
+                        "in compute; same picture",
                 .ignored = {.forward_plus = "forward_plus shades what it draws",
                             .reference = "the reference shades on the CPU"},
                 .sweep = "all",
@@ -152,8 +153,8 @@ void Settings::rows(Visit&& visit) {
           &Settings::lighting);
     visit(Field{.option = "depth-format",
                 .help = "depth format: reversed float, standard float, or reversed integers of 24 or 16 bits",
-                .default_only = {"has no meaning with --msaa 4: what several samples are shaded at is "
-                                 "interpolated, not stored",
+                .default_only = {"cannot be used with --msaa 4, which shades interpolated positions instead "
+                                 "of the stored depth",
                                  row::hasOneSample},
                 .ignored = {.reference = "the reference stores no depth"},
                 .sweep = "all",
@@ -161,21 +162,22 @@ void Settings::rows(Visit&& visit) {
           &Settings::depth_format);
     visit(Field{.option = "lit-format",
                 .help = "format of the lit image: floats of 32 or 16 bits, or of 11, 11 and 10 bits",
-                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
-                .ignored = {.reference = "the reference sums in double"},
+                .default_only = {"requires --msaa 1", row::hasOneSample},
+                .ignored = {.reference = "the reference computes in double precision"},
                 .sweep = "all",
                 .for_surfaces = "fp32"},
           &Settings::lit_format);
-    visit(Field{.option = "shading-precision",
-                .help = "precision of the light of points, spots and suns, where the device supports it",
-                .default_only = {"is built for --msaa 1 alone", row::hasOneSample},
-                .ignored = {.reference = "the reference shades in double"},
-                .sweep = "all",
-                .for_surfaces = "fp32"},
-          &Settings::shading_precision);
+    visit(
+        Field{.option = "shading-precision",
+              .help = "precision of shading by point, spot and directional lights, if the device supports it",
+              .default_only = {"requires --msaa 1", row::hasOneSample},
+              .ignored = {.reference = "the reference computes in double precision"},
+              .sweep = "all",
+              .for_surfaces = "fp32"},
+        &Settings::shading_precision);
     visit(Field{.option = "size",
                 .help = "picture size, WxH",
-                .valid = {"width and height are 1 to 16384",
+                .valid = {"width and height must be 1 to 16384",
                           [](const Settings& s) {
                               return row::isSide(s.size.width) && row::isSide(s.size.height);
                           }},
@@ -187,59 +189,60 @@ void Settings::rows(Visit&& visit) {
         &Settings::camera);
     visit(Field{.option = "time",
                 .help = "animation time, seconds",
-                .valid = {"is finite and at least 0 s",
+                .valid = {"must be finite and at least 0 s",
                           [](const Settings& s) { return row::isFiniteFrom0(s.time); }}},
           &Settings::time);
-    visit(
-        Field{.option = "animation", .help = "the animation to play, by index or name; without it all play"},
-        &Settings::animation);
+    visit(Field{.option = "animation", .help = "animation to play, by index or name; default: all"},
+          &Settings::animation);
     visit(Field{.option = "skinning",
-                .help = "pose skinned and morphed vertices once a frame (compute) or at every draw (vertex)",
-                .ignored = {.reference = "the reference poses in double"},
+                .help =
+                    "deform skinned and morphed vertices once per frame (compute) or in every draw (vertex)",
+                .ignored = {.reference = "the reference deforms vertices in double precision"},
                 .sweep = "all"},
           &Settings::skinning);
     visit(Field{.option = "skin-normals",
-                .help = "how a skinned vertex's normal is transformed: by the mean of its joints' inverse "
-                        "transposes, or by the cofactors of the mean of their matrices"},
+                .help = "transform of skinned normals: mean of the joints' inverse transposes, or cofactors "
+                        "of the mean of their matrices"},
           &Settings::skin_normals);
     visit(Field{.option = "env",
                 .help = "lat-long environment, .exr or .hdr; scene: the one in the scene's file, an error if "
-                        "it has none; none: only that one, if any",
+                        "it has none; none: the one in the scene's file, if any",
                 .off = "none",
-                .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
+                .valid = {"is empty; name a file, or use none",
+                          [](const Settings& s) { return !s.env.empty(); }},
                 .for_surfaces = "none"},
           &Settings::env);
     visit(Field{.option = "env-rotation",
                 .help = "rotation of the environment about +Y, degrees, counter-clockwise seen from above",
-                .valid = {"is finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
+                .valid = {"must be finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
                 .default_only = {row::needs_env, row::hasEnv},
                 .for_surfaces = "0"},
           &Settings::env_rotation);
     visit(Field{.option = "env-sun",
-                .help = "take the environment's sun out of it as a directional light that casts shadows",
+                .help = "extract the environment's sun as a directional light that casts shadows",
                 .off = "off",
                 .default_only = {row::needs_env, row::hasEnv},
                 .for_surfaces = "off"},
           &Settings::env_sun);
     visit(Field{.option = "ibl-intensity",
-                .help = "factor on the environment's radiance; 0 switches it off",
-                .valid = {"is finite and at least 0",
+                .help = "factor on the environment's radiance; 0: off",
+                .valid = {"must be finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
                 .default_only = {row::needs_env, row::hasEnv},
                 .sweep = "0",
                 .for_surfaces = "1"},
           &Settings::ibl_intensity);
     visit(Field{.option = "ibl",
-                .help = "specular light of the environment: prefiltered, with a table (split), or sampled at "
-                        "every pixel (sampled)",
+                .help = "specular light of the environment: split sum with prefiltered maps (split), or "
+                        "sampled at every pixel (sampled)",
                 .default_only = {row::needs_env, row::hasEnv},
                 .ignored = {.reference = row::integrates_env},
                 .sweep = "all",
                 .sweep_with = "ibl-samples"},
           &Settings::ibl);
     visit(Field{.option = "ibl-diffuse",
-                .help = "diffuse light of the environment: spherical harmonics, the same windowed so that "
-                        "none is negative, or an irradiance map",
+                .help = "diffuse light of the environment: spherical harmonics, the same windowed against "
+                        "negative values, or an irradiance map",
                 .default_only = {row::needs_env, row::hasEnv},
                 .ignored = {.reference = row::integrates_env},
                 .sweep = "all"},
@@ -247,25 +250,25 @@ void Settings::rows(Visit&& visit) {
     visit(
         Field{.option = "ibl-samples",
               .help = "directions per texel of the prefiltered environment, or per pixel with --ibl sampled",
-              .valid = {"is 1 to 4096",
+              .valid = {"must be 1 to 4096",
                         [](const Settings& s) { return s.ibl_samples >= 1 && s.ibl_samples <= 4096; }},
               .default_only = {row::needs_env, row::hasEnv},
               .ignored = {.reference = row::integrates_env},
               .sweep = "16,32,64,256,1024",
               .sweep_with = "ibl-bias"},
         &Settings::ibl_samples);
-    visit(
-        Field{.option = "ibl-bias",
-              .help = "mip levels added to each of these samples",
-              .valid = {"is 0 to 16", [](const Settings& s) { return s.ibl_bias >= 0 && s.ibl_bias <= 16; }},
-              .default_only = {row::needs_env, row::hasEnv},
-              .ignored = {.reference = row::integrates_env},
-              .sweep = "0,1,2"},
-        &Settings::ibl_bias);
+    visit(Field{.option = "ibl-bias",
+                .help = "mip level bias of these samples",
+                .valid = {"must be 0 to 16",
+                          [](const Settings& s) { return s.ibl_bias >= 0 && s.ibl_bias <= 16; }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "0,1,2"},
+          &Settings::ibl_bias);
     visit(Field{.option = "ambient",
                 .help = "constant ambient radiance R,G,B",
                 .off = "0,0,0",
-                .valid = {"components are finite and at least 0",
+                .valid = {"components must be finite and at least 0",
                           [](const Settings& s) {
                               return row::isFiniteFrom0(s.ambient.r) && row::isFiniteFrom0(s.ambient.g) &&
                                      row::isFiniteFrom0(s.ambient.b);
@@ -274,7 +277,7 @@ void Settings::rows(Visit&& visit) {
           &Settings::ambient);
     visit(Field{.option = "scene-lights",
                 .help =
-                    "the scene's own lights; off removes them, and the sun that a scene without lights gets",
+                    "the scene's own lights; off removes them and the default sun of a scene without lights",
                 .off = "off"},
           &Settings::scene_lights);
     visit(Field{.option = "lights",
@@ -282,21 +285,19 @@ void Settings::rows(Visit&& visit) {
                 .off = ""},
           &Settings::lights);
     visit(Field{.option = "seed", .help = "seed of the light rig"}, &Settings::seed);
-    visit(
-        Field{.option = "light-cutoff",
-              .help =
-                  "a light without a range ends where a white surface would have this luminance; 0: nowhere",
-              .off = "0",
-              .valid = {"is finite and at least 0",
-                        [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
-              .ignored = {.reference = "the reference lets every light go on as far as its range"},
-              .sweep = "0,1e-4,1e-3,1e-2",
-              .sweep_with = "assign"},
-        &Settings::light_cutoff);
+    visit(Field{.option = "light-cutoff",
+                .help = "luminance of a white surface at which a light without a range ends; 0: no end",
+                .off = "0",
+                .valid = {"must be finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
+                .ignored = {.reference = "the reference evaluates every light up to its own range"},
+                .sweep = "0,1e-4,1e-3,1e-2",
+                .sweep_with = "assign"},
+          &Settings::light_cutoff);
     visit(Field{.option = "pixel-lights",
                 .help = "lights shaded per pixel with --assign per_object",
-                .valid = {"is at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
-                .default_only = {"has no meaning without --assign per_object",
+                .valid = {"must be at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
+                .default_only = {"has no effect without --assign per_object",
                                  [](const Settings& s) { return s.assign == Assignment::per_object; }},
                 .ignored = {.reference = row::every_light},
                 .sweep = "0,1,2,4,8",
@@ -309,25 +310,25 @@ void Settings::rows(Visit&& visit) {
           &Settings::area_lights);
     visit(Field{.option = "textures",
                 .help = "texture decoding: by the device; on the CPU, to 16-bit and float texels (exact); or "
-                        "with metallic and roughness in unused alpha channels, which saves a sample (packed)",
-                .ignored = {.reference = "the reference decodes and filters in double",
+                        "packed: metallic and roughness in unused alpha channels, one texture read less",
+                .ignored = {.reference = "the reference decodes and filters in double precision",
                             .unless = row::shadesCaptures},
                 .sweep = "all"},
           &Settings::textures);
     visit(Field{.option = "specular-albedo",
-                .help = "directional albedo of the specular lobe: a table, or Karis's fit",
-                .ignored = {.reference = "the reference integrates what the specular lobe reflects"},
+                .help = "directional albedo of the specular lobe: table, or Karis's fit",
+                .ignored = {.reference = "the reference integrates the specular lobe's directional albedo"},
                 .sweep = "all"},
           &Settings::specular_albedo);
     visit(Field{.option = "multiscatter",
-                .help = "light that scatters between microfacets; walk is for the reference alone",
+                .help = "multiple scattering between microfacets; walk: only the reference",
                 .off = "off",
                 .sweep = "off,energy,fdez",
                 .for_surfaces = "off"},
           &Settings::multiscatter);
     visit(Field{.option = "base-layer",
-                .help = "light left for a dielectric's base: 1 less the largest component of its layer's "
-                        "reflectance, or less each component",
+                .help = "light that reaches a dielectric's base: 1 - largest component of the layer's "
+                        "reflectance, or 1 - each component",
                 .for_surfaces = "max"},
           &Settings::base_layer);
     visit(Field{.option = "spot-cone",
@@ -348,18 +349,18 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "off"},
           &Settings::shadows);
     visit(Field{.option = "shadow-lights",
-                .help = "number of point and spot lights that cast shadows, brightest first, beside those "
-                        "marked in the scene",
+                .help = "number of point and spot lights that cast shadows, brightest first, in addition to "
+                        "those marked in the scene",
                 .off = "0",
-                .valid = {"is at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
+                .valid = {"must be at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .sweep = "0,1,4",
                 .for_surfaces = "0"},
           &Settings::shadow_lights);
     visit(
         Field{.option = "shadow-size",
-              .help = "side of a shadow map or of a clipmap level, texels",
-              .valid = {"is 16 to 16384",
+              .help = "edge length of a shadow map or clipmap level, texels",
+              .valid = {"must be 16 to 16384",
                         [](const Settings& s) { return s.shadow_size >= 16 && row::isSide(s.shadow_size); }},
               .default_only = {row::needs_shadows, row::hasShadows},
               .ignored = {.reference = row::traces_shadows},
@@ -367,15 +368,15 @@ void Settings::rows(Visit&& visit) {
         &Settings::shadow_size);
     visit(Field{.option = "shadow-cascades",
                 .help = "cascades of the sun's shadow map",
-                .valid = {"is 1 to 4",
+                .valid = {"must be 1 to 4",
                           [](const Settings& s) { return s.shadow_cascades >= 1 && s.shadow_cascades <= 4; }},
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "1,2,4"},
           &Settings::shadow_cascades);
     visit(Field{.option = "shadow-kernel",
-                .help = "side of the shadow filter, texels",
-                .valid = {"is 1, 3, 5 or 7",
+                .help = "width of the shadow filter, texels",
+                .valid = {"must be 1, 3, 5 or 7",
                           [](const Settings& s) {
                               return s.shadow_kernel >= 1 && s.shadow_kernel <= 7 && s.shadow_kernel % 2 == 1;
                           }},
@@ -384,35 +385,35 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "1,3,5,7"},
           &Settings::shadow_kernel);
     visit(Field{.option = "shadow-fit",
-                .help = "what the sun's cascades cover: the whole view, or only the depths that are visible",
+                .help = "range of the sun's cascades: the whole view, or only the visible depths",
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "all"},
           &Settings::shadow_fit);
     visit(Field{.option = "shadow-distance",
-                .help = "shadows end at this view depth, m; 0: where the scene ends",
-                .valid = {"is finite and at least 0 m",
+                .help = "view depth at which shadows end, m; 0: end of the scene",
+                .valid = {"must be finite and at least 0 m",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_distance}); }},
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows}},
           &Settings::shadow_distance);
     visit(Field{.option = "shadow-bias",
-                .help = "offset of a receiver towards the sun along its triangle's normal, texels",
-                .valid = {"is finite and at least 0",
+                .help = "offset of receivers towards the sun along the triangle's normal, texels",
+                .valid = {"must be finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_bias}); }},
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "0.25,1"},
           &Settings::shadow_bias);
     visit(Field{.option = "shadow-casters",
-                .help =
-                    "what is drawn into shadow maps: casters whose shadow may be seen, or all; same picture",
+                .help = "geometry drawn into shadow maps: only casters whose shadow may be visible, or all; "
+                        "same picture",
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .ignored = {.reference = row::traces_shadows}},
           &Settings::shadow_casters);
     visit(Field{.option = "clipmap-pages",
-                .help = "capacity of the clipmap, pages; where more are needed, a coarser level serves",
-                .valid = {"is 1 to 16384",
+                .help = "capacity of the clipmap, pages; if more are needed, coarser levels are used",
+                .valid = {"must be 1 to 16384",
                           [](const Settings& s) {
                               return s.clipmap_pages >= 1 && s.clipmap_pages <= row::most_pages;
                           }},
@@ -422,8 +423,8 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::clipmap_pages);
     visit(Field{.option = "clipmap-page-size",
-                .help = "side of a clipmap page, texels",
-                .valid = {"is 32, 64, 128 or 256",
+                .help = "edge length of a clipmap page, texels",
+                .valid = {"must be 32, 64, 128 or 256",
                           [](const Settings& s) {
                               return s.clipmap_page_size == 32 || s.clipmap_page_size == 64 ||
                                      s.clipmap_page_size == 128 || s.clipmap_page_size == 256;
@@ -459,7 +460,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_negative_exponent);
     visit(Field{.option = "evsm-depth",
-                .help = "range of the warped depth: -1..1 halves light bleeding at the same exponent",
+                .help = "range of depth before warping: -1..1 halves light bleeding at the same exponent",
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "all",
@@ -468,7 +469,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "evsm-bleed",
                 .help = "light-bleeding reduction, 0 to below 1",
                 .off = "0",
-                .valid = {"is 0 to below 1",
+                .valid = {"must be 0 or more and below 1",
                           [](const Settings& s) { return s.evsm_bleed >= 0 && s.evsm_bleed < 1; }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
@@ -476,8 +477,8 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_bleed);
     visit(Field{.option = "evsm-min-variance",
-                .help = "minimum variance of depth, as a share of the depth range squared",
-                .valid = {"is finite and at least 0",
+                .help = "minimum variance of depth, as a fraction of the depth range squared",
+                .valid = {"must be finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.evsm_min_variance}); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
@@ -485,9 +486,9 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_min_variance);
     visit(Field{.option = "msaa",
-                .help = "samples per pixel: 1 or 4, and 8 where the device supports it",
+                .help = "samples per pixel: 1 or 4, and 8 if the device supports it",
                 .off = "1",
-                .valid = {"a pixel has 1, 4 or 8 samples",
+                .valid = {"must be 1, 4 or 8",
                           [](const Settings& s) { return s.msaa == 1 || s.msaa == 4 || s.msaa == 8; }},
                 .ignored = {.reference = row::own_samples},
                 .sweep = "1,4",
@@ -501,37 +502,36 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "msaa"},
           &Settings::msaa_shading);
     visit(Field{.option = "msaa-edges",
-                .help = "pixels whose samples deferred lighting shades one by one: all, those whose samples "
-                        "differ in a bit of the G-buffer (exact) or visibly (similar), or those that a "
-                        "triangle covers in part (coverage)",
+                .help = "pixels where deferred lighting shades each sample: all; those whose samples differ "
+                        "in any bit of the G-buffer (exact) or visibly (similar); or those that a triangle "
+                        "covers in part (coverage)",
                 .default_only = {row::needs_msaa, row::hasMsaa},
-                .ignored = {.forward_plus = "forward_plus shades each triangle as it is drawn",
+                .ignored = {.forward_plus = "forward_plus shades triangles as they are drawn",
                             .reference = row::own_samples},
                 .sweep = "all,similar,coverage",
                 .sweep_with = "msaa"},
           &Settings::msaa_edges);
     visit(Field{.option = "resolve",
-                .help = "mean of a pixel's samples: of their radiance, or weighted by 1 / (1 + the largest "
-                        "component)",
-                .default_only = {"has no meaning without --msaa 4 or a reference",
+                .help = "average of a pixel's samples: plain, or weighted by 1 / (1 + largest component)",
+                .default_only = {"has no effect without --msaa 4 or a reference",
                                  [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
-                .ignored = {.reference = "the reference takes one sample of a pixel",
+                .ignored = {.reference = "the reference takes one sample per pixel",
                             .unless = row::hasReferenceSamples},
                 .sweep = "tonemapped",
                 .sweep_with = "msaa",
                 .for_surfaces = "linear"},
           &Settings::resolve);
-    visit(Field{.option = "alpha-to-coverage",
-                .help = "alpha masks cover a share of a pixel's samples, sharpened at the cutoff",
-                .default_only = {"has no meaning but with --msaa 4 and --msaa-shading pixel: one sample is "
-                                 "covered or not",
-                                 [](const Settings& s) {
-                                     return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel;
-                                 }},
-                .ignored = {.reference = row::own_samples},
-                .sweep = "on",
-                .sweep_with = "msaa"},
-          &Settings::alpha_to_coverage);
+    visit(
+        Field{
+            .option = "alpha-to-coverage",
+            .help = "alpha masks cover a fraction of a pixel's samples, sharpened at the cutoff",
+            .default_only =
+                {"has no effect without --msaa 4 and --msaa-shading pixel: a single sample is covered or not",
+                 [](const Settings& s) { return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel; }},
+            .ignored = {.reference = row::own_samples},
+            .sweep = "on",
+            .sweep_with = "msaa"},
+        &Settings::alpha_to_coverage);
     visit(Field{.option = "spec-aa",
                 .help = "specular antialiasing: roughness grows where the normal varies within a pixel",
                 .off = "off",
@@ -539,8 +539,8 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "on"},
           &Settings::spec_aa);
     visit(Field{.option = "spec-aa-variance",
-                .help = "variance of the pixel filter, square pixels",
-                .valid = {"is 0 to 100",
+                .help = "variance of the pixel filter, pixels squared",
+                .valid = {"must be 0 to 100",
                           [](const Settings& s) {
                               return s.spec_aa_variance >= 0 && s.spec_aa_variance <= 100;
                           }},
@@ -550,8 +550,8 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_variance);
     visit(Field{.option = "spec-aa-limit",
-                .help = "largest growth of the squared GGX width",
-                .valid = {"is 0 to 1",
+                .help = "largest increase of the squared GGX width",
+                .valid = {"must be 0 to 1",
                           [](const Settings& s) { return s.spec_aa_limit >= 0 && s.spec_aa_limit <= 1; }},
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
@@ -559,34 +559,34 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_limit);
     visit(Field{.option = "spec-aa-normals",
-                .help = "normal whose variation counts: the interpolated one, or the normal map's too",
+                .help = "normal whose variation is used: the interpolated one, or also the normal map's",
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "mapped",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_normals);
     visit(Field{.option = "spec-aa-kernel",
-                .help = "how roughness grows with this variation: by its variance, or by its largest slope",
+                .help = "increase of roughness with this variation: by its variance, or by its largest slope",
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures}},
           &Settings::spec_aa_kernel);
     visit(Field{.option = "transparency",
-                .help = "how blended surfaces are ordered; off: they are not drawn",
-                .ignored = {.reference = "the reference blends by depth",
+                .help = "ordering of blended surfaces; off: they are not drawn",
+                .ignored = {.reference = "the reference sorts blended surfaces by depth",
                             .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
                 .sweep = "sorted,unsorted,triangles,weighted,moments,list",
                 .for_surfaces = "sorted"},
           &Settings::transparency);
     visit(Field{.option = "transparency-layers",
-                .help = "fragments per pixel that --transparency list sorts; the rest is blended as one "
+                .help = "fragments per pixel that --transparency list sorts; the others are blended as one "
                         "layer behind them",
-                .valid = {"is 1 to 256",
+                .valid = {"must be 1 to 256",
                           [](const Settings& s) {
                               return s.transparency_layers >= 1 && s.transparency_layers <= 256;
                           }},
-                .default_only = {"has no meaning without --transparency list",
+                .default_only = {"has no effect without --transparency list",
                                  [](const Settings& s) { return s.transparency == Transparency::list; }},
-                .ignored = {.reference = "the reference blends by depth"},
+                .ignored = {.reference = "the reference sorts blended surfaces by depth"},
                 .sweep = "4,8,16",
                 .sweep_with = "transparency"},
           &Settings::transparency_layers);
@@ -597,57 +597,57 @@ void Settings::rows(Visit&& visit) {
           &Settings::haze);
     visit(Field{.option = "haze-density",
                 .help = "factor on the scattering and absorption of the air",
-                .valid = {"is 0 to 1e6",
+                .valid = {"must be 0 to 1e6",
                           [](const Settings& s) { return s.haze_density >= 0 && s.haze_density <= 1e6f; }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "1"},
           &Settings::haze_density);
     visit(Field{.option = "haze-rayleigh",
-                .help = "scattering by molecules at height 0, R,G,B, 1/m",
+                .help = "scattering coefficient of molecules at height 0, R,G,B, 1/m",
                 .valid = {row::scattering,
                           [](const Settings& s) { return row::isScattering(s.haze_rayleigh); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "5.8e-6,13.5e-6,33.1e-6"},
           &Settings::haze_rayleigh);
     visit(Field{.option = "haze-rayleigh-height",
-                .help = "scale height of molecules, m: their density falls to 1/e",
+                .help = "scale height of molecules (density falls to 1/e), m",
                 .valid = {row::scale_height,
                           [](const Settings& s) { return row::isScaleHeight(s.haze_rayleigh_height); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "8000"},
           &Settings::haze_rayleigh_height);
     visit(Field{.option = "haze-mie",
-                .help = "scattering by aerosols at height 0, R,G,B, 1/m",
+                .help = "scattering coefficient of aerosols at height 0, R,G,B, 1/m",
                 .valid = {row::scattering, [](const Settings& s) { return row::isScattering(s.haze_mie); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "2e-5,2e-5,2e-5"},
           &Settings::haze_mie);
     visit(Field{.option = "haze-mie-height",
-                .help = "scale height of aerosols, m: their density falls to 1/e",
+                .help = "scale height of aerosols (density falls to 1/e), m",
                 .valid = {row::scale_height,
                           [](const Settings& s) { return row::isScaleHeight(s.haze_mie_height); }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "1200"},
           &Settings::haze_mie_height);
     visit(Field{.option = "haze-g",
-                .help = "mean cosine of the scattering angle of aerosols; above 0: forward",
-                .valid = {"is -0.99 to 0.99",
+                .help = "mean cosine of aerosols' scattering angle; above 0: forward",
+                .valid = {"must be -0.99 to 0.99",
                           [](const Settings& s) { return s.haze_g >= -0.99f && s.haze_g <= 0.99f; }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "0.76"},
           &Settings::haze_g);
     visit(Field{.option = "haze-ground",
                 .help = "world y of height 0, m",
-                .valid = {"is -1e9 to 1e9 m",
+                .valid = {"must be -1e9 to 1e9 m",
                           [](const Settings& s) { return s.haze_ground >= -1e9f && s.haze_ground <= 1e9f; }},
                 .default_only = {row::needs_haze, row::isHazy},
                 .for_surfaces = "0"},
           &Settings::haze_ground);
     visit(Field{.option = "haze-march-steps",
-                .help = "steps along each ray, with two scale heights and a sun that the air dims; 0: closed "
-                        "form, one height and one sun",
+                .help = "steps along each ray, with two scale heights and a sun attenuated by the air; 0: "
+                        "closed form with one scale height and a constant sun",
                 .off = "0",
-                .valid = {"is 0 to 256",
+                .valid = {"must be 0 to 256",
                           [](const Settings& s) {
                               return s.haze_march_steps >= 0 && s.haze_march_steps <= 256;
                           }},
@@ -658,13 +658,14 @@ void Settings::rows(Visit&& visit) {
           &Settings::haze_march_steps);
     visit(Field{.option = "spp",
                 .help = "samples per pixel of the reference",
-                .valid = {"1 to 65536",
+                .valid = {"must be 1 to 65536",
                           [](const Settings& s) { return s.spp >= 1 && s.spp <= row::most_samples; }},
                 .default_only = {row::needs_reference, row::isReference},
                 .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
           &Settings::spp);
     visit(Field{.option = "reference-mode",
-                .help = "what the reference shades: the surfaces that forward+ captured, or the scene itself",
+                .help = "surfaces that the reference shades: those captured by forward+, or those it traces "
+                        "in the scene",
                 .default_only = {row::needs_reference, row::isReference},
                 .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
           &Settings::reference_mode);

@@ -142,7 +142,7 @@ struct ValidValues {
 
 // Why no value but the default can be rendered; empty where every one can.
 struct DefaultOnly {
-    std::string_view because = {};              // "has no meaning without --haze on"
+    std::string_view because = {};              // "has no effect without --haze on"
     bool (*unless)(const Settings&) = nullptr;  // what lifts it; nullptr: nothing
 };
 

@@ -20,23 +20,22 @@ std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
 
 std::optional<std::string> deferredKnowsNoObjects(const Settings& s) {
     if (s.path != Path::deferred || s.assign != Assignment::per_object) return {};
-    return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object "
-           "a pixel shows; use --path forward_plus, or where both paths are drawn --forward-plus "
-           "assign=per_object";
+    return "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
+           "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered";
 }
 
 std::optional<std::string> tilesNeedDepths(const Settings& s) {
     if (s.path != Path::forward_plus || s.assign != Assignment::tiled || s.prepass != Switch::off) return {};
-    return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
-           "--prepass on";
+    return "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass "
+           "on";
 }
 
 std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
     const bool steps = s.depth_format == DepthFormat::d24 || s.depth_format == DepthFormat::d16;
     if (s.path != Path::forward_plus || s.prepass != Switch::off || !steps) return {};
     return fmt::format(
-        "--depth-format {} has no meaning with --prepass off: both paths shade the depth that was stored; "
-        "use --prepass on",
+        "--depth-format {} cannot be used with --prepass off: shading needs the stored depth; use --prepass "
+        "on",
         nameOf(s.depth_format));
 }
 
@@ -44,15 +43,14 @@ std::optional<std::string> levelsHavePages(const Settings& s) {
     if (s.path == Path::reference || s.shadows != Shadows::clipmap ||
         s.shadow_size >= 4 * s.clipmap_page_size)
         return {};
-    return fmt::format(
-        "--clipmap-page-size {}: four pages side by side are more than --shadow-size {}; use {}",
-        s.clipmap_page_size, s.shadow_size,
-        s.shadow_size < 128 ? "--shadow-size 128 or more" : "a smaller one");
+    return fmt::format("--clipmap-page-size {}: four pages in a row exceed --shadow-size {}; use {}",
+                       s.clipmap_page_size, s.shadow_size,
+                       s.shadow_size < 128 ? "--shadow-size 128 or more" : "a smaller one");
 }
 
 std::optional<std::string> onlyTheReferenceWalks(const Settings& s) {
     if (s.path == Path::reference || s.multiscatter != Multiscatter::walk) return {};
-    return "--multiscatter walk: the reference alone follows light between microfacets; use energy or fdez";
+    return "--multiscatter walk: only the reference simulates it; use energy or fdez";
 }
 
 std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
@@ -61,7 +59,7 @@ std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
                            s.transparency == Transparency::triangles || s.transparency == Transparency::off;
     if (s.path == Path::reference || s.msaa == 1 || drawnOver) return {};
     return fmt::format(
-        "--transparency {} with --msaa {}: its sums have one sample per pixel; use sorted, unsorted or "
+        "--transparency {} with --msaa {}: it supports only one sample per pixel; use sorted, unsorted or "
         "triangles",
         nameOf(s.transparency), s.msaa);
 }

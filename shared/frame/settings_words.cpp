@@ -231,7 +231,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
     for (const char* key : {"settings", "frames"})
         if (object.contains(key) && object[key].is_structured())
             throw std::runtime_error(
-                "settings: a whole report or frame; give one frame's \"settings\" object");
+                "settings: this is a whole report or frame; give one frame's \"settings\" object");
 
     Settings settings = base;
     std::set<std::string> unknown;
@@ -256,8 +256,8 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         if (unknown.contains(option)) {
             std::string words(option);
             std::ranges::replace(words, '_', '-');
-            throw std::runtime_error(fmt::format(
-                "settings: \"{}\" is no setting but an option of the command line: --{}", option, words));
+            throw std::runtime_error(
+                fmt::format("settings: \"{}\" is not a setting; use the option --{}", option, words));
         }
     if (!unknown.empty())
         throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", oneLine(*unknown.begin())));

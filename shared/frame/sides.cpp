@@ -41,9 +41,9 @@ void checkOption(Path path, const std::string& given, const std::string& option)
     for (const Field& field : settingFields()) known.emplace_back(field.option);
     if (std::ranges::find(known, option) == known.end())
         refuse(fmt::format("there is no Setting {}{}", option, didYouMean(option, known)));
-    if (option == "path") refuse("it is of this path already");
+    if (option == "path") refuse("the option already selects the path");
     if (std::ranges::find(view_options, option) != std::end(view_options))
-        refuse(fmt::format("both sides show one view of one scene; give --{} to both", option));
+        refuse(fmt::format("both paths show one view of one scene; use --{}, which sets both", option));
     const Field& field = settingField(option);
     if (field.ignored.of(path).empty()) return;
     const Path reads = other(path);
@@ -59,14 +59,15 @@ SideSettings::Words wordsOf(Path path, const std::string& list) {
         const std::size_t at = piece.find('=');
         if (at == 0 || (at == piece.npos && words.empty()))
             throw std::runtime_error(
-                fmt::format("{} {}: NAME=VALUE,..., as assign=every", sideOption(path), list));
+                fmt::format("{} {}: takes NAME=VALUE,..., for example assign=every", sideOption(path), list));
         if (at == piece.npos)
             words.back().second += "," + piece;
         else
             words.emplace_back(piece.substr(0, at), piece.substr(at + 1));
     }
     if (words.empty())
-        throw std::runtime_error(fmt::format("{} '': NAME=VALUE,..., as assign=every", sideOption(path)));
+        throw std::runtime_error(
+            fmt::format("{} '': takes NAME=VALUE,..., for example assign=every", sideOption(path)));
     return words;
 }
 
@@ -104,7 +105,7 @@ SideSettings readSides(const std::array<std::string, 2>& given, Settings& common
             checkOption(path, word, option);
             if (find(own.at(side), option))
                 throw std::runtime_error(
-                    fmt::format("{} {}: {} is there twice", sideOption(path), given.at(side), option));
+                    fmt::format("{} {}: {} is given twice", sideOption(path), given.at(side), option));
             Settings tried;
             try {
                 tried.set(option, value);

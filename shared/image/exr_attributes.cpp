@@ -65,7 +65,7 @@ std::string Cursor::name() {
 
 Cursor Attributes::valueOf(std::string_view name) const {
     const auto at = needed.find(name);
-    if (at == needed.end()) fail(fmt::format("attribute {}: is missing", name));
+    if (at == needed.end()) fail(fmt::format("has no attribute {}", name));
     return Cursor(at->second);
 }
 
@@ -83,8 +83,8 @@ Attributes readAttributes(Cursor& in, Bytes from, bool several) {
         if (type.empty()) fail(fmt::format("attribute {}: has no type", oneLine(name)));
         const auto size = in.number<std::int32_t>();
         if (size < 0 || static_cast<std::size_t>(size) > in.left())
-            fail(
-                fmt::format("attribute {}: {} bytes of {} left in the file", oneLine(name), size, in.left()));
+            fail(fmt::format("attribute {}: claims {} bytes, but the file has only {} left", oneLine(name),
+                             size, in.left()));
         const Bytes value = in.take(static_cast<std::size_t>(size));
         const auto meaning = std::ranges::find(meant, name, &Kept::name);
         if (meaning != meant.end() && type == meaning->type && value.size() == meaning->size)
@@ -95,9 +95,9 @@ Attributes readAttributes(Cursor& in, Bytes from, bool several) {
             continue;
         }
         if (type != known->type || (known->size != 0 && value.size() != known->size))
-            fail(fmt::format("attribute {}: {} of {} bytes where {} stands", name, oneLine(type), size,
-                             known->type));
-        if (!part.needed.emplace(name, value).second) fail(fmt::format("attribute {}: stands twice", name));
+            fail(fmt::format("attribute {}: is a {} of {} bytes instead of a valid {}", name, oneLine(type),
+                             size, known->type));
+        if (!part.needed.emplace(name, value).second) fail(fmt::format("attribute {}: appears twice", name));
     }
     part.all = from.first(from.size() - in.left());
     return part;

@@ -42,7 +42,7 @@ constexpr std::array compressors{
 
 const Compressor& compressorOf(const Attributes& part) {
     const auto compression = part.valueOf("compression").number<std::uint8_t>();
-    if (compression >= compressors.size()) fail(fmt::format("compression {} is not known", compression));
+    if (compression >= compressors.size()) fail(fmt::format("unknown compression {}", compression));
     return compressors[compression];
 }
 
@@ -54,16 +54,17 @@ ExrWindow windowOf(const Attributes& part, std::string_view name) {
     // OpenEXR's own limit, which keeps its coordinate sums within 32 bits.
     constexpr std::int32_t farthest = 1 << 29;
     for (const std::int32_t end : {window.min_x, window.min_y, window.max_x, window.max_y})
-        if (end < -farthest || end > farthest) fail(fmt::format("attribute {}: ends at {}", name, end));
+        if (end < -farthest || end > farthest)
+            fail(fmt::format("attribute {}: coordinate {} is out of range", name, end));
     return window;
 }
 
 // OpenEXR's RgbaFile writes luminance, Y, at full size and two colour differences at a quarter of it.
 [[noreturn]] void failToSample(const std::string& name) {
     const std::string component = name.substr(name.rfind('.') + 1);
-    fail(fmt::format("channel {} is subsampled, which is not read{}", oneLine(name),
+    fail(fmt::format("channel {} is subsampled, which is not supported{}", oneLine(name),
                      component == "RY" || component == "BY"
-                         ? ": luminance and chroma (Y, RY, BY) stand for R, G, B"
+                         ? ": the file has luminance and chroma (Y, RY, BY) instead of R, G, B"
                          : ""));
 }
 
@@ -77,14 +78,14 @@ std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
         const auto type = in.number<std::int32_t>();
         in.take(4);  // pLinear and three reserved bytes
         const auto xSampling = in.number<std::int32_t>(), ySampling = in.number<std::int32_t>();
-        if (type < 0 || type > 2) fail(fmt::format("channel {}: pixels of type {}", oneLine(name), type));
+        if (type < 0 || type > 2) fail(fmt::format("channel {}: unknown pixel type {}", oneLine(name), type));
         if ((xSampling != 1 || ySampling != 1) && subsampled.empty()) subsampled = name;
-        if (!names.insert(name).second) fail(fmt::format("channel {}: stands twice", oneLine(name)));
+        if (!names.insert(name).second) fail(fmt::format("channel {}: appears twice", oneLine(name)));
         channels.push_back({name, static_cast<ExrSample>(type)});
         if (std::ssize(channels) > limits::image_channels)
             fail(fmt::format("has over {} channels", limits::image_channels));
     }
-    if (in.left() > 0) fail("attribute channels: goes on behind its end");
+    if (in.left() > 0) fail("attribute channels: has data after its end");
     if (channels.empty()) fail("has no channels");
     if (wanted && !subsampled.empty()) failToSample(subsampled);
     return channels;
@@ -100,10 +101,10 @@ Tiles tilesOf(const Attributes& part, bool tiled) {
     Cursor in = part.valueOf("tiles");
     const auto width = in.number<std::uint32_t>(), height = in.number<std::uint32_t>();
     if (width < 1 || height < 1 || width > limits::image_side || height > limits::image_side)
-        fail(fmt::format("tiles of {} x {} pixels: 1 to {} a side are read", width, height,
+        fail(fmt::format("tiles of {} x {} pixels: each side must be 1 to {}", width, height,
                          limits::image_side));
     const int levels = in.number<std::uint8_t>() & 0x0f;
-    if (levels > 2) fail(fmt::format("tiles in levels of the unknown kind {}", levels));
+    if (levels > 2) fail(fmt::format("unknown level mode {} of tiles", levels));
     return {width, height, levels};
 }
 
@@ -154,8 +155,8 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
     constexpr std::int64_t small_tile = 4096;
     if (tiles.width > std::max(window.width(), small_tile) ||
         tiles.height > std::max(window.height(), small_tile))
-        fail(fmt::format("tiles of {} x {} pixels for {} x {}", tiles.width, tiles.height, window.width(),
-                         window.height()));
+        fail(fmt::format("tiles of {} x {} pixels are larger than the image of {} x {}", tiles.width,
+                         tiles.height, window.width(), window.height()));
     checkImageSize(std::max(window.width(), tiles.width),
                    tiles.width > 0 ? tiles.height : std::int64_t{compressor.lines}, pixel, most);
     claims.least_file += static_cast<double>(part.stored_bytes) / compressor.ratio;
@@ -165,7 +166,7 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
     claims.display += static_cast<std::uint64_t>(display.width() * display.height() * pixel);
     const std::uint64_t allowed = displayBytes(claims.data, most);
     if (claims.data > most || claims.display > allowed)
-        fail(fmt::format("and the parts before it claim {} MiB: {} MiB are read at most",
+        fail(fmt::format("this part and the parts before it claim {} MiB; the limit is {} MiB",
                          std::max(claims.data, claims.display) >> 20, allowed >> 20));
 }
 
@@ -174,7 +175,7 @@ std::optional<glm::dmat3> meaningOf(const Attributes& part, FileNotes& notes) {
     if (part.needed.contains("pixelAspectRatio"))
         noteAspect(part.valueOf("pixelAspectRatio").number<float>(), notes);
     if (const auto white = part.meaning.find("whiteLuminance"); white != part.meaning.end())
-        notes.not_applied.push_back(fmt::format("its white is of {:.6g} cd/m2, which is not applied",
+        notes.not_applied.push_back(fmt::format("its white luminance of {:.6g} cd/m2 is not applied",
                                                 Cursor(white->second).number<float>()));
     const auto chromaticities = part.meaning.find("chromaticities");
     if (chromaticities == part.meaning.end()) return {};
@@ -209,8 +210,8 @@ void Reader::readPart(const Attributes& attributes, int number) {
     const bool deep = isDeep(kind),
                wanted = asked.empty() || asked == name || asked == std::to_string(number);
     if (several() && !deep && kind != "scanlineimage" && kind != "tiledimage")
-        fail(fmt::format("is of type \"{}\"", oneLine(kind)));
-    if (wanted && deep) fail("holds deep samples, which are not read");
+        fail(fmt::format("has the unknown type \"{}\"", oneLine(kind)));
+    if (wanted && deep) fail("holds deep samples, which are not supported");
     const Compressor& compressor = compressorOf(attributes);
     const Tiles tiles = tilesOf(attributes, isTiled(kind));
     const ExrWindow window = windowOf(attributes, "dataWindow");
@@ -232,14 +233,14 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
     if (header.parts.empty()) header.display = display;
     if (display != header.display)
         fail(fmt::format(
-            "its display window is {} x {} at {}, {}, that of the parts before it {} x {} at {}, "
-            "{}: one part at a time is read, as FILE.exr?part={}",
+            "its display window is {} x {} at {}, {}, but {} x {} at {}, {} in the parts before it; read one "
+            "part, for example FILE.exr?part={}",
             display.width(), display.height(), display.min_x, display.min_y, header.display.width(),
             header.display.height(), header.display.min_x, header.display.min_y, part.number));
     FileNotes notes;
     if (tiles.levels > 0)
         notes.lines.push_back(
-            fmt::format("is {}-mapped: its largest level is read", tiles.levels == 1 ? "mip" : "rip"));
+            fmt::format("is {}-mapped; only its largest level is read", tiles.levels == 1 ? "mip" : "rip"));
     part.to_rec709 = meaningOf(attributes, notes);
     const std::string who = part.name.empty() ? "" : fmt::format("part \"{}\": ", oneLine(part.name, 60));
     for (const auto& [from, to] :

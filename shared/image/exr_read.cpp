@@ -208,7 +208,7 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
     Imf::InputPart in(file, part.number);
     const Imath::Box2i window = in.header().dataWindow();
     if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != part.data)
-        throw std::runtime_error("its data window can be read in two ways");
+        throw std::runtime_error("its data window is ambiguous");
     // If the display window contains all pixels they are read in place; otherwise all are read first and
     // then cropped.
     const bool direct = display.holds(part.data);
@@ -228,7 +228,7 @@ void checkNames(const std::vector<PictureLayer>& layers) {
     for (const PictureLayer& layer : layers)
         for (const std::string& name : layer.channels)
             if (!names.insert(name).second)
-                throw std::runtime_error("channel " + oneLine(name) + ": stands in two parts");
+                throw std::runtime_error("channel " + oneLine(name) + ": appears in two parts");
 }
 
 PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
@@ -249,8 +249,8 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
     for (const ExrPart& part : header.parts) {
         if (part.data != header.display)
             picture.notes.lines.push_back(fmt::format(
-                "{}its pixels are {}x{} from {},{} on, the picture is {}x{} from {},{} on: 0 where there are "
-                "none",
+                "{}its data window is {}x{} at {},{}, its display window {}x{} at {},{}; missing pixels are "
+                "0",
                 part.name.empty() ? "" : "part \"" + oneLine(part.name, 60) + "\": ", part.data.width(),
                 part.data.height(), part.data.min_x, part.data.min_y, header.display.width(),
                 header.display.height(), header.display.min_x, header.display.min_y));

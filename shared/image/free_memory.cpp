@@ -139,7 +139,7 @@ FreeMemory freeMemory(const fs::path& root) {
 void checkMemory(const std::string& what, std::uint64_t needed, const std::string& remedy,
                  const FreeMemory& free) {
     if (needed > free.bytes)
-        throw std::runtime_error(fmt::format("{}: needs about {}, {} are free here ({}); {}", what,
+        throw std::runtime_error(fmt::format("{}: needs about {}, but only {} are free ({}); {}", what,
                                              gigabytes(needed), gigabytes(free.bytes), free.limit, remedy));
 }
 

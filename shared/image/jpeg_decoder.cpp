@@ -57,7 +57,7 @@ void onProgress(j_common_ptr common) {
     const std::int64_t pixels = std::int64_t{jpeg.image_width} * std::int64_t{jpeg.image_height};
     if (std::max<std::int64_t>(pixels, 1 << 20) * jpeg.input_scan_number <= maxScannedPixels) return;
     auto& errors = *reinterpret_cast<Errors*>(common->err);
-    std::snprintf(errors.message.data(), errors.message.size(), "it has %d scans or more",
+    std::snprintf(errors.message.data(), errors.message.size(), "it has at least %d scans",
                   jpeg.input_scan_number);
     std::longjmp(errors.out, 1);
 }
@@ -141,9 +141,11 @@ bool decode(Decompressor& d, const JpegSize& size, unsigned char* pixels) {
 JpegSize readJpegSize(Bytes encoded) {
     Decompressor d(encoded);
     if (!readHeader(d)) failDecoding(d);
-    if (d.jpeg.arith_code) throw std::runtime_error("is a JPEG with arithmetic coding: not read");
+    if (d.jpeg.arith_code)
+        throw std::runtime_error("is a JPEG with arithmetic coding, which is not supported");
     if (d.jpeg.jpeg_color_space == JCS_UNKNOWN)
-        throw std::runtime_error("is a JPEG that is neither grey, RGB, YCbCr, CMYK nor YCCK: not read");
+        throw std::runtime_error(
+            "is a JPEG with an unsupported colour space; supported: grey, RGB, YCbCr, CMYK, YCCK");
     return {d.jpeg.image_width, d.jpeg.image_height, d.jpeg.jpeg_color_space == JCS_GRAYSCALE};
 }
 

@@ -23,17 +23,17 @@ void checkImageSize(std::int64_t width, std::int64_t height, std::int64_t bytesP
     constexpr std::int64_t side = limits::image_side;
     if (width < 1 || height < 1 || width > side || height > side)
         throw std::runtime_error(
-            fmt::format("claims {} x {} pixels: 1 to {} a side are read", width, height, side));
+            fmt::format("claims {} x {} pixels; each side must be 1 to {}", width, height, side));
     const std::uint64_t bytes =
         static_cast<std::uint64_t>(width * height) * static_cast<std::uint64_t>(bytesPerPixel);
     if (bytes > most)
-        throw std::runtime_error(fmt::format("claims {} x {} pixels of {} bytes: {} MiB are read at most",
-                                             width, height, bytesPerPixel, most >> 20));
+        throw std::runtime_error(fmt::format("claims {} x {} pixels of {} bytes; the limit is {} MiB", width,
+                                             height, bytesPerPixel, most >> 20));
 }
 
 void failToHold(std::int64_t width, std::int64_t height, std::size_t fileBytes) {
     throw std::runtime_error(
-        fmt::format("claims {} x {} pixels; its {} bytes cannot hold them", width, height, fileBytes));
+        fmt::format("claims {} x {} pixels, too many for its {} bytes", width, height, fileBytes));
 }
 
 }  // namespace diptych

@@ -32,7 +32,7 @@ std::string_view takeWord(std::string_view& rest) {
     const std::size_t size = from.substr(0, longest + 1).find_first_of(blanks);
     if (size == from.npos)
         fail(from.size() > longest
-                 ? fmt::format("\"{}\" in its header has no end", oneLine(from.substr(0, longest), 40))
+                 ? fmt::format("\"{}\" in its header is too long", oneLine(from.substr(0, longest), 40))
                  : "its header is cut short");
     rest = from.substr(size + 1);
     return from.substr(0, size);
@@ -65,7 +65,7 @@ PfmHeader readHeader(std::string_view& rest) {
     const std::string_view scale = takeWord(rest);
     header.scale = numberIn<float>(scale, "scale");
     if (!std::isnormal(header.scale))
-        fail(fmt::format("its scale is {}, which leaves nothing of its values", oneLine(scale, 40)));
+        fail(fmt::format("its scale is {}, not a normal number", oneLine(scale, 40)));
     return header;
 }
 
@@ -107,7 +107,7 @@ PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, st
         // byte.
         if (rest.size() == size + 1 && rest.data()[-1] == '\r' && rest.front() == '\n') rest.remove_prefix(1);
         if (rest.size() < size)
-            fail(fmt::format("is cut short: {} x {} pixels are {} bytes, {} of them are there", header.width,
+            fail(fmt::format("is cut short: {} x {} pixels need {} bytes, but it has {}", header.width,
                              header.height, size, rest.size()));
         PfmPicture picture{Image(header.width, header.height, header.components), rest.size() - size,
                            std::abs(header.scale)};

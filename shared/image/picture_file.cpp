@@ -12,6 +12,7 @@
 #include "shared/image/png.h"
 #include "shared/image/radiance.h"
 #include "shared/image/tiff.h"
+#include "shared/text/counted.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
             profile += segment.data.substr(icc.size() + numbers);
         return true;
     });
-    if (!profile.empty()) noteProfile(profile, "sRGB's", notes);
+    if (!profile.empty()) noteProfile(profile, "sRGB", notes);
     return notes;
 }
 
@@ -136,10 +137,10 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     PfmPicture pfm = readPfm(bytes, name, most);
     PictureFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
-        file.notes.lines.push_back(fmt::format("{} bytes behind its pixels are not read", pfm.behind));
+        file.notes.lines.push_back(fmt::format("{} after its pixels: ignored", counted(pfm.behind, "byte")));
     if (pfm.scale != 1)
         file.notes.lines.push_back(
-            fmt::format("its values were multiplied by the {} that its header says", pfm.scale));
+            fmt::format("its values were multiplied by {}, the scale in its header", pfm.scale));
     return file;
 }
 
@@ -158,9 +159,8 @@ Format formatOf(std::span<const std::byte> bytes, const std::string& name, std::
     if (!format)
         throw std::runtime_error(
             name +
-            ": is no picture that is read: by their first bytes OpenEXR, PNG, JPEG, TIFF, Radiance HDR and "
-            "PFM are");
-    if (!part.empty()) throw std::runtime_error(name + ": has no parts, which are an OpenEXR file's");
+            ": is not a supported image; supported formats: OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PFM");
+    if (!part.empty()) throw std::runtime_error(name + ": has no parts; only OpenEXR files have them");
     return *format;
 }
 

@@ -64,23 +64,22 @@ Encoding encodingOf(std::span<const std::byte> file) {
     });
     const bool stated = gamma != 0 && !is_srgb;
     encoding.linear = stated && gamma == one;
-    const char* const taken_as = encoding.linear ? "linear" : "sRGB's";
+    const char* const taken_as = encoding.linear ? "linear" : "sRGB";
     auto& not_applied = encoding.notes.not_applied;
     if (stated && !encoding.linear && (gamma + rounding < srgb || gamma > srgb + rounding))
-        not_applied.push_back(fmt::format("its gamma of {} is not applied: its values are taken as sRGB's",
+        not_applied.push_back(fmt::format("its gamma of {} is not applied; its values are read as sRGB",
                                           static_cast<double>(gamma) / one));
     using namespace std::string_view_literals;
     if (!code.empty() && code != "\1\15\0\1"sv)
-        not_applied.push_back(
-            fmt::format("its colours are of code points {} {} {} {} (ITU-T H.273), which are not applied: "
-                        "its values are taken as {}",
-                        bigEndian(code, 0, 1), bigEndian(code, 1, 1), bigEndian(code, 2, 1),
-                        bigEndian(code, 3, 1), taken_as));
+        not_applied.push_back(fmt::format(
+            "its colour code points {} {} {} {} (ITU-T H.273) are not applied; its values are read as {}",
+            bigEndian(code, 0, 1), bigEndian(code, 1, 1), bigEndian(code, 2, 1), bigEndian(code, 3, 1),
+            taken_as));
     else if (code.empty() && !profile.empty())
         noteProfile(profile, taken_as, encoding.notes);
     else if (code.empty() && !is_srgb && primaries)
         encoding.to_rec709 = matrixToRec709(*primaries, encoding.notes);
-    if (frames > 1) not_applied.push_back(fmt::format("the first of its {} frames alone is read", frames));
+    if (frames > 1) not_applied.push_back(fmt::format("only the first of its {} frames is read", frames));
     return encoding;
 }
 

@@ -51,7 +51,7 @@ std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& 
     constexpr double largest = 1e6;
     for (int i = 0; i < 9; ++i)
         if (!(std::abs(matrix[i / 3][i % 3]) < largest)) {
-            notes.not_applied.push_back(words + " span no colours: Rec. 709's are assumed");
+            notes.not_applied.push_back(words + " do not span a colour space; Rec. 709 is assumed");
             return {};
         }
     // Four digits of 0.06, the least of Rec. 709's, are off by as much; so are its primaries adapted to D50.
@@ -82,13 +82,13 @@ void noteAspect(double aspect, FileNotes& notes) {
     constexpr double rounding = 1e-3;
     if (std::isfinite(aspect) && aspect > 0 && std::abs(aspect - 1) > rounding)
         notes.not_applied.push_back(
-            fmt::format("its pixels are not square (aspect {:.4g}): they are shown square", aspect));
+            fmt::format("its pixels are not square (aspect {:.4g}) but are shown square", aspect));
 }
 
 void noteProfile(std::string_view profile, std::string_view taken_as, FileNotes& notes) {
     const auto mark = static_cast<std::uint32_t>(std::hash<std::string_view>()(profile));
     notes.not_applied.push_back(
-        fmt::format("its colour profile ({} bytes, {:08x}) is not applied: its values are taken as {}",
+        fmt::format("its colour profile ({} bytes, {:08x}) is not applied; its values are read as {}",
                     profile.size(), mark, taken_as));
 }
 

@@ -96,7 +96,7 @@ void readVariable(std::string_view line, RadianceHeader& header) {
     std::string_view value = trimmed(line.substr(equals + 1));
     if (name == "FORMAT") {
         if (value == "32-bit_rle_xyze")
-            fail("FORMAT 32-bit_rle_xyze, CIE XYZ, is not read: 32-bit_rle_rgbe is");
+            fail("FORMAT 32-bit_rle_xyze (CIE XYZ) is not supported; use 32-bit_rle_rgbe");
         if (value != "32-bit_rle_rgbe")
             fail(fmt::format("FORMAT {} is not 32-bit_rle_rgbe", oneLine(value, 60)));
         return;
@@ -166,9 +166,9 @@ void readOldLine(RadianceCursor& in, std::span<Rgbe> line) {
             shift = 0;
             continue;
         }
-        if (x == 0) fail("begins a line with a run");
+        if (x == 0) fail("a line begins with a run");
         const std::size_t run = shift < 24 ? std::size_t{pixel[3]} << shift : 0;
-        if (run > line.size() - x || shift >= 24) fail("a run goes past its line");
+        if (run > line.size() - x || shift >= 24) fail("a run is longer than its line");
         std::fill_n(line.begin() + static_cast<std::ptrdiff_t>(x), run, line[x - 1]);
         x += run;
         shift += 8;
@@ -182,7 +182,7 @@ void readNewLine(RadianceCursor& in, std::span<Rgbe> line) {
         for (std::size_t x = 0; x < line.size();) {
             const std::size_t code = in.byte();
             const std::size_t count = code > 128 ? code - 128 : code;
-            if (count == 0 || count > line.size() - x) fail("a run goes past its line");
+            if (count == 0 || count > line.size() - x) fail("a run is longer than its line");
             std::uint8_t value = 0;
             for (std::size_t i = 0; i < count; ++i) {
                 if (i == 0 || code <= 128) value = in.byte();
@@ -198,7 +198,7 @@ void readLine(RadianceCursor& in, std::span<Rgbe> line) {
         return readOldLine(in, line);
     const Rgbe mark = in.pixel();
     const std::size_t marked = std::size_t{mark[2]} << 8 | mark[3];
-    if (marked != length) fail(fmt::format("a line of {} pixels where {} stand", marked, length));
+    if (marked != length) fail(fmt::format("a line has {} pixels instead of {}", marked, length));
     readNewLine(in, line);
 }
 
@@ -221,7 +221,7 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     constexpr double largest = std::numeric_limits<float>::max();
     for (const double scale : header.scale)
         if (!(scale > 0 && scale * std::ldexp(255.5, 255 - 136) <= largest))
-            fail("EXPOSURE and COLORCORR take its values beyond a float's range");
+            fail("EXPOSURE and COLORCORR scale its values beyond the range of float");
 
     std::vector<Rgbe> line(static_cast<std::size_t>(length));
     // A line may take as little as 12 bytes (old runs). Before much memory is allocated, all lines are
@@ -246,7 +246,7 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     HdrPicture picture{std::move(image)};
     if (header.scale != std::array<double, 3>{1, 1, 1})
         picture.notes.lines.push_back(
-            fmt::format("its values were multiplied by {:.6g} {:.6g} {:.6g}, by its EXPOSURE and COLORCORR",
+            fmt::format("its values were multiplied by {:.6g} {:.6g} {:.6g} (its EXPOSURE and COLORCORR)",
                         header.scale[0], header.scale[1], header.scale[2]));
     noteAspect(header.aspect, picture.notes);
     if (header.primaries)

@@ -139,25 +139,25 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
 
     const bool grey = layout.colours == PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_MINISWHITE;
     if (!grey && layout.colours != PHOTOMETRIC_RGB)
-        fail(fmt::format("is a TIFF of photometric interpretation {}: grey (0, 1) and RGB (2) are read",
+        fail(fmt::format("is a TIFF with photometric interpretation {}; supported: grey (0, 1) and RGB (2)",
                          layout.colours));
     const int colours = grey ? 1 : 3;
     if (layout.components < colours || layout.components > colours + 1)
-        fail(fmt::format("is a TIFF of {} samples per pixel: {} and one of alpha are read", layout.components,
-                         grey ? "1 of grey" : "3 of RGB"));
+        fail(fmt::format("is a TIFF with {} samples per pixel; supported: {} and one of alpha",
+                         layout.components, grey ? "1 of grey" : "3 of RGB"));
     const bool read = isFloat(layout) ? layout.bits == 16 || layout.bits == 32
                                       : layout.format == SAMPLEFORMAT_UINT &&
                                             (layout.bits == 8 || layout.bits == 16 || layout.bits == 32);
     if (!read)
         fail(
-            fmt::format("is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 "
-                        "bits and floats (3) of 16 and 32 are read",
+            fmt::format("is a TIFF with {}-bit samples of format {}; supported: unsigned integers (1) of 8, "
+                        "16 and 32 bits, floats (3) of 16 and 32 bits",
                         layout.bits, layout.format));
     const std::uint64_t ratio = ratioOf(layout.compression);
     if (ratio == 0)
         fail(
-            fmt::format("is a TIFF of compression {}: none (1), LZW (5), Deflate (8, 32946) and PackBits "
-                        "(32773) are read",
+            fmt::format("is a TIFF with compression {}; supported: none (1), LZW (5), Deflate (8, 32946), "
+                        "PackBits (32773)",
                         layout.compression));
     checkImageSize(layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components,
                    most);
@@ -254,7 +254,8 @@ bool isTiff(std::span<const std::byte> bytes) {
 namespace {
 
 [[noreturn]] void failToDecode(const TiffBytes& file) {
-    fail("is a TIFF that does not decode: " + (file.error.empty() ? "its pieces have no place" : file.error));
+    fail("is a TIFF that does not decode: " +
+         (file.error.empty() ? "its strips or tiles have no offsets" : file.error));
 }
 
 // Profile, primaries (TIFF 6.0, 20), resolution and further pages. Primaries without a white are D65's.
@@ -264,7 +265,7 @@ void describe(TIFF* tiff, TiffPicture& picture) {
     const float *primaries = nullptr, *white = nullptr;
     const bool coloured = picture.image.components >= 3;
     if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &size, &profile) == 1) {
-        noteProfile({static_cast<const char*>(profile), size}, picture.linear ? "linear" : "sRGB's",
+        noteProfile({static_cast<const char*>(profile), size}, picture.linear ? "linear" : "sRGB",
                     picture.notes);
     } else if (coloured && TIFFGetField(tiff, TIFFTAG_PRIMARYCHROMATICITIES, &primaries) == 1) {
         Primaries all{0, 0, 0, 0, 0, 0, 0.3127, 0.3290};
@@ -276,7 +277,7 @@ void describe(TIFF* tiff, TiffPicture& picture) {
     const auto across = tagOf<float>(tiff, TIFFTAG_XRESOLUTION, 0),
                up = tagOf<float>(tiff, TIFFTAG_YRESOLUTION, 0);
     if (across > 0 && up > 0) noteAspect(double{up} / across, picture.notes);
-    if (TIFFLastDirectory(tiff) == 0) picture.notes.not_applied.emplace_back("its first page alone is read");
+    if (TIFFLastDirectory(tiff) == 0) picture.notes.not_applied.emplace_back("only its first page is read");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ LtcTable readTable() {
     for (const LtcLayer& layer : ltcLayers) {
         const auto found = std::ranges::find(file.layers, layer.name, &PictureLayer::name);
         if (found == file.layers.end() || found->image.data.size() != table.cells.size())
-            throw std::runtime_error("ltc.exr: not the table that fit_ltc writes; run fit_ltc");
+            throw std::runtime_error("ltc.exr: is not a table of fit_ltc; run fit_ltc");
         for (std::size_t i = 0; i < table.cells.size(); ++i) layer.of(table.cells[i]) = found->image.data[i];
     }
     return table;

@@ -7,6 +7,7 @@
 #include "shared/material/textures.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
@@ -281,9 +282,9 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
                                tbb::make_filter<Made, void>(inOrder, upload));
     if (reduced)
         textures.notes.push_back(
-            fmt::format("{} texture{} of over 8 bits a component: sampled as half floats (11 bits), {} "
-                        "filters nothing wider",
-                        reduced, reduced == 1 ? "" : "s", device.info().name));
+            fmt::format("{} with over 8 bits per component: sampled as half floats (11 bits), the widest "
+                        "format that {} filters",
+                        counted(reduced, "texture"), device.info().name));
 }
 
 std::uint64_t Materials::imageBytes() const {

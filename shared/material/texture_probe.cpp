@@ -267,21 +267,21 @@ std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling
             }
         }
         return DeviceFact{what, most <= 1e-3, false,
-                          fmt::format("off by up to {:.2g} %, at code {}; Vulkan allows {:.2g} %", 100 * most,
+                          fmt::format("error up to {:.2g} %, at code {}; Vulkan allows {:.2g} %", 100 * most,
                                       worst, 100 * halfCode)};
     };
     const auto filter = [&](const char* what, const FilterBound& bound) {
         return DeviceFact{what, bound.rounding < 0.1 / 255, false,
-                          fmt::format("off by up to {:.2g} of a code and {:.2g} % of the texels' difference; "
+                          fmt::format("error up to {:.2g} of a code plus {:.2g} % of the texels' difference; "
                                       "Vulkan allows {:.2g} %",
                                       bound.rounding * 255, 100 * bound.weight, 100 * share)};
     };
-    return {decode("decodes sRGB to a thousandth", sampling),
-            filter("filters 8 bits without rounding", sampling.linear_filter),
-            filter("filters 8 bits of sRGB without rounding", sampling.srgb_filter),
-            decode("decodes --textures exact to a thousandth", exact),
+    return {decode("decodes sRGB to 0.1 %", sampling),
+            filter("filters 8-bit texels without rounding", sampling.linear_filter),
+            filter("filters 8-bit sRGB texels without rounding", sampling.srgb_filter),
+            decode("decodes --textures exact to 0.1 %", exact),
             filter("filters --textures exact without rounding", exact.linear_filter),
-            filter("filters sRGB of it without rounding", exact.srgb_filter)};
+            filter("filters --textures exact sRGB without rounding", exact.srgb_filter)};
 }
 
 Scene withDecodedColors(Scene scene, const TexelDecode& srgb) {

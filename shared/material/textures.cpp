@@ -33,7 +33,7 @@ TextureFormat textureFormat(const Device& device, const TextureImage& image, boo
 GpuImage uploadTexture(Device& device, Uploader& uploader, const MipChain& chain, VkFormat format) {
     const auto most = static_cast<int>(device.limits().maxImageDimension2D);
     if (chain.width() > most || chain.height() > most)
-        throw std::runtime_error(fmt::format("image {}: {} x {} pixels; {} takes up to {} a side",
+        throw std::runtime_error(fmt::format("image {}: has {} x {} pixels; {} supports up to {} per side",
                                              chain.name(), chain.width(), chain.height(), device.info().name,
                                              most));
     GpuImage image(device, {.name = chain.name(),

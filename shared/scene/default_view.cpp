@@ -264,9 +264,9 @@ std::vector<DefaultView> insideViews(const Rating& rating) {
 
 std::string DefaultView::inWords() const {
     const char* from = place == Place::inside    ? "from inside"
-                       : place == Place::outside ? "from another side, which shows more"
+                       : place == Place::outside ? "from another side, because it shows more"
                                                  : "from outside";
-    return fmt::format("{}; {:.0f} % of the picture is covered", from, 100 * covered);
+    return fmt::format("{}; the scene covers {:.0f} % of the image", from, 100 * covered);
 }
 
 double viewEntropy(const std::vector<std::size_t>& pixels) {

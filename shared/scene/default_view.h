@@ -22,7 +22,7 @@ struct DefaultView {
     glm::dvec3 eye{0};             // inside: where it stands
     double covered = 0;            // share of a picture of 16:9 that shows a surface, 0 to 1
     double entropy = 0;            // bits, see viewEntropy()
-    std::string inWords() const;   // "from inside; 97 % of the picture is covered"
+    std::string inWords() const;   // "from inside; the scene covers 97 % of the image"
 };
 
 // Viewpoint entropy (Vázquez, Feixas, Sbert and Heidrich 2001, "Viewpoint Selection using Viewpoint

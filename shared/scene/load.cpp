@@ -36,7 +36,7 @@ SceneFile fileOf(const std::string& where) {
     const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
     if (ending != ".gltf" && ending != ".glb")
         throw std::runtime_error(fmt::format(
-            "{}: not a scene: expected a .gltf or .glb file or builtin:NAME (--list-scenes names them)",
+            "{}: is not a scene; give a .gltf or .glb file or builtin:NAME (render --list-scenes lists them)",
             where));
     return {file, question == where.npos ? "" : where.substr(question + key.size())};
 }

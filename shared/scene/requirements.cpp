@@ -3,6 +3,7 @@
 
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/animation.h"
+#include "shared/text/counted.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -99,19 +100,18 @@ std::string Requirements::areaLightsInWords() const {
     for (const auto& [count, kind] :
          {std::pair{rect_lights, "rect"}, std::pair{disc_lights, "disc"}, std::pair{tube_lights, "tube"}})
         if (count > 0) kinds.push_back(fmt::format("{} {}", count, kind));
-    return fmt::format("{} area light{} ({})", areaLights(), areaLights() == 1 ? "" : "s",
-                       fmt::join(kinds, ", "));
+    return fmt::format("{} ({})", counted(areaLights(), "area light"), fmt::join(kinds, ", "));
 }
 
 std::string Requirements::deformedInWords() const {
     if (skinned + morphed == 0) return {};
     std::string words;
-    if (skinned > 0) words = fmt::format("{} skinned mesh{}", skinned, skinned == 1 ? "" : "es");
+    if (skinned > 0) words = counted(skinned, "skinned mesh", "skinned meshes");
     if (morphed > 0)
         words += skinned > 0 ? fmt::format(", {} morphed", morphed)
-                             : fmt::format("{} morphed mesh{}", morphed, morphed == 1 ? "" : "es");
-    words += fmt::format(": {} {}", deformed_vertices, deformed_vertices == 1 ? "vertex" : "vertices");
-    if (skinned > 0) words += fmt::format(" by {} joint{}", joints, joints == 1 ? "" : "s");
+                             : counted(morphed, "morphed mesh", "morphed meshes");
+    words += ": " + counted(deformed_vertices, "vertex", "vertices");
+    if (skinned > 0) words += " by " + counted(joints, "joint");
     return words;
 }
 
@@ -124,17 +124,17 @@ std::vector<Requirements::Line> Requirements::lines() const {
 
     say(textures > 0, "textures", fmt::format("the materials in use read {}", textures),
         "no material in use reads a texture");
-    say(normal_maps, "normal maps", "a material has a normal texture: it needs tangents",
+    say(normal_maps, "normal maps", "a material has a normal texture, which needs tangents",
         "no material has a normal texture: tangents are not read");
-    say(vertex_colors, "vertex colours", "a mesh carries COLOR_0", "no mesh carries COLOR_0");
+    say(vertex_colors, "vertex colours", "a mesh has COLOR_0", "no mesh has COLOR_0");
     say(second_texcoord, "second UV set", "a texture reads TEXCOORD_1", "every texture reads TEXCOORD_0");
     say(texture_transform, "texture transforms", "a texture has KHR_texture_transform",
         "no texture has KHR_texture_transform");
     say(alpha_mask, "alpha test", "a material has alphaMode MASK",
-        "no material has alphaMode MASK: depth passes read positions alone");
+        "no material has alphaMode MASK: depth passes read only positions");
     say(alpha_blend, "alpha blending",
-        "a material has alphaMode BLEND or lets light through: drawn over what is opaque",
-        "no material has alphaMode BLEND: no pass blends");
+        "a material has alphaMode BLEND or transmission: drawn over opaque surfaces",
+        "no material has alphaMode BLEND: no blending pass");
     say(double_sided, "back faces", "a material is double-sided: its back faces are drawn",
         "no material is double-sided: back faces are culled");
     say(occlusion, "occlusion textures", "a material has an occlusion texture",
@@ -152,24 +152,25 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
     say(animations > 0, "animation",
-        fmt::format("{} play{}: nodes, lights, cameras and materials are as at the picture's time",
-                    animations, animations == 1 ? "s" : ""),
-        "nothing of the scene is animated");
+        fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
+                    animations == 1 ? "s" : ""),
+        "the scene has no animation");
     say(skinned + morphed > 0, "skins and morph targets", deformedInWords(),
-        "they move no vertex of the scene: nothing is posed");
+        "no mesh is skinned or morphed: no deformation");
     say(directional_lights > 0, "directional lights", fmt::format("{} in the scene", directional_lights),
         "none in the scene");
     say(local_lights > 0, "point and spot lights",
         fmt::format("{} point and {} spot in the scene", point_lights, spot_lights),
         "none in the scene: no light lists");
-    constexpr const char* notYet = "no path draws them yet; the reference does";
+    constexpr const char* notYet = "only the reference renders them";
     say(areaLights() > 0, "area lights", areaLightsInWords() + " in the scene",
         "none in the scene: no table of linearly transformed cosines");
-    result.push_back({false, "suns' discs",
+    result.push_back({false, "sun discs",
                       sun_discs > 0 ? fmt::format("{} in the scene: {}", sun_discs, notYet)
-                                    : "no directional light has an angle"});
-    say(!environment.empty(), "environment", environment + ": maps, harmonics, and the background",
-        "none in the scene: no map, no pass");
+                                    : "no directional light has an angular size"});
+    say(!environment.empty(), "environment",
+        environment + ": prefiltered maps, spherical harmonics, background",
+        "none in the scene: no maps, no pass");
     return result;
 }
 

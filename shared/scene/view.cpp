@@ -180,16 +180,16 @@ View explicitView(const DefaultViewOf& defaultView, const Bounds& bounds, double
         else if (key == "far")
             camera.far = numberOf(choice, key, value);
         else
-            failCamera(choice, fmt::format("\"{}\" is none of eye, target, fov, near, far", key));
+            failCamera(choice, fmt::format("\"{}\" is not one of eye, target, fov, near, far", key));
     }
     if (!(camera.yfov > 0 && camera.yfov < glm::radians(180.0)))
-        failCamera(choice, "fov must lie between 0 and 180 degrees");
+        failCamera(choice, "fov must be between 0 and 180 degrees");
     if (!(camera.near > 0) || std::isinf(camera.near)) failCamera(choice, "near must be above 0 and finite");
     if (!(camera.far > camera.near))
-        failCamera(choice, fmt::format("far must be beyond near, which is {:g}", camera.near));
+        failCamera(choice, fmt::format("far must be beyond near ({:g})", camera.near));
     view.target_distance = glm::length(eye - target);
     if (!(view.target_distance > 0) || std::isinf(view.target_distance))
-        failCamera(choice, "eye and target are the same point, or too far apart");
+        failCamera(choice, "eye and target are the same point or too far apart");
     camera.world_from_camera = lookAt(eye, target);
     return view;
 }
@@ -240,8 +240,7 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
               const DefaultViewOf& defaultView) {
     if (width < 1 || height < 1)
-        throw std::runtime_error(
-            fmt::format("--size {}x{}: a picture has at least one pixel", width, height));
+        throw std::runtime_error(fmt::format("--size {}x{}: must be at least 1x1", width, height));
 
     View view;
     const Camera* own =

@@ -86,7 +86,7 @@ struct VisibleSurface::Traced {
     // One thread builds, so that surfaces which coincide are met in the same order every time.
     void build() {
         device = rtcNewDevice("threads=1");
-        if (!device) throw std::runtime_error("Embree could not start");
+        if (!device) throw std::runtime_error("Embree failed to start");
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | embree_filter_flag);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);

@@ -59,8 +59,8 @@ ClipmapAtlas::ClipmapAtlas(Device& device, const AtlasShape& shape)
     const std::uint32_t most = device.limits().maxImageDimension2D;
     if (shape.size().x > most)
         throw std::runtime_error(
-            fmt::format("--clipmap-pages {}: {} pages of {}x{} texels with what filters read around them fit "
-                        "into the largest image of {}, {}x{}",
+            fmt::format("--clipmap-pages {}: only {} pages of {}x{} texels (with filter borders) fit in the "
+                        "largest image of {}, {}x{}",
                         shape.pages, (most / shape.slot) * (most / shape.slot), shape.slot, shape.slot,
                         device.info().name, most, most));
     image_ = GpuImage(device, {.name = "clipmap atlas",

@@ -161,14 +161,14 @@ ShadowPages ClipmapShadow::counts() const {
 std::vector<std::string> ClipmapShadow::notes() const {
     const AtlasShape& shape = atlas_->shape();
     std::vector<std::string> notes{
-        fmt::format("--shadows clipmap: {} of {}x{} pages and one page of the whole scene; {} of {}x{} "
-                    "texels in {}x{}, {:.1f} MiB",
+        fmt::format("--shadows clipmap: {} of {}x{} pages and one page for the whole scene; {} of {}x{} "
+                    "texels in an atlas of {}x{}, {:.1f} MiB",
                     counted(clipmap_.levels.size() - 1, "level"), clipmap_.width, clipmap_.width,
                     counted(shape.pages, "slot"), shape.slot, shape.slot, shape.size().x, shape.size().y,
                     static_cast<double>(atlas_->bytes()) / (1 << 20))};
     notes.push_back(
-        fmt::format("shadow pages: the picture needs {}, of which {} are resident and {} are served by a "
-                    "coarser level; {} of {} are drawn once, before the first frame",
+        fmt::format("shadow pages: requested {}, resident {}, replaced by a coarser level {}; drawn once, "
+                    "before the first frame: {} of {}",
                     served_.requested, served_.requested - served_.fallback, served_.fallback, cold_,
                     served_.resident.size()));
     return notes;

@@ -51,18 +51,17 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
         notes.push_back(
             fmt::format("shadows of {}: {}", counted(casting.lights.size(), "local light"), drawn));
         if (atlas.unseen > 0)
-            notes.back() += fmt::format("; {} without a tile: nothing that is seen lies there",
-                                        counted(atlas.unseen, "face"));
+            notes.back() +=
+                fmt::format("; {} without a tile: no visible receiver", counted(atlas.unseen, "face"));
         if (atlas.empty > 0)
-            notes.back() += fmt::format("; {} without a tile: nothing that casts lies there",
-                                        counted(atlas.empty, "face"));
+            notes.back() += fmt::format("; {} without a tile: no caster", counted(atlas.empty, "face"));
     }
     if (casting.unshadowed > 0)
-        notes.push_back(fmt::format("{} {} no shadow (--shadow-lights N lets the N brightest cast one)",
+        notes.push_back(fmt::format("{} {} no shadow (--shadow-lights N enables the N brightest)",
                                     counted(casting.unshadowed, "point or spot light"),
                                     casting.unshadowed == 1 ? "casts" : "cast"));
     if (casting.without_room > 0)
-        notes.back() += fmt::format("; {} of them would cast one, but the atlas holds {} tiles",
+        notes.back() += fmt::format("; {} of them should cast one, but the atlas is full ({} tiles)",
                                     casting.without_room, gpu::MAX_LOCAL_TILES);
     return notes;
 }

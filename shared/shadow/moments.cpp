@@ -34,12 +34,11 @@ namespace {
 MomentFormat fourMomentFormat(const MomentSupport& device) {
     constexpr double least = 3e-5, of16Bits = 6e-5;
     if (device.shares16) return {VK_FORMAT_R16G16B16A16_UNORM, false, of16Bits, {}};
-    const std::string because =
-        "the device does not both store and filter 16-bit integers that stand for 0 to 1";
+    const std::string because = "the device cannot store and filter 16-bit UNORM";
     if (device.filters32)
         return {VK_FORMAT_R32G32B32A32_SFLOAT, false, least, "moments in 32-bit floats: " + because};
     return {VK_FORMAT_R16G16B16A16_SFLOAT, true, 64 * of16Bits,
-            "moments in 16-bit floats, with 64 times the bias: " + because + ", nor filter 32-bit floats"};
+            "moments in 16-bit floats with 64 times the bias: " + because + " or filter 32-bit floats"};
 }
 
 }  // namespace
@@ -51,9 +50,9 @@ MomentFormat momentFormat(Shadows shadows, EvsmPrecision asked, const MomentSupp
         half{four ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R16G16_SFLOAT, true, 0, {}};
     MomentFormat chosen = asked == EvsmPrecision::fp16 || !device.filters32 ? half : single;
     if (asked != EvsmPrecision::fp16 && !device.filters32)
-        chosen.because = "moments in 16 bits: the device does not filter 32-bit floats";
+        chosen.because = "moments in 16-bit floats: the device does not filter 32-bit floats";
     else if (asked == EvsmPrecision::automatic)
-        chosen.because = "moments in 32 bits: the device filters 32-bit floats";
+        chosen.because = "moments in 32-bit floats: the device filters them";
     return chosen;
 }
 

@@ -77,8 +77,8 @@ MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
     for (const auto& [option, exponent] : {std::pair{"--evsm-exponent", request.exponent},
                                            std::pair{"--evsm-negative-exponent", request.negative}})
         if (double{exponent} > largest)
-            throw std::runtime_error(fmt::format("{} {}: {} bits hold up to {:.2f}", option, exponent,
-                                                 request.format.half ? 16 : 32,
+            throw std::runtime_error(fmt::format("{} {}: the limit of {}-bit floats is {:.2f}", option,
+                                                 exponent, request.format.half ? 16 : 32,
                                                  std::floor(100 * largest) / 100));
     return request;
 }
@@ -106,8 +106,8 @@ void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::s
     const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - first, 0));
     if (count < cascades.areas.size())
         notes.push_back(
-            fmt::format("shadow maps: {} of {} cascades are drawn: nothing that is seen lies in the others",
-                        count, cascades.areas.size()));
+            fmt::format("shadow maps: {} of {} cascades are drawn; the others contain nothing visible", count,
+                        cascades.areas.size()));
     cascades.areas = count > 0 ? std::vector(first, end) : std::vector<CascadeArea>{};
 }
 
@@ -169,7 +169,7 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
     const Bounds bounds = boundsOf(pose, inputs.geometry);
     if (filter_ == gpu::SHADOWS_PCSS && sun->angle == 0) {
         filter_ = gpu::SHADOWS_PCF;
-        notes_.emplace_back("--shadows pcss: the sun that casts has no angle, so its shadow is that of pcf");
+        notes_.emplace_back("--shadows pcss: the shadow-casting sun has no angular size, so pcf is used");
     }
     if (filter_ == gpu::SHADOWS_PCSS)
         request_.kernel = std::max(request_.kernel, request_.size / mapOfWidest);
@@ -212,10 +212,10 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
     if (std::ranges::any_of(maps_, [](const Map& map) { return map.casters.triangles > 0; })) {
         details_.push_back(fmt::format("shadow maps, from near to far: {} triangles of {}",
                                        fmt::join(triangles(), ", "),
-                                       all ? "all casters" : "casters whose shadow may be seen"));
+                                       all ? "all casters" : "casters whose shadow may be visible"));
         return;
     }
-    notes_.emplace_back("shadow maps: none is drawn, because nothing casts a shadow");
+    notes_.emplace_back("shadow maps: none is drawn; nothing casts a shadow");
     maps_.clear();
 }
 
@@ -225,15 +225,15 @@ void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const 
     depth_bounds_.emplace(inputs.device);
     request_.shown = shownDepths(inputs, pose, view);
     if (!request_.shown) {
-        notes_.emplace_back("--shadow-fit depth: the picture shows nothing, so cascades cover the view");
+        notes_.emplace_back("--shadow-fit depth: the image is empty, so cascades cover the whole view");
         return;
     }
     const double texel = fitCascades(view, bounds, to_light, request_).areas.front().texel;
     const DepthVariation varies = depthVariation(inputs, uploader, pose, view, texel, steps);
     notes_.push_back(fmt::format(
-        "--shadow-fit depth: cascades cover the shown view depths, {:.6g} to {:.6g} m; over {} "
-        "steps of a texel ({:.3g} m) to the right these vary by {:.2g} % and {:.2g} % (standard "
-        "deviation), and texels of shadows with them",
+        "--shadow-fit depth: cascades cover the visible depths, {:.6g} to {:.6g} m; if the camera moves "
+        "right by {} steps of a texel ({:.3g} m), these and the shadow texels vary by {:.2g} % and {:.2g} % "
+        "(standard deviation)",
         request_.shown->near, request_.shown->far, steps, texel, 100 * varies.near, 100 * varies.far));
 }
 
@@ -266,9 +266,8 @@ void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, dou
         const double drawn = request_.kernel * cascades.areas.front().texel;
         if (drawn < penumbra)
             notes_.push_back(
-                fmt::format("--shadows pcss: penumbras are drawn up to {} texels wide, in the first cascade "
-                            "{:.3g} m; the "
-                            "sun's disc may make some of {:.3g} m here",
+                fmt::format("--shadows pcss: penumbras are limited to {} texels ({:.3g} m in the first "
+                            "cascade); the sun's disc can cause {:.3g} m here",
                             request_.kernel, drawn, penumbra));
     }
     const double least = settings_.shadow_kernel, most = request_.kernel;

@@ -21,7 +21,7 @@ constexpr int reading = O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
 
 [[noreturn]] void failToOpen(int error) {
     if (error == ENOENT || error == ENOTDIR) fail("no such file");
-    if (error == ELOOP) fail("is a link, which is not followed here");
+    if (error == ELOOP) fail("is a link; links are not followed here");
     if (error == ENXIO) fail("is not a regular file");  // a socket, or a device that is not there
     fail("cannot be read: " + std::generic_category().message(error));
 }
@@ -39,7 +39,7 @@ int openBelow(const fs::path& root, const std::string& name) {
         const bool link = next < 0 && ::fstatat(folder, part.c_str(), &there, AT_SYMLINK_NOFOLLOW) == 0 &&
                           S_ISLNK(there.st_mode);
         ::close(std::exchange(folder, next));
-        if (link) fail(fmt::format("\"{}\" is a link, which is not followed here", part));
+        if (link) fail(fmt::format("\"{}\" is a link; links are not followed here", part));
         if (next < 0) failToOpen(error);
     };
     std::size_t at = 0;
@@ -82,7 +82,7 @@ void InputFile::check(std::uint64_t most_bytes) {
     if (!known) failToOpen(error);
     if (S_ISDIR(status.st_mode)) fail("is a folder");
     if (!S_ISREG(status.st_mode)) fail("is not a regular file");
-    fail(fmt::format("is {} bytes: at most {} are read", size_, most_bytes));
+    fail(fmt::format("has {} bytes; the limit is {}", size_, most_bytes));
 }
 
 void InputFile::read(std::span<std::byte> bytes) {

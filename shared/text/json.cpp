@@ -20,11 +20,11 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 void checkCount(std::size_t count, std::size_t most, const char* what) {
-    if (count > most) fail(fmt::format("has {} {}: at most {} are read", count, what, most));
+    if (count > most) fail(fmt::format("has {} {}; the limit is {}", count, what, most));
 }
 
 void check(const JsonShape& shape, const JsonLimits& limits) {
-    if (shape.depth > json_depth) fail(fmt::format("nests deeper than {}", json_depth));
+    if (shape.depth > json_depth) fail(fmt::format("is nested deeper than {} levels", json_depth));
     checkCount(shape.objects, limits.objects, "objects");
     checkCount(shape.values, limits.values, "values");
 }
@@ -69,7 +69,7 @@ ordered_json parseUniqueJson(std::string_view text) {
             twice = value.get<std::string>();
         return true;
     });
-    if (!twice.empty()) fail(fmt::format("\"{}\" stands twice", oneLine(twice)));
+    if (!twice.empty()) fail(fmt::format("\"{}\" appears twice", oneLine(twice)));
     return parsed;
 }
 

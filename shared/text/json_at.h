@@ -33,13 +33,13 @@ public:
         return JsonAt((*json_)[key], where_.empty() ? key : where_ + "." + key);
     }
     JsonAt operator[](std::size_t index) const {
-        if (index >= size()) fail(fmt::format("has {} elements: too few", size()));
+        if (index >= size()) fail(fmt::format("has only {} elements", size()));
         return JsonAt((*json_)[index], fmt::format("{}[{}]", where_, index));
     }
 
     // The elements of an array.
     std::size_t size() const {
-        if (!json_->is_array()) fail("is no array");
+        if (!json_->is_array()) fail("is not an array");
         return json_->size();
     }
     std::vector<JsonAt> each() const {
@@ -50,7 +50,7 @@ public:
     }
 
     const std::string& text() const {
-        if (!json_->is_string()) fail("is no string");
+        if (!json_->is_string()) fail("is not a string");
         return json_->template get_ref<const std::string&>();
     }
     std::string textOr(const char* key, const std::string& fallback) const {
@@ -62,11 +62,11 @@ public:
         return all;
     }
     bool flag() const {
-        if (!json_->is_boolean()) fail("is neither true nor false");
+        if (!json_->is_boolean()) fail("is not true or false");
         return json_->template get<bool>();
     }
     double number() const {
-        if (!json_->is_number()) fail("is no number");
+        if (!json_->is_number()) fail("is not a number");
         return json_->template get<double>();
     }
     double numberOr(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
@@ -79,12 +79,12 @@ public:
                               : json_->is_number_integer() &&
                                     std::cmp_greater_equal(json_->template get<std::int64_t>(), least) &&
                                     std::cmp_less_equal(json_->template get<std::int64_t>(), most);
-        if (!fits) fail(fmt::format("is no whole number from {} to {}", least, most));
+        if (!fits) fail(fmt::format("is not a whole number from {} to {}", least, most));
         return json_->template get<Whole>();
     }
     // An index into something of `count` elements.
     std::size_t index(std::size_t count) const {
-        if (count == 0) fail("is an index, and there is nothing");
+        if (count == 0) fail("is an index into an empty list");
         return whole<std::size_t>(0, count - 1);
     }
 

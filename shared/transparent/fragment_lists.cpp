@@ -46,10 +46,10 @@ FragmentLists::FragmentLists(Device& device, const DrawList& draws, const Settin
     : device_(device) {
     if (settings.transparency != Transparency::list || draws.blended().empty()) return;
     if (!device.support().sortsFragments())
-        throw std::runtime_error(fmt::format(
-            "--transparency list: {} lacks 64-bit atomics or stores in fragment shaders, or numbers "
-            "of triangles there; use sorted, weighted or moments",
-            device.info().name));
+        throw std::runtime_error(
+            fmt::format("--transparency list: {} lacks 64-bit atomics, stores or triangle indices in "
+                        "fragment shaders; use sorted, weighted or moments",
+                        device.info().name));
     layers_ = static_cast<std::uint32_t>(settings.transparency_layers);
     width_ = static_cast<std::uint32_t>(settings.size.width);
     const auto height = static_cast<std::uint32_t>(settings.size.height);

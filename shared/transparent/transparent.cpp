@@ -178,10 +178,10 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 void checkLightsOfBlended(const FrameInputs& inputs) {
     const gpu::uint most = inputs.device.profile().packets_per_draw;
     if (inputs.draws.blended().empty() || inputs.longest_list <= most) return;
-    throw std::runtime_error(fmt::format(
-        "blended surfaces: a list of lights has {} packets, one draw on {} walks {}; use --assign clustered "
-        "or tiled, --light-cutoff, or --transparency off",
-        inputs.longest_list, inputs.device.info().name, most));
+    throw std::runtime_error(
+        fmt::format("blended surfaces: a light list has {} entries, but a draw on {} reads up to {}; use "
+                    "--assign clustered or tiled, --light-cutoff, or --transparency off",
+                    inputs.longest_list, inputs.device.info().name, most));
 }
 
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {

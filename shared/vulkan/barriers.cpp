@@ -93,12 +93,12 @@ std::vector<Barrier> BarrierTracker::before(const std::string& pass, const std::
         const std::string& resource = name(use.resource);
         if (same->part != use.part)
             throw std::logic_error(fmt::format(
-                "pass {}: uses of {} overlap in part; declare them for the same part", pass, resource));
+                "pass {}: uses of {} overlap partially; declare the same levels and layers", pass, resource));
         if (same->access.layout != use.access.layout)
-            throw std::logic_error(fmt::format("pass {}: {} is used in two layouts at once", pass, resource));
+            throw std::logic_error(fmt::format("pass {}: uses {} in two layouts at once", pass, resource));
         if (writes(same->access) != writes(use.access) && same->access.stages != use.access.stages)
-            throw std::logic_error(fmt::format(
-                "pass {}: {} is written and read in different stages of one pass", pass, resource));
+            throw std::logic_error(
+                fmt::format("pass {}: writes and reads {} in different stages", pass, resource));
         same->access.stages |= use.access.stages;
         same->access.access |= use.access.access;
         same->discards = same->discards && use.discards;

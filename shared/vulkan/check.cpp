@@ -47,8 +47,7 @@ namespace {
 const char* helpFor(VkResult result) {
     switch (result) {
         case VK_ERROR_DEVICE_LOST:
-            return "; run it again with a smaller --size or fewer --lights, or choose another device with "
-                   "--device";
+            return "; try a smaller --size or fewer --lights, or choose another device with --device";
         case VK_ERROR_OUT_OF_HOST_MEMORY:
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         case VK_ERROR_MEMORY_MAP_FAILED:

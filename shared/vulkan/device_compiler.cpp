@@ -102,7 +102,7 @@ void DeviceCompiler::State::open(const DeviceInfo& chosen, const std::string& ch
                 fmt::format("--compile-on {}: {} lacks {}", choice, info.name, fact.what));
     if (!support.hasExtension(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
         throw std::runtime_error(fmt::format(
-            "--compile-on {}: {} says nothing of what it compiles (VK_KHR_pipeline_executable_properties)",
+            "--compile-on {}: {} does not report compiler statistics (VK_KHR_pipeline_executable_properties)",
             choice, info.name));
     device.reset(createDevice(support, true));
     const auto load = [&](const char* name) { return vkGetDeviceProcAddr(device.get(), name); };
@@ -133,8 +133,8 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
     const std::vector<std::string> files = radvFiles();
     if (files.empty())
         throw std::runtime_error(
-            fmt::format("--compile-on {}: no such device; there are {}. For AMD's GPUs RADV compiles without "
-                        "one: install mesa-vulkan-drivers (of Debian 13: Mesa 25)",
+            fmt::format("--compile-on {}: no such device; there are {}. RADV can compile for AMD GPUs that "
+                        "are not present: install mesa-vulkan-drivers (Debian 13: Mesa 25)",
                         choice, listOf(infos)));
     std::string family = choice;  // RADV writes them in small letters
     for (char& c : family) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -145,8 +145,8 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
     const auto openFamily = [&] {
         for (const DeviceInfo& info : s.list())
             if (info.name.starts_with(nullHardware)) return s.open(info, choice);
-        throw std::runtime_error(
-            fmt::format("--compile-on {}: RADV ({}) lists no such GPU", choice, fmt::join(files, ", ")));
+        throw std::runtime_error(fmt::format("--compile-on {}: RADV ({}) does not list such a GPU", choice,
+                                             fmt::join(files, ", ")));
     };
     // RADV ends the process where it does not know the family.
     const DriverTrial trial = tryInChild([&] {
@@ -161,11 +161,11 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
             openFamily();
             return s.info.driver;
         });
-        throw std::runtime_error(fmt::format(
-            "--compile-on {}: no such device (there are {}), and {} ends the process where it should compile "
-            "for a GPU of this name; Mesa 25 (mesa-vulkan-drivers of Debian 13) does for vega10, navi21, "
-            "navi31, gfx1201 and others",
-            choice, listOf(infos), known.crashed ? "RADV" : known.said));
+        throw std::runtime_error(
+            fmt::format("--compile-on {}: no such device (there are {}), and {} crashes when it compiles for "
+                        "this name; Mesa 25 (mesa-vulkan-drivers of Debian 13) compiles for vega10, navi21, "
+                        "navi31, gfx1201 and others",
+                        choice, listOf(infos), known.crashed ? "RADV" : known.said));
     }
     const QuietStandardError quiet;  // RADV remarks on the hardware that it does not find
     const EnvironmentVariables forced = inFamily(family.c_str());
@@ -227,7 +227,7 @@ std::string DeviceCompiler::State::lackedFormats(const PipelineKey& key) const {
         return (support.sampleCounts(format, usage) & key.samples) != 0;
     };
     const auto words = [&](VkFormat format) {
-        return fmt::format("does not draw to {} with {} samples", nameOf(format),
+        return fmt::format("does not support {} with {} samples", nameOf(format),
                            static_cast<int>(key.samples));
     };
     for (const VkFormat format : key.colors)
@@ -280,7 +280,7 @@ CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) 
             const SpecializationValue value = valueOf(request.kernel_variant);
             const std::uint64_t shared = sharedBytes(specialized(request.kernel->words, value));
             if (shared > support.limits().maxComputeSharedMemorySize) {
-                compiled.error = fmt::format("asks for {} bytes of shared memory; there are {}", shared,
+                compiled.error = fmt::format("needs {} bytes of shared memory; the device has {}", shared,
                                              support.limits().maxComputeSharedMemorySize);
                 return compiled;
             }

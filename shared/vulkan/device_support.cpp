@@ -45,7 +45,7 @@ std::string wordsOf(std::uint32_t uses) {
 #define DIPTYCH_USE_WORDS(name, features, bit, word) add(format_use::name, word);
     DEVICE_FORMAT_USES(DIPTYCH_USE_WORDS)
 #undef DIPTYCH_USE_WORDS
-    add(format_use::multisampled, "drawn to with 4 samples a pixel");
+    add(format_use::multisampled, "used with 4 samples per pixel");
     return words;
 }
 
@@ -176,7 +176,7 @@ bool DeviceSupport::can(VkFormat format, std::uint32_t uses) const {
     const auto row = rowOf(format);
     const std::uint32_t listed = row ? formatRows()[*row].uses : 0;
     if ((uses & ~listed) != 0)
-        throw std::logic_error(fmt::format("DEVICE_FORMATS does not list that {} is {}", nameOf(format),
+        throw std::logic_error(fmt::format("DEVICE_FORMATS does not list this use: {} {}", nameOf(format),
                                            wordsOf(uses & ~listed)));
     return !row || (formats_[*row] & uses) == uses;
 }
@@ -248,7 +248,7 @@ std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<
         const auto found = std::ranges::find(known, words[at + 1], &Capability::number);
         if (found == known.end())
             throw std::logic_error(fmt::format(
-                "a module has capability {}, which no row of DEVICE_FEATURES stands for", words[at + 1]));
+                "a module has capability {}, which DEVICE_FEATURES does not contain", words[at + 1]));
         if (found->feature && !device.has(*found->feature))
             return fmt::format("a shader needs {}", wordsOf(*found->feature));
     }

@@ -24,36 +24,36 @@ namespace diptych {
     X(v13, dynamicRendering,               required, "dynamic rendering")                       \
     X(v13, synchronization2,               required, "synchronization2")                        \
     X(v13, maintenance4,                   required, "maintenance4") /* a workgroup's size by a constant */ \
-    X(v13, shaderDemoteToHelperInvocation, required, "demotion to helper invocations") /* alpha masks */ \
+    X(v13, shaderDemoteToHelperInvocation, required, "demote to helper invocation") /* alpha masks */ \
     X(v12, scalarBlockLayout,              required, "scalar block layout")                     \
-    X(v12, bufferDeviceAddress,            required, "addresses of buffers")                    \
-    X(v10, sampleRateShading,              required, "shading of samples")                      \
+    X(v12, bufferDeviceAddress,            required, "buffer device addresses")                 \
+    X(v10, sampleRateShading,              required, "sample shading")                          \
     X(v10, fullDrawIndexUint32,            required, "32-bit indices")                          \
-    X(v10, occlusionQueryPrecise,          optional, "exact occlusion queries")                 \
+    X(v10, occlusionQueryPrecise,          optional, "precise occlusion queries")               \
     X(v10, pipelineStatisticsQuery,        optional, "pipeline statistics")                     \
     X(v10, depthClamp,                     optional, "depth clamping")                          \
-    X(v10, independentBlend,               optional, "blending by attachment")                  \
-    X(v10, drawIndirectFirstInstance,      optional, "indirect draws of later instances")       \
-    X(v10, multiDrawIndirect,              optional, "several indirect draws at once")          \
-    X(v10, fragmentStoresAndAtomics,       optional, "stores in fragment shaders")              \
-    X(v10, shaderStorageImageMultisample,  optional, "stores to samples")                       \
+    X(v10, independentBlend,               optional, "independent blending")                    \
+    X(v10, drawIndirectFirstInstance,      optional, "indirect draws with a first instance")    \
+    X(v10, multiDrawIndirect,              optional, "multi-draw indirect")                     \
+    X(v10, fragmentStoresAndAtomics,       optional, "stores and atomics in fragment shaders")  \
+    X(v10, shaderStorageImageMultisample,  optional, "multisampled storage images")             \
     X(v10, shaderInt64,                    optional, "64-bit integers in shaders")              \
-    X(v10, geometryShader,                 optional, "triangles' numbers in fragment shaders")  \
-    X(v12, shaderBufferInt64Atomics,       optional, "64-bit atomics on buffers")               \
+    X(v10, geometryShader,                 optional, "triangle indices in fragment shaders")    \
+    X(v12, shaderBufferInt64Atomics,       optional, "64-bit buffer atomics")                   \
     X(v12, shaderFloat16,                  optional, "16-bit floats in shaders")
 
 // use  of an image or a buffer  the bit that Vulkan tells it by  what a format without it cannot be
 #define DEVICE_FORMAT_USES(X)                                                                          \
-    X(sampled,        optimalTilingFeatures, SAMPLED_IMAGE_BIT,               "read by shaders")       \
+    X(sampled,        optimalTilingFeatures, SAMPLED_IMAGE_BIT,               "sampled in shaders")    \
     X(filtered,       optimalTilingFeatures, SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filtered linearly")     \
-    X(stored,         optimalTilingFeatures, STORAGE_IMAGE_BIT,               "stored to by shaders")  \
+    X(stored,         optimalTilingFeatures, STORAGE_IMAGE_BIT,               "used as a storage image") \
     X(stored_unnamed, optimalTilingFeatures, STORAGE_WRITE_WITHOUT_FORMAT_BIT,                         \
-                                                     "stored to by shaders that do not name it")       \
-    X(drawn,          optimalTilingFeatures, COLOR_ATTACHMENT_BIT,            "drawn to")              \
+                                                     "used as a storage image without a format in the shader") \
+    X(drawn,          optimalTilingFeatures, COLOR_ATTACHMENT_BIT,            "used as a colour attachment") \
     X(blended,        optimalTilingFeatures, COLOR_ATTACHMENT_BLEND_BIT,      "blended")               \
-    X(depth,          optimalTilingFeatures, DEPTH_STENCIL_ATTACHMENT_BIT,    "drawn to as depth")     \
-    X(texels,         bufferFeatures,        UNIFORM_TEXEL_BUFFER_BIT,        "read as a texel buffer") \
-    X(vertices,       bufferFeatures,        VERTEX_BUFFER_BIT,               "read as vertices")
+    X(depth,          optimalTilingFeatures, DEPTH_STENCIL_ATTACHMENT_BIT,    "used as a depth attachment") \
+    X(texels,         bufferFeatures,        UNIFORM_TEXEL_BUFFER_BIT,        "used as a texel buffer") \
+    X(vertices,       bufferFeatures,        VERTEX_BUFFER_BIT,               "used as a vertex attribute")
 
 // format  uses that Vulkan promises  uses that it leaves to the device  what helps where one of these lacks
 //   Uses that this program makes of it. Vulkan 1.3, "Required Format Support". `multisampled`: drawn to with
@@ -95,13 +95,13 @@ namespace diptych {
     X(maxStorageBufferRange, 1 << 27, 0, "")                                                            \
     X(maxPushConstantsSize, 128, 0, "")                                                                 \
     X(maxBoundDescriptorSets, 4, 0, "")                                                                 \
-    X(maxPerStageDescriptorSamplers, 16, descriptors({image}), "samplers a shader")                     \
-    X(maxPerStageDescriptorUniformBuffers, 12, descriptors({uniform_buffer}), "uniform buffers a shader") \
-    X(maxPerStageDescriptorStorageBuffers, 4, descriptors({storage_buffer}), "storage buffers a shader") \
+    X(maxPerStageDescriptorSamplers, 16, descriptors({image}), "samplers per shader")                   \
+    X(maxPerStageDescriptorUniformBuffers, 12, descriptors({uniform_buffer}), "uniform buffers per shader") \
+    X(maxPerStageDescriptorStorageBuffers, 4, descriptors({storage_buffer}), "storage buffers per shader") \
     /* a texel buffer counts as a sampled image */                                                      \
     X(maxPerStageDescriptorSampledImages, 16, descriptors({image, texel_buffer}),                       \
-                                                                        "sampled images a shader")      \
-    X(maxPerStageDescriptorStorageImages, 4, descriptors({storage_image}), "storage images a shader")   \
+                                                                        "sampled images per shader")    \
+    X(maxPerStageDescriptorStorageImages, 4, descriptors({storage_image}), "storage images per shader") \
     X(maxVertexInputAttributes, 16, 0, "")                                                              \
     X(maxVertexInputBindings, 16, 0, "")                                                                \
     X(maxVertexOutputComponents, 64, 0, "")                                                             \
@@ -109,10 +109,10 @@ namespace diptych {
     X(maxColorAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "colour attachments")                           \
     X(maxFragmentOutputAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "outputs of a fragment shader")        \
     X(maxFragmentCombinedOutputResources, 4, gpu::CAPTURE_ATTACHMENTS + frameDescriptors(storage_buffer), \
-                                                    "outputs and storage of a fragment shader")         \
+                                                    "outputs and storage resources of a fragment shader") \
     X(maxComputeSharedMemorySize, 16384, 0, "")                                                         \
-    X(maxComputeWorkGroupInvocations, 128, gpu::LIST_GROUP, "threads of a workgroup")                   \
-    X(maxComputeWorkGroupSize[0], 128, gpu::LIST_GROUP, "threads of a workgroup along x")               \
+    X(maxComputeWorkGroupInvocations, 128, gpu::LIST_GROUP, "invocations per workgroup")                \
+    X(maxComputeWorkGroupSize[0], 128, gpu::LIST_GROUP, "invocations per workgroup along x")            \
     X(maxDrawIndirectCount, 1, 0, "")                                                                   \
     X(standardSampleLocations, 0, 0, "")
 

@@ -20,10 +20,9 @@ std::optional<std::string> driverFilesFault() {
         std::error_code ignored;
         for (std::string file; std::getline(files, file, ':');)
             if (!file.empty() && !std::filesystem::exists(file, ignored))
-                return fmt::format("{} is set and names {}, which does not exist: unset it or mend it", name,
-                                   file);
-        return fmt::format("{} is set to {}, which brings no device: unset it to use every installed driver",
-                           name, value);
+                return fmt::format("{} names {}, which does not exist; unset or correct it", name, file);
+        return fmt::format(
+            "{} is set to {}, which provides no device; unset it to use every installed driver", name, value);
     }
     return {};
 }

@@ -53,9 +53,9 @@ QuietStandardError::~QuietStandardError() {
 DriverTrial tryInChild(const std::function<std::string()>& act) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw std::system_error(errno, std::generic_category(), "trying a driver: pipe");
+        throw std::system_error(errno, std::generic_category(), "testing a driver: pipe");
     const pid_t child = ::fork();
-    if (child < 0) throw std::system_error(errno, std::generic_category(), "trying a driver: fork");
+    if (child < 0) throw std::system_error(errno, std::generic_category(), "testing a driver: fork");
     if (child == 0) {
         const rlimit none{0, 0};
         ::setrlimit(RLIMIT_CORE, &none);

@@ -91,7 +91,7 @@ VulkanInstance::VulkanInstance(ValidationLog* log, std::span<const char* const> 
     }
     const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
     if (result != VK_SUCCESS)
-        throw std::runtime_error(fmt::format("Vulkan: no instance: {}; {}", nameOf(result),
+        throw std::runtime_error(fmt::format("Vulkan: cannot create an instance: {}; {}", nameOf(result),
                                              driverFilesFault().value_or("install mesa-vulkan-drivers")));
     if (log == nullptr) return;
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(

@@ -129,10 +129,10 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
         }
     std::string budget;
     if (!left.empty())
-        budget = fmt::format(", {:.1f} MiB left in its heap",
+        budget = fmt::format(", {:.1f} MiB are left in its heap",
                              static_cast<double>(left.at(heapOf(types.front()))) / 1048576.0);
     throw std::runtime_error(fmt::format(
-        "Vulkan: no memory for {}, {:.1f} MiB: {:.1f} MiB in use{}; try a smaller --size", what,
+        "Vulkan: no memory for {} ({:.1f} MiB); {:.1f} MiB are in use{}; try a smaller --size", what,
         static_cast<double>(needs.size) / 1048576.0, static_cast<double>(allocated()) / 1048576.0, budget));
 }
 

@@ -75,8 +75,8 @@ std::vector<PassCounts> PassList::count(std::size_t first, std::size_t last) {
     if (!device_.support().has(DeviceFeature::pipelineStatisticsQuery) ||
         !device_.support().has(DeviceFeature::occlusionQueryPrecise))
         throw std::runtime_error(
-            fmt::format("{}: the device has no pipeline statistics or no exact occlusion queries, which "
-                        "counting needs; choose another by --device",
+            fmt::format("{}: counting needs pipeline statistics and precise occlusion queries, which this "
+                        "device lacks; choose another device with --device",
                         device_.info().name));
     prepare(first, last);
     const OwnedQueryPool stages = makeQueryPool(device_.handle(), VK_QUERY_TYPE_PIPELINE_STATISTICS, 1,

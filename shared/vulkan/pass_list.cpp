@@ -85,7 +85,7 @@ VkImageView PassList::view(ImageRef image) const {
     const Resource& found = resource(image);
     if (!found.image->bound())
         throw std::logic_error(
-            fmt::format("PassList: {} is a transient: its view is there from Pass::prepare() on",
+            fmt::format("PassList: {} is transient; its view exists only from Pass::prepare() on",
                         found.image->info().name));
     return found.image->view();
 }
@@ -198,8 +198,9 @@ void PassList::prepare(std::size_t first, std::size_t last) {
         for (const Use& use : usesOf(*passes_[i])) {
             const Resource& used = *resources_[use.resource];
             if (used.life == Life::transient && (i < used.first || i > used.last))
-                throw std::logic_error(fmt::format("pass {}: the transient {} has given its memory to others",
-                                                   passes_[i]->name_, tracker_.name(use.resource)));
+                throw std::logic_error(
+                    fmt::format("pass {}: the memory of the transient {} is already reused",
+                                passes_[i]->name_, tracker_.name(use.resource)));
         }
         if (!prepared_[i] && passes_[i]->prepare_) passes_[i]->prepare_();
         prepared_[i] = true;

@@ -86,7 +86,7 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
         list.push_back({what, there, false, std::move(text)});
     };
 
-    need("a queue that draws and computes", device.graphicsFamily().has_value());
+    need("queue with graphics and compute", device.graphicsFamily().has_value());
     need(memoryFact, device.memory().memoryTypeCount > 0);
     enum Need { required, optional };
     const auto feature = [&](DeviceFeature name, Need how, const char* what) {
@@ -112,9 +112,9 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     formats("filtering of 32-bit floats", VK_FORMAT_R32G32B32A32_SFLOAT, format_use::filtered);
     formats("filtering of 16-bit textures", VK_FORMAT_R16G16B16A16_UNORM, format_use::filtered);
     formats("24-bit depth", VK_FORMAT_X8_D24_UNORM_PACK32, format_use::depth | format_use::sampled);
-    formats("drawing to packed floats", VK_FORMAT_B10G11R11_UFLOAT_PACK32, format_use::drawn);
+    formats("packed-float colour attachments", VK_FORMAT_B10G11R11_UFLOAT_PACK32, format_use::drawn);
     formats("4 samples per pixel, also in a G-buffer", VK_FORMAT_R32G32_UINT, format_use::multisampled);
-    note("picture size", true, fmt::format("up to {} x {}", device.mostPixels(), device.mostPixels()));
+    note("image size", true, fmt::format("up to {} x {}", device.mostPixels(), device.mostPixels()));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
     note("texel buffers", true, fmt::format("up to {} texels", l.maxTexelBufferElements));
@@ -122,15 +122,17 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     DEVICE_EXTENSIONS(DIPTYCH_EXTENSION_FACT)
 #undef DIPTYCH_EXTENSION_FACT
     note("descriptor indexing", device.hasDescriptorIndexing(),
-         "bindless textures; here every material has a descriptor set instead");
+         "not used: every material has its own descriptor set");
     note("multiview", !cpu && device.hasMultiview(),
-         cpu && device.hasMultiview() ? "offered, but on lavapipe triangles across the edge land in layer 0"
-                                      : "");
-    note("time stamps a pass", !cpu && l.timestampComputeAndGraphics == VK_TRUE,
-         cpu ? "work runs late: passes are timed by submit, fence and clock" : "");
-    note("branches skip work", !cpu, cpu ? "both sides run: variants are specialised instead" : "");
+         cpu && device.hasMultiview()
+             ? "reported, but lavapipe puts triangles that cross the edge into layer 0"
+             : "");
+    note("timestamps per pass", !cpu && l.timestampComputeAndGraphics == VK_TRUE,
+         cpu ? "execution is deferred: passes are timed by submit, fence and CPU clock" : "");
+    note("branches save work", !cpu,
+         cpu ? "both sides execute: shader variants are specialised instead" : "");
     note("anisotropic filtering", device.hasAnisotropy(),
-         "not used: mip levels alone, the same on every device");
+         "not used, so that filtering is the same on every device");
     return list;
 }
 
@@ -189,9 +191,9 @@ std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, cons
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice) {
     if (infos.empty())
         throw std::runtime_error(
-            fmt::format("no Vulkan device; {}",
+            fmt::format("no Vulkan device found; {}",
                         driverFilesFault().value_or(
-                            "install mesa-vulkan-drivers, which brings the software device lavapipe")));
+                            "install mesa-vulkan-drivers, which contains the software device lavapipe")));
     if (choice.empty()) {
         constexpr std::array order{"discrete", "integrated", "virtual", "cpu", "other"};
         for (const char* type : order)

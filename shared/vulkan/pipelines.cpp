@@ -33,7 +33,7 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
         needs(key.colors[i], blendOf(i) == Blend::none ? std::uint32_t{format_use::drawn}
                                                        : format_use::drawn | format_use::blended);
         if (blendOf(i) != blendOf(0) && !site.support.has(DeviceFeature::independentBlend))
-            refuse(site, name, "it lacks blending by attachment; choose another device with --device");
+            refuse(site, name, "it lacks independent blending; choose another device with --device");
     }
     if (key.depth != VK_FORMAT_UNDEFINED) needs(key.depth, format_use::depth);
     for (const VkVertexInputAttributeDescription& attribute : parts.attributes)
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const Shad
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
     auto words = specialized(module.words, value, outputs);
     if (const auto problem = moduleProblem(site.support, words))
-        refuse(site, module.name, *problem + ", which it lacks; choose another with --device");
+        refuse(site, module.name, *problem + ", which it lacks; choose another device with --device");
     return site.flattens_branches ? flattened(words) : words;
 }
 

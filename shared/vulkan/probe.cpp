@@ -107,16 +107,18 @@ std::uint32_t Device::probeLoopLimit() {
 std::vector<DeviceFact> Device::probe() {
     std::vector<DeviceFact> facts;
     const std::uint32_t limit = probeLoopLimit();
-    facts.push_back({"loops of any length", limit >= 99'999, false,
-                     limit >= 99'999
-                         ? "100,000 iterations seen"
-                         : fmt::format("all loops of one invocation end silently after {}", limit)});
+    facts.push_back(
+        {"loops of any length", limit >= 99'999, false,
+         limit >= 99'999
+             ? "tested to 100,000 iterations"
+             : fmt::format("all loops of an invocation together end silently after {} iterations", limit)});
     for (const TargetRounding& target : probeRounding())
-        facts.push_back({"rounds to nearest: " + target.format, target.kind == "to nearest", false,
-                         target.kind.empty()
-                             ? "not supported: it cannot be drawn to, which nothing else here needs"
-                             : fmt::format("{}, up to {:.2f} of a step; the G-buffer rounds in the shader",
-                                           target.kind, target.steps)});
+        facts.push_back(
+            {"rounds to nearest: " + target.format, target.kind == "to nearest", false,
+             target.kind.empty()
+                 ? "not supported as a colour attachment; only this probe needs it"
+                 : fmt::format("{}, error up to {:.2f} of a step; the G-buffer rounds in the shader",
+                               target.kind, target.steps)});
     return facts;
 }
 

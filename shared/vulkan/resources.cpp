@@ -35,14 +35,14 @@ void checkImage(const Device& device, const GpuImageInfo& info) {
     const std::uint32_t most = attached != 0 ? device.support().mostPixels() : ~0u;
     if ((can.sampleCounts & info.samples) == 0)
         refuse(device, info.name,
-               fmt::format("there are no images of {} for these uses with {} samples per pixel; use --msaa 1 "
-                           "and --lighting fragment, or choose another device with --device",
+               fmt::format("it does not support {} for this use with {} samples per pixel; use --msaa 1 and "
+                           "--lighting fragment, or choose another device with --device",
                            nameOf(info.format), static_cast<int>(info.samples)));
     if (info.width > std::min(can.maxExtent.width, most) ||
         info.height > std::min(can.maxExtent.height, most) || info.layers > can.maxArrayLayers ||
         info.levels > can.maxMipLevels)
         refuse(device, info.name,
-               fmt::format("{} x {} texels and {} layers; images of {} have up to {} x {} and {}; use a "
+               fmt::format("{} x {} texels and {} layers exceed the limit of {}, {} x {} and {}; use a "
                            "smaller --size or --shadow-size, or choose another device with --device",
                            info.width, info.height, info.layers, nameOf(info.format),
                            std::min(can.maxExtent.width, most), std::min(can.maxExtent.height, most),
@@ -112,10 +112,10 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     : size_(std::max<VkDeviceSize>(size, 1)) {
     if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0 && size_ > device.limits().maxStorageBufferRange)
         throw std::runtime_error(
-            fmt::format("the scene's {} take {} MiB; {} reads up to {} MiB of one buffer", name, size_ >> 20,
+            fmt::format("the scene's {} need {} MiB; {} reads up to {} MiB of one buffer", name, size_ >> 20,
                         device.info().name, device.limits().maxStorageBufferRange >> 20));
     if (size_ > device.support().mostBytesOfBuffer())
-        throw std::runtime_error(fmt::format("the scene's {} take {} MiB; {} has buffers of up to {} MiB",
+        throw std::runtime_error(fmt::format("the scene's {} need {} MiB; {} has buffers of up to {} MiB",
                                              name, size_ >> 20, device.info().name,
                                              device.support().mostBytesOfBuffer() >> 20));
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
@@ -210,9 +210,9 @@ OwnedBufferView makeTexelView(Device& device, const std::string& name, const Gpu
     if (const auto lacks = device.support().lacks(format, format_use::texels)) refuse(device, name, *lacks);
     const VkDeviceSize texels = std::min(bytes, buffer.size()) / bytesPerTexel(format);
     if (texels > device.limits().maxTexelBufferElements)
-        throw std::runtime_error(fmt::format("the scene's {} take {} texels; {} reads up to {} of one buffer",
-                                             name, texels, device.info().name,
-                                             device.limits().maxTexelBufferElements));
+        throw std::runtime_error(
+            fmt::format("the scene's {} need {} texels; {} reads up to {} texels of one buffer", name, texels,
+                        device.info().name, device.limits().maxTexelBufferElements));
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .pNext = nullptr,
                                       .flags = 0,

@@ -7,7 +7,7 @@
 namespace diptych {
 
 const ShaderModule& shaderModule(Shader shader) {
-    if (shader == Shader::none) throw std::logic_error("no shader has no module");
+    if (shader == Shader::none) throw std::logic_error("Shader::none has no module");
     return shaderModules()[static_cast<std::size_t>(shader) - 1];
 }
 

@@ -41,10 +41,10 @@ std::string cacheFault(const fs::path& folder) {
     // A link may be this user's; one of somebody else leads anywhere.
     if (::lstat(folder.c_str(), &named) != 0 || ::stat(folder.c_str(), &there) != 0) return {};
     const char* const why = named.st_uid != ::geteuid() || there.st_uid != ::geteuid()
-                                ? "it belongs to another user; XDG_CACHE_HOME names another place"
-                            : !isOnlyOurs(there) ? "others may write to it; chmod go-w makes it yours alone"
+                                ? "it belongs to another user; set XDG_CACHE_HOME to another folder"
+                            : !isOnlyOurs(there) ? "other users may write to it; run chmod go-w on it"
                                                  : nullptr;
-    return why ? fmt::format("{}: is not used as a cache: {}", folder.string(), why) : std::string();
+    return why ? fmt::format("{}: not used as a cache: {}", folder.string(), why) : std::string();
 }
 
 fs::path userCacheFolder() {

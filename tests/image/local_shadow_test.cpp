@@ -223,7 +223,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     const Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
     const Frame frame = drawnOf(scene, settings);
     EXPECT_TRUE(says(frame, "shadows of 1 local light: no tile is drawn; "));
-    EXPECT_TRUE(says(frame, "without a tile: nothing that casts lies there"));
+    EXPECT_TRUE(says(frame, "without a tile: no caster"));
     EXPECT_EQ(locallySeen(frame).least, 1);
     EXPECT_EQ(frame.local_shadow_reach, 0);
     for (Light& light : scene.lights) light.position.y = -2;
@@ -274,7 +274,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
         drawnOf(ground(lamps, {board(1)}), locally(smallPicture(GBufferEncoding::standard), 45));
     EXPECT_TRUE(says(frame, "shadows of 42 local lights: ")) << "256 / 6";
     EXPECT_TRUE(says(frame, "8 point or spot lights cast no shadow"));
-    EXPECT_TRUE(says(frame, "3 of them would cast one, but the atlas holds 256 tiles"));
+    EXPECT_TRUE(says(frame, "3 of them should cast one, but the atlas is full (256 tiles)"));
     EXPECT_EQ(locallySeen(frame).least, 0) << "the channel is that of those which cast";
 }
 

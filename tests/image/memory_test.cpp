@@ -137,10 +137,9 @@ TEST(MemoryTypes, WhatWasTooLargeIsNamed) {
         played.take(300 * mebibyte);
         FAIL() << "there is no such memory";
     } catch (const std::runtime_error& error) {
-        EXPECT_EQ(
-            std::string(error.what()),
-            "Vulkan: no memory for the image lit, 300.0 MiB: 80.0 MiB in use, 20.0 MiB left in its heap; "
-            "try a smaller --size");
+        EXPECT_EQ(std::string(error.what()),
+                  "Vulkan: no memory for the image lit (300.0 MiB); 80.0 MiB are in use, 20.0 MiB are left "
+                  "in its heap; try a smaller --size");
     }
 }
 

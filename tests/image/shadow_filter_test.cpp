@@ -122,8 +122,9 @@ TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
     const Frame soft = by(Shadows::pcss), hard = by(Shadows::pcf);
     for (const int mode : {lit, sunSeen})
         EXPECT_EQ(differingPixels(soft.channels.at(mode), hard.channels.at(mode)), 0u);
-    EXPECT_TRUE(std::ranges::any_of(
-        soft.notes, [](const std::string& note) { return note.find("has no angle") != std::string::npos; }));
+    EXPECT_TRUE(std::ranges::any_of(soft.notes, [](const std::string& note) {
+        return note.find("has no angular size") != std::string::npos;
+    }));
 }
 
 // Ground, 8 m x 8 m, and a roof `height` above its half with negative x, or z, under a sun at the zenith;

@@ -119,7 +119,7 @@ TEST_F(DeviceCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
     const std::array requests{PipelineRequest{.layout = layout, .key = key, .choose = plainParts}};
     const CompiledPipeline compiled = compiler_->compile(requests).front();
     EXPECT_TRUE(compiled.shaders.empty());
-    EXPECT_NE(compiled.error.find("does not draw to X8_D24_UNORM_PACK32"), std::string::npos)
+    EXPECT_NE(compiled.error.find("does not support X8_D24_UNORM_PACK32"), std::string::npos)
         << compiled.error;
 }
 

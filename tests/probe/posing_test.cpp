@@ -291,10 +291,9 @@ TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
             posed(flat, static_cast<std::size_t>(targets), positions_alone, "too many");
             ADD_FAILURE() << "they were posed";
         } catch (const std::runtime_error& e) {
-            EXPECT_EQ(std::string(e.what()),
-                      fmt::format("morph targets have a weight in {} attributes of a vertex at once, which "
-                                  "takes {} additions: a shader makes up to 65000",
-                                  deltas, rounds));
+            EXPECT_EQ(std::string(e.what()), fmt::format("morph targets change {} attributes of a vertex at "
+                                                         "once, which needs {} additions; the limit is 65000",
+                                                         deltas, rounds));
         }
     }
 }

@@ -98,7 +98,7 @@ TEST(Baseline, FaultsAreOneLine) {
     EXPECT_TRUE(runTool(folder, comparePoints + "--baseline 'b.exr?part=left'")
                     .failedOver("b.exr?part=left: has no part \"left\""));
     EXPECT_TRUE(runTool(folder, "compare builtin:points builtin:spheres --size 16x9 --baseline b.exr")
-                    .failedOver("--baseline b.exr: is one picture"));
+                    .failedOver("--baseline b.exr: a file holds one view"));
     const std::string before = contentsOf(folder / "b.exr");
     EXPECT_EQ(runTool(folder,
                       "compare builtin:points --size 16x9 --runs 0 -q --baseline b.exr --update-baseline "

@@ -143,7 +143,7 @@ TEST(Bench, BySamplesAPixel) {
 TEST(Bench, WhatItCannotDoIsNamed) {
     const Folder folder;
     EXPECT_TRUE(runTool(folder, "bench --runs 0").failedOver("--runs 0"));
-    EXPECT_TRUE(runTool(folder, "bench a.glb b.glb").failedOver("b.glb: a benchmark is of one scene"));
+    EXPECT_TRUE(runTool(folder, "bench a.glb b.glb").failedOver("b.glb: bench takes one scene"));
     EXPECT_TRUE(runTool(folder, "bench --camera 0 --camera 1").failedOver("--camera"));
     EXPECT_TRUE(runTool(folder, "bench --path reference").failedOver("--path reference"));
     EXPECT_TRUE(runTool(folder, "bench -o x.png").failedOver("-o x.png"));

@@ -22,10 +22,11 @@ TEST(UserCacheTool, AFolderThatOthersMayWriteToIsNamedOnceAndLeftAlone) {
         ASSERT_EQ(::chmod(cache.c_str(), mode), 0);
         const Ran ran = runShell(folder, render, folder.path());
         EXPECT_EQ(ran.code, 0);
-        EXPECT_EQ(ran.err, mode == 0755 ? ""
-                                        : "diptych: note: " + cache.string() +
-                                              ": is not used as a cache: others may write to it; chmod go-w "
-                                              "makes it yours alone\n");
+        EXPECT_EQ(ran.err,
+                  mode == 0755
+                      ? ""
+                      : "diptych: note: " + cache.string() +
+                            ": not used as a cache: other users may write to it; run chmod go-w on it\n");
         EXPECT_EQ(fs::is_empty(cache), mode == 0777) << "the control: the maps of its environment are kept";
     }
 }

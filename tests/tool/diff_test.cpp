@@ -357,7 +357,8 @@ TEST(DiffCommand, FoldersAreComparedByName) {
     EXPECT_EQ(json["pictures"].size(), 2u);
     EXPECT_EQ(json["errors"][0]["name"], "alone.exr");
     EXPECT_EQ(json["verdict"], "fail");
-    EXPECT_TRUE(runTool(folder, "diff a b -o x.exr").failedOver("two folders make a report"));
+    EXPECT_TRUE(
+        runTool(folder, "diff a b -o x.exr").failedOver("comparing two folders writes a report folder"));
     fs::create_directories(folder / "c");
     EXPECT_TRUE(runTool(folder, "diff a c").failedOver("no picture of one name"));
 }

@@ -68,7 +68,7 @@ TEST(ExplainedReport, SaysWhyNotWhereItCannot) {
         std::set<bool> known;
         for (const Json& comparison : report["comparisons"])
             known.insert(!comparison["explanation"].contains("not_explained"));
-        EXPECT_EQ(known.size(), 2u) << baseline << ": both paths against each other are explained";
+        EXPECT_EQ(known.size(), 2u) << baseline << ": the comparison of both paths is explained";
         EXPECT_NE(ran.out.find("not known"), std::string::npos) << ran.out;
     }
 }

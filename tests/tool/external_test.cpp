@@ -200,7 +200,7 @@ TEST(External, AFrameIsComparedReportedAndWritten) {
     EXPECT_EQ(report["comparisons"].size(), 4u * 5u);
     EXPECT_EQ(comparisonWith(report, "b")["baseline"], "reference");
     EXPECT_TRUE(runTool(folder, compare_points + "--renderer a=fake.json --renderer a=fake.json")
-                    .failedOver("there are two of this name"));
+                    .failedOver("two renderers have this name"));
 }
 
 // Where we show no surface nothing is compared, whatever is shown there, nor what a filter carries across.
@@ -386,11 +386,11 @@ TEST(External, FilesAreReadStrictly) {
         {R"({})", "command: is the program and its arguments"},
         {R"({"command": "sh -c x"})", "command: is the program and its arguments"},
         {R"({"command": ["x", 3]})", "command: is the program and its arguments"},
-        {R"({"command": ["x"], "timeot": 3})", "timeot: is not a field of a renderer"},
+        {R"({"command": ["x"], "timeot": 3})", "timeot: is not a known field of a renderer"},
         {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
         {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
         {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
-         "light_faktor: is not a field of what is granted"},
+         "light_faktor: is not a known field of what is granted"},
         {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is none of linear, srgb"},
         {R"({"command")", "is not JSON"}};
     for (const auto& [text, says] : cases) {

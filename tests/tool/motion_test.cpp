@@ -170,11 +170,11 @@ TEST(Motion, TimesThatCannotBeAreRefused) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     EXPECT_TRUE(runTool(folder, "render node.gltf --time -1" + reference)
-                    .failedOver("--time -1: is finite and at least 0"));
+                    .failedOver("--time -1: must be finite and at least 0"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --time 1 --times 0,1").failedOver("--times"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,soon").failedOver("--times 0,soon"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,1 --baseline b.exr")
-                    .failedOver("--baseline b.exr: is one picture"));
+                    .failedOver("--baseline b.exr: a file holds one view"));
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
 }
 
@@ -238,7 +238,7 @@ TEST(Motion, PicturesOfAMotionAreExposedAlike) {
                             "render builtin:motion --size 16x9 --frames 2 --fps 1 --runs 0 --channels lit "
                             "--shadows off -o m.png");
     ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_NE(ran.out.find("of the first picture, and taken for all"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("chosen from the first image, used for all"), std::string::npos) << ran.out;
     EXPECT_NE(contentsOf(folder / "m.0000.png"), contentsOf(folder / "m.0001.png"));
     const auto at = ran.out.find("exposure ") + 9;
     const std::string exposure = ran.out.substr(at, ran.out.find(',', at) - at);
@@ -265,10 +265,11 @@ TEST(Motion, FramesReplaceNoFileOfOthers) {
     ASSERT_EQ(runTool(folder, asked + " -o out.exr").code, 0) << "those of its own";
     folder.write("dir/mine.txt", "a note");
     EXPECT_TRUE(runTool(folder, asked + " -o dir").failedOver("-o dir"));
-    EXPECT_TRUE(runTool(folder, "render node.gltf --frames 0").failedOver("--frames 0: 1 or more"));
-    EXPECT_TRUE(runTool(folder, "render node.gltf --frames 2 --fps 0").failedOver("--fps 0: above 0"));
-    EXPECT_TRUE(runTool(folder, asked + " builtin:triangle").failedOver("--frames 3: are of one scene"));
-    EXPECT_TRUE(runTool(folder, asked + " --camera 0").failedOver("2 cameras were given"));
+    EXPECT_TRUE(runTool(folder, "render node.gltf --frames 0").failedOver("--frames 0: must be 1 or more"));
+    EXPECT_TRUE(
+        runTool(folder, "render node.gltf --frames 2 --fps 0").failedOver("--fps 0: must be above 0"));
+    EXPECT_TRUE(runTool(folder, asked + " builtin:triangle").failedOver("--frames 3: takes one scene"));
+    EXPECT_TRUE(runTool(folder, asked + " --camera 0").failedOver("2 cameras are given"));
 }
 
 }  // namespace

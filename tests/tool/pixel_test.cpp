@@ -188,17 +188,17 @@ TEST(PixelTool, RefusesWhatNoStoryIsOf) {
     const Folder folder;
     const std::string pixel = " --size 64x36 --pixel 3,4 ";
     EXPECT_TRUE(runTool(folder, "compare builtin:points --size 64x36 --pixel 64,0")
-                    .failedOver("--pixel 64,0: outside the picture, whose pixels are 0,0 to 63,35; --size "));
+                    .failedOver("--pixel 64,0: is outside the image (pixels 0,0 to 63,35); --size "));
     EXPECT_TRUE(
-        runTool(folder, "compare builtin:points --pixel 3").failedOver("--pixel 3: is X,Y in pixels"));
+        runTool(folder, "compare builtin:points --pixel 3").failedOver("--pixel 3: takes X,Y in pixels"));
     EXPECT_TRUE(runTool(folder, "compare builtin:points builtin:spheres" + pixel)
-                    .failedOver("--pixel 3,4: is told of one scene, and 2 are given"));
+                    .failedOver("--pixel 3,4: takes one scene, and 2 are given"));
     EXPECT_TRUE(
-        runTool(folder, "compare builtin:points --times 0,1" + pixel).failedOver("one picture; give one"));
+        runTool(folder, "compare builtin:points --times 0,1" + pixel).failedOver("one view; give one"));
     EXPECT_TRUE(runTool(folder, "compare builtin:points --baseline reference" + pixel)
-                    .failedOver("--baseline reference: --pixel 3,4 tells of the two paths"));
+                    .failedOver("--baseline reference: --pixel 3,4 compares the two paths"));
     EXPECT_TRUE(runTool(folder, "compare builtin:points --baseline old.exr" + pixel)
-                    .failedOver("--baseline old.exr: --pixel 3,4 tells of the two paths"));
+                    .failedOver("--baseline old.exr: --pixel 3,4 compares the two paths"));
     EXPECT_TRUE(
         runTool(folder, "compare builtin:points -o report" + pixel).failedOver("--pixel writes no file"));
 }

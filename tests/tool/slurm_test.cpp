@@ -76,11 +76,11 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
     EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + slurmCompare).out.find("--array=1-5\n"),
               std::string::npos);
     EXPECT_TRUE(runTool(folder, "submit slurm").failedOver("a command is missing"));
-    EXPECT_TRUE(runTool(folder, "submit cron -- compare").failedOver("there is slurm"));
+    EXPECT_TRUE(runTool(folder, "submit cron -- compare").failedOver("use slurm"));
     EXPECT_TRUE(
-        runTool(folder, "submit slurm -- render builtin:points").failedOver("what can be cut into shards"));
+        runTool(folder, "submit slurm -- render builtin:points").failedOver("can be split into shards"));
     EXPECT_TRUE(runTool(folder, "submit slurm -- compare --sise 3x4").failedOver("--sise"));
-    EXPECT_TRUE(runTool(folder, "submit slurm -- compare --shard 1/2").failedOver("the jobs say it"));
+    EXPECT_TRUE(runTool(folder, "submit slurm -- compare --shard 1/2").failedOver("the jobs set it"));
     EXPECT_TRUE(runTool(folder, "submit slurm --dry-run -- compare 'nothing/*.glb'")
                     .failedOver("nothing/*.glb: matches no .gltf or .glb file"));
 }

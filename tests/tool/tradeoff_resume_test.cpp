@@ -86,7 +86,7 @@ TEST(TradeoffResume, CtrlCSaysHowItGoesOn) {
     const Folder folder;
     std::string said;
     cut(folder, 1, SIGINT, &said);
-    EXPECT_NE(said.find("the same command goes on from there"), std::string::npos) << said;
+    EXPECT_NE(said.find("the same command continues from there"), std::string::npos) << said;
     EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
     EXPECT_TRUE(fs::exists(folder / ".t.sweep/key.json"));
 }

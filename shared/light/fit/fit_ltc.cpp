@@ -38,7 +38,7 @@ void writeTable(const std::string& file, const LtcTable& table) {
 
 int main(int argc, char** argv) {
     if (argc != 2) {
-        fmt::print(stderr, "fit_ltc: takes one argument, the file to write: fit_ltc shared/light/ltc.exr\n");
+        fmt::print(stderr, "fit_ltc: takes one argument, the output file: fit_ltc shared/light/ltc.exr\n");
         return 2;
     }
     try {
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
                 sum += error;
                 largest = std::max(largest, error);
             }
-            fmt::print("{}: error of the {} lobe {:.4f} in the mean, {:.4f} at most\n", argv[1],
+            fmt::print("{}: error of the {} lobe: mean {:.4f}, largest {:.4f}\n", argv[1],
                        layer ? "layer's" : "even", sum / static_cast<double>(table.cells.size()), largest);
         }
         return 0;

@@ -43,66 +43,67 @@ constexpr std::array arrayParameters{
 
 constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
-    Row{"gallery",
-        "an evening in a sculpture hall: every kind of material, some seventy lights (the default)", PICTURE,
-        builtin::gallery},
-    Row{"spheres", "400 spheres under a sun and N point lights, the many-light benchmark", PICTURE, nullptr,
+    Row{"gallery", "sculpture hall in the evening: every kind of material, about 70 lights (the default)",
+        PICTURE, builtin::gallery},
+    Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", PICTURE, nullptr,
         [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters},
-    Row{"furnace", "white spheres, metallic by roughness, in light that is the same from everywhere", PICTURE,
+    Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", PICTURE,
         builtin::furnace},
-    Row{"normals", "every direction of normal under sharp highlights: seams of normal encodings", TEST,
+    Row{"normals", "normals of every direction under sharp highlights: seams of normal encodings", TEST,
         builtin::normals},
-    Row{"emission", "emitters from 1e-6 to 1e6 W/(sr m^2), grey and saturated: packed HDR ranges", TEST,
-        builtin::emission},
-    Row{"dark_albedo", "ramps of base colour from 0 to 0.05 and to 1: albedo packed with a gamma", TEST,
+    Row{"emission", "emitters from 1e-6 to 1e6 W/(sr m^2), grey and saturated: range of packed HDR formats",
+        TEST, builtin::emission},
+    Row{"dark_albedo", "base colour ramps from 0 to 0.05 and to 1: gamma-encoded albedo", TEST,
         builtin::darkAlbedo},
-    Row{"dielectrics", "ior 1 to 2.4 and 0, specular 0 to 1, tinted: what a plain G-buffer lacks", TEST,
+    Row{"dielectrics",
+        "ior 1 to 2.4 and 0, specular 0 to 1, tinted: parameters a basic G-buffer does not store", TEST,
         builtin::dielectrics},
-    Row{"cutout", "masked, normal-mapped, double-sided cards, some at grazing angles: alpha tests per pass",
-        TEST, builtin::cutout},
-    Row{"occlusion", "deep occlusion maps under direct light alone, which they must not touch", TEST,
+    Row{"cutout",
+        "masked, normal-mapped, double-sided cards, some at grazing angles: alpha test in every pass", TEST,
+        builtin::cutout},
+    Row{"occlusion", "deep occlusion maps under direct light only, which they must not darken", TEST,
         builtin::occlusion},
-    Row{"many_materials", "5000 tiles of 5000 materials: ids beyond the packed bits", TEST,
+    Row{"many_materials", "5000 tiles with 5000 materials: material ids beyond the packed bits", TEST,
         builtin::manyMaterials},
-    Row{"vertex_colors", "vertex colours that vary, textured and plain", TEST, builtin::vertexColors},
+    Row{"vertex_colors", "varying vertex colours, with and without textures", TEST, builtin::vertexColors},
     Row{"unlit_materials",
-        "KHR_materials_unlit beside the same materials lit: plain, textured, painted, cut out", TEST,
-        builtin::unlitMaterials},
-    Row{"sixteen_bits", "textures of 16 bits beside the same in 8: dark colours, shallow normals, roughness",
-        TEST, builtin::sixteenBits},
-    Row{"lightmaps", "baked light on the second UV set, of floats and of 8 bits, beside the same without",
+        "KHR_materials_unlit beside the same lit materials: plain, textured, with vertex colours, "
+        "alpha-masked",
+        TEST, builtin::unlitMaterials},
+    Row{"sixteen_bits", "16-bit textures beside 8-bit ones: dark colours, shallow normals, roughness", TEST,
+        builtin::sixteenBits},
+    Row{"lightmaps", "lightmaps on the second UV set, float and 8-bit, beside the same surfaces without",
         TEST, builtin::lightmaps},
-    Row{"coplanar", "coincident triangles and bodies that pass through each other: depth ties", TEST,
-        builtin::coplanar},
-    Row{"deep", "0.2 m to 90 km in one view with far 1e5, seen through its corner: position from depth", TEST,
+    Row{"coplanar", "coincident triangles and intersecting bodies: depth ties", TEST, builtin::coplanar},
+    Row{"deep", "0.2 m to 90 km in the corner of one view with far 1e5: position from depth", TEST,
         builtin::deep},
-    Row{"glass", "panes, balls and textures that blend, alone and in 32 layers, against a wall and the sky",
+    Row{"glass", "blended panes, balls and textures, single and in 32 layers, before a wall and the sky",
         TEST, builtin::glass},
-    Row{"crossed", "blended panes through each other and in one plane: no order of draws is right", TEST,
+    Row{"crossed", "intersecting and coplanar blended panes: no draw order is correct", TEST,
         builtin::crossed},
-    Row{"mirrored", "normal-mapped reliefs under mirroring transforms", TEST, builtin::mirrored},
-    Row{"stretched", "non-uniform scales and shears in a tree of nodes", TEST, builtin::stretched},
+    Row{"mirrored", "normal-mapped reliefs with mirroring transforms", TEST, builtin::mirrored},
+    Row{"stretched", "non-uniform scales and shears in a node hierarchy", TEST, builtin::stretched},
     Row{"far_away", "spheres and a light a million metres from the origin", TEST, builtin::farAway},
     Row{"ortho", "an orthographic camera", TEST, builtin::ortho},
     Row{"triangle", "one triangle, one light", TEST, builtin::triangle},
-    Row{"empty", "no meshes at all, and no camera", TEST, builtin::empty},
+    Row{"empty", "no meshes and no camera", TEST, builtin::empty},
     Row{"background", "a camera that looks past the only mesh: nothing but background", TEST,
         builtin::background},
-    Row{"range_edge", "lights whose range ends inside the view: falloff must be zero there", TEST,
-        builtin::rangeEdge},
-    Row{"calibration", "charts that tell how a renderer of others means what it is told", TEST,
+    Row{"range_edge", "lights whose range ends inside the view: zero light beyond", TEST, builtin::rangeEdge},
+    Row{"calibration", "charts for calibrate: how another renderer interprets its inputs", TEST,
         builtin::calibration},
-    Row{"suns", "directional lights alone", TEST, builtin::suns},
-    Row{"points", "point lights alone", TEST, builtin::points},
-    Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},
-    Row{"areas", "rectangles, discs and tubes alone, in each other's way and the floor's", TEST,
+    Row{"suns", "only directional lights", TEST, builtin::suns},
+    Row{"points", "only point lights", TEST, builtin::points},
+    Row{"spots", "only spot lights, cones of 0 to 90 degrees", TEST, builtin::spots},
+    Row{"areas", "only rectangle, disc and tube lights, which occlude each other and meet the floor", TEST,
         builtin::areas},
-    Row{"tangents", "normal maps read turned, mirrored and from the second UV set, on planes and columns",
-        TEST, builtin::tangents},
-    Row{"motion", "joints, morph targets, nodes and a lamp that move from 0 s to 2 s", TEST, builtin::motion},
-    Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
-    Row{"array", "any number of objects, triangles, meshes, materials and textures: how a frame grows", TEST,
-        nullptr,
+    Row{"tangents", "normal maps rotated, mirrored and on the second UV set, on planes and columns", TEST,
+        builtin::tangents},
+    Row{"motion", "joints, morph targets, nodes and a light that move from 0 s to 2 s", TEST,
+        builtin::motion},
+    Row{"unlit", "no lights and no emission, with a camera", TEST, builtin::unlit},
+    Row{"array", "any number of objects, triangles, meshes, materials and textures: growth of frame time",
+        TEST, nullptr,
         [](Numbers n) {
             return builtin::array({n[0], n[1], n[2], n[3], n[4]});
         },
@@ -143,7 +144,7 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
         std::uint32_t& number = numbers[static_cast<std::size_t>(known - row.parameters.begin())];
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
         if (error != std::errc() || end != digits.data() + digits.size() || number > known->most)
-            throw std::runtime_error(fmt::format("builtin:{}: '{}' is no number of {}; it takes 0 to {}",
+            throw std::runtime_error(fmt::format("builtin:{}: '{}' is not a number of {}; it takes 0 to {}",
                                                  name, digits, known->name, known->most));
     }
     return numbers;
@@ -169,7 +170,7 @@ Scene makeBuiltin(const std::string& name) {
         if (row.name != base) continue;
         const bool given = base.size() < name.size();
         if (given && base.size() + 1 == name.size())
-            throw std::runtime_error(fmt::format("builtin:{}: nothing follows the ?", name));
+            throw std::runtime_error(fmt::format("builtin:{}: a parameter is missing after the ?", name));
         const auto query = std::string_view(name).substr(given ? base.size() + 1 : name.size());
         const bool takes = given || row.makeWith != nullptr;
         Scene scene = takes ? row.makeWith(numbersFrom(name, row, query)) : row.make();
@@ -177,7 +178,7 @@ Scene makeBuiltin(const std::string& name) {
         return scene;
     }
     const std::vector<std::string> names = knownNames();
-    throw std::runtime_error(fmt::format("builtin:{}: there is no such scene{}; there are {}", name,
+    throw std::runtime_error(fmt::format("builtin:{}: no such scene{}; there are {}", name,
                                          didYouMean(base, names), fmt::join(names, ", ")));
 }
 

@@ -51,7 +51,7 @@ struct Shape {
 
 Shape shapeOf(const tinygltf::Accessor& a, const std::string& who) {
     const std::size_t component = componentBytes(a.componentType);
-    if (component == 0) fail(who, fmt::format("component type {} is none", a.componentType));
+    if (component == 0) fail(who, fmt::format("component type {} does not exist", a.componentType));
     switch (a.type) {
         case TINYGLTF_TYPE_SCALAR:
             return {1, 1, component};
@@ -68,7 +68,7 @@ Shape shapeOf(const tinygltf::Accessor& a, const std::string& who) {
         case TINYGLTF_TYPE_MAT4:
             return {4, 4, component};
         default:
-            fail(who, "its type is neither SCALAR nor VEC nor MAT");
+            fail(who, "its type is not SCALAR, VEC or MAT");
     }
 }
 
@@ -163,8 +163,8 @@ public:
         } else if (file_.bufferView < -1) {
             viewBytes(model, file_.bufferView, who_);
         } else if (file_.count > MAX_ZERO_ELEMENTS) {
-            fail(who_,
-                 fmt::format("{} {} without a bufferView: at most {}", file_.count, noun, MAX_ZERO_ELEMENTS));
+            fail(who_, fmt::format("{} {} without a bufferView; the limit is {}", file_.count, noun,
+                                   MAX_ZERO_ELEMENTS));
         }
         if (file_.sparse.isSparse) locateSparse(model);
     }
@@ -215,7 +215,7 @@ private:
         const auto negative = [](auto value) { return static_cast<std::int64_t>(value) < 0; };
         if (sparse.count < 0 || negative(sparse.indices.byteOffset) || negative(sparse.values.byteOffset))
             fail(who_, "its sparse count or an offset is negative");
-        if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices are of no index type");
+        if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices have no index type");
         const auto count = static_cast<std::size_t>(sparse.count);
         const std::size_t indexBytes = componentBytes(sparse.indices.componentType);
         sparse_indices_ =
@@ -228,7 +228,8 @@ private:
         // visited more than twice.
         for (std::size_t s = 0; s < count; ++s) {
             if (sparseIndex(s) >= file_.count)
-                fail(who_, fmt::format("sparse index {} of {} elements", sparseIndex(s), file_.count));
+                fail(who_,
+                     fmt::format("sparse index {} is past its {} elements", sparseIndex(s), file_.count));
             if (s > 0 && sparseIndex(s) <= sparseIndex(s - 1))
                 fail(who_, fmt::format("sparse index {} does not ascend: {} after {}", s, sparseIndex(s),
                                        sparseIndex(s - 1)));
@@ -271,7 +272,7 @@ std::string cutOf(const tinygltf::Model& model, int index) {
     const std::size_t held = buffer.data.size();
     if (view.byteOffset <= held && view.byteLength <= held - view.byteOffset) return {};
     if (!missing(buffer).empty()) return missing(buffer);
-    return fmt::format("bufferView {}: {} bytes from {} on end past buffer {} ({} bytes)", index,
+    return fmt::format("bufferView {}: {} bytes at offset {} end past buffer {} ({} bytes)", index,
                        view.byteLength, view.byteOffset, view.buffer, held);
 }
 
@@ -290,8 +291,8 @@ std::vector<Vec> readVectors(const tinygltf::Model& model, int index, const std:
     constexpr auto width = static_cast<std::size_t>(Vec::length());
     const SoundAccessor a(model, index, asks, "vertices", width);
     if (a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        fail(asks, fmt::format("accessor {} has component type {}, which no attribute may have", index,
-                               a.file().componentType));
+        fail(asks, fmt::format("accessor {} has component type {}, which is not allowed for attributes",
+                               index, a.file().componentType));
     std::vector<Vec> result(a.size(which), Vec(0));
     withType(a.file().componentType, [&](auto sample) {
         using T = decltype(sample);
@@ -349,7 +350,7 @@ std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index, 
             const auto restart =
                 std::find(result.begin(), result.end(), std::uint32_t(std::numeric_limits<T>::max()));
             if (restart != result.end())
-                fail(asks, fmt::format("index {} is {}, which would restart the primitive: glTF forbids it",
+                fail(asks, fmt::format("index {} is {}, the primitive restart value, which glTF forbids",
                                        restart - result.begin(), *restart));
         }
     });

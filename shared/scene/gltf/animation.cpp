@@ -68,7 +68,8 @@ public:
         if (moving == 0) scene_.animations.clear();
         if (moving > 1)
             scene_.notes.push_back(fmt::format(
-                "{} animations: all play at once, later ones win, unless --animation names one", moving));
+                "{} animations: all play at once, later ones override earlier ones; --animation selects one",
+                moving));
     }
 
 private:
@@ -156,7 +157,7 @@ private:
                                                                {"weights", AnimatedPart::weights}};
         const auto part = parts.find(channel.target_path);
         if (part == parts.end())
-            fail(who, fmt::format("path \"{}\" is none of translation, rotation, scale, weights",
+            fail(who, fmt::format("path \"{}\" is not one of translation, rotation, scale, weights",
                                   channel.target_path));
         target.part = part->second;
         return target;
@@ -187,7 +188,7 @@ private:
         constexpr int any = -1;
         if (taken(target.part, target.element) || (element && taken(all, 0)) ||
             (!element && one != all && taken(one, any)))
-            fail(who, fmt::format("{} {} is moved by an earlier channel already",
+            fail(who, fmt::format("an earlier channel already animates {} {}",
                                   isNodePart(target.part)     ? "node"
                                   : isMeshPart(target.part)   ? "mesh"
                                   : isLightPart(target.part)  ? "light"
@@ -207,7 +208,7 @@ private:
         else if (file.interpolation == "CUBICSPLINE")
             result.interpolation = Interpolation::cubic_spline;
         else if (file.interpolation != "LINEAR")
-            fail(who, fmt::format("interpolation \"{}\" is none of STEP, LINEAR, CUBICSPLINE",
+            fail(who, fmt::format("interpolation \"{}\" is not one of STEP, LINEAR, CUBICSPLINE",
                                   file.interpolation));
         readTimes(file.input, who + ": input", result);
         readValues(file.output, shape, who + ": output", result);
@@ -221,9 +222,10 @@ private:
         if (times.count == 0) fail(who, "has no keys");
         for (std::size_t i = 0; i < times.count; ++i) {
             const float t = times.values[i];
-            if (!std::isfinite(t) || t < 0) fail(who, fmt::format("key {} is at {:g} s", i, t));
+            if (!std::isfinite(t) || t < 0)
+                fail(who, fmt::format("key {} has the invalid time {:g} s", i, t));
             if (i > 0 && t < times.values[i - 1])
-                fail(who, fmt::format("key {} at {:g} s is before the one before it", i, t));
+                fail(who, fmt::format("key {} at {:g} s is before the previous key", i, t));
         }
         result.times = std::move(times.values);
     }
@@ -240,7 +242,7 @@ private:
                                   : mayBeIntegers ? " of floats or normalized integers"
                                                   : " of floats"));
         if (!std::ranges::all_of(read.values, [](float v) { return std::isfinite(v); }))
-            fail(who, "holds values that are not finite");
+            fail(who, "has values that are not finite");
         const std::size_t keys =
             result.times.size() * (result.interpolation == Interpolation::cubic_spline ? 3 : 1);
         if (read.count == 0 || read.count % keys != 0 || (!shape.several && read.count != keys))
@@ -271,14 +273,14 @@ private:
         if (targets == 0) fail(who, fmt::format("{} {} has no morph targets", what, target.object));
         const bool all = target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights;
         if (all && keys.width != targets)
-            fail(who, fmt::format("{} weights a key, but {} {} has {} morph targets", keys.width, what,
+            fail(who, fmt::format("{} weights per key, but {} {} has {} morph targets", keys.width, what,
                                   target.object, targets));
         budget_.hold(sizeof(double), targets, who, "weights");
     }
 
     void noteKeys(const Keyframes& keys, const ChannelTarget& target, bool fresh, const std::string& who) {
         if (fresh && std::ranges::adjacent_find(keys.times) != keys.times.end())
-            scene_.notes.push_back(who + ": keys at one time: the last of them counts from there on");
+            scene_.notes.push_back(who + ": several keys at one time: the last one is used");
         if (isNodePart(target.part) || isMeshPart(target.part)) return;
         const PartFacts facts = factsOf(target.part);
         const std::size_t width = keys.width;
@@ -290,8 +292,8 @@ private:
                 const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
                 if (x >= facts.least && x <= facts.most && !gap) continue;
                 scene_.notes.push_back(
-                    gap ? fmt::format("{}: ior {:g} is neither 0 nor at least 1: taken as 1", who, x)
-                        : fmt::format("{}: {:g} is outside {:g} to {:g}: taken as the nearest", who, x,
+                    gap ? fmt::format("{}: ior {:g} is not 0 or at least 1: 1 is used", who, x)
+                        : fmt::format("{}: {:g} is outside {:g} to {:g}: the nearest value is used", who, x,
                                       facts.least, facts.most));
                 return;
             }

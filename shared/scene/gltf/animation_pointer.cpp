@@ -191,14 +191,14 @@ private:
     template <class Item>
     const Item& item(const std::vector<Item>& items, int index) const {
         if (static_cast<std::size_t>(index) >= items.size())
-            wrong(fmt::format("the file has {} of them", items.size()));
+            wrong(fmt::format("the file has {}", items.size()));
         return items[static_cast<std::size_t>(index)];
     }
 
     void weightOf(std::size_t targets, const Match& match, ChannelTarget& target) const {
         if (match.indices.size() < 2) return;
         if (static_cast<std::size_t>(match.indices[1]) >= targets)
-            wrong(fmt::format("there are {} morph targets", targets));
+            wrong(fmt::format("the mesh has {} morph targets", targets));
         target.element = match.indices[1];
     }
 
@@ -265,7 +265,9 @@ private:
 ChannelTarget pointerTarget(const tinygltf::Model& model, const std::string& pointer,
                             const std::string& who) {
     const std::optional<Match> match = matchOf(unescaped(pointer));
-    if (!match) fail(who, fmt::format("pointer \"{}\" names nothing that is moved here", oneLine(pointer)));
+    if (!match)
+        fail(who,
+             fmt::format("pointer \"{}\" names a property that cannot be animated here", oneLine(pointer)));
     return Resolver(model, pointer, who).resolve(*match);
 }
 

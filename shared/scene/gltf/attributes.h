@@ -61,7 +61,8 @@ struct AttributeReader {
         }
         const auto say = [&](std::size_t count, const std::string& what) {
             if (count)
-                note("{}: {} {}: {}", name, count == 1 ? "1 is" : fmt::format("{} are", count), what, said);
+                note("{}: {} {}: {} is used", name, count == 1 ? "1 is" : fmt::format("{} are", count), what,
+                     said);
         };
         say(broken - finite, "not finite");
         say(finite, fmt::format("beyond {:g}", maxCoordinate));

@@ -35,10 +35,9 @@ void decompress(tinygltf::Model& model, const std::vector<bool>& drawn,
     for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
     for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
     if (claimed > static_cast<double>(limit))
-        throw std::runtime_error(
-            fmt::format("its compressed geometry asks for {:.0f} bytes, more than the {} that buffers of {} "
-                        "bytes may decode to",
-                        claimed, limit, held));
+        throw std::runtime_error(fmt::format(
+            "its compressed geometry claims {0:.0f} bytes; the limit for buffers of {2} bytes is {1}",
+            claimed, limit, held));
     NoteList found("compressed bufferViews");
     decodeMeshopt(model, std::move(views), found);
     found.moveTo(notes);

@@ -36,16 +36,18 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
                 set.weights[v][c] = static_cast<float>(set.weights[v][c] / sum);
                 if (set.weights[v][c] == 0) set.joints[v][c] = 0;
                 if (set.joints[v][c] >= joints)
-                    fail(reader.who, fmt::format("vertex {} names joint {}, but a skin that moves it has {}",
-                                                 vertices[v], set.joints[v][c], joints));
+                    fail(reader.who, fmt::format("vertex {} names joint {}, but its skin has {}", vertices[v],
+                                                 set.joints[v][c], joints));
             }
     }
-    if (broken) reader.note("{} joint weights are negative or not finite: 0", broken);
+    if (broken)
+        reader.note("{} negative or not finite: 0 is used",
+                    broken == 1 ? "1 joint weight is" : counted(broken, "joint weight") + " are");
     if (uneven)
-        reader.note("the joint weights of {} do not add up to 1: divided by their sum",
+        reader.note("the joint weights of {} do not add up to 1: normalized",
                     counted(uneven, "vertex", "vertices"));
     if (unweighted)
-        reader.note("without a joint weight: {}, moved by the first joint",
+        reader.note("{} without a joint weight: the first joint is used",
                     counted(unweighted, "vertex", "vertices"));
 }
 

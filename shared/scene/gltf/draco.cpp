@@ -51,7 +51,7 @@ DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value
     const tinygltf::Primitive& primitive = model.meshes[mesh].primitives[index];
     const std::string who = primitiveName(mesh, index);
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
-        fail(who, fmt::format("mode {}, neither triangles nor a strip", primitive.mode));
+        fail(who, fmt::format("mode {} is not triangles or a triangle strip", primitive.mode));
     DracoPrimitive result{mesh, index, 0, {}, 0};
     result.view =
         checkedIndex(indexIn(e, "bufferView", -1, who), model.bufferViews.size(), who, "bufferView");
@@ -63,7 +63,7 @@ DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value
     for (const std::string& name : attributes.Keys()) {
         const auto at = primitive.attributes.find(name);
         if (at == primitive.attributes.end())
-            fail(who, fmt::format("{}: the primitive has none", oneLine(name)));
+            fail(who, fmt::format("{}: the primitive has no such attribute", oneLine(name)));
         const std::string whose = who + ": " + name;
         if (checkedIndex(at->second, model.accessors.size(), whose, "accessor") < 0)
             fail(whose, "names no accessor");
@@ -164,7 +164,8 @@ Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && primitive.indices >= 0) {
         const std::size_t indices = accessorAt(model, primitive.indices).count;
         if (indices % 3)
-            fail(who, fmt::format("accessor {}: {} indices are no triangles", primitive.indices, indices));
+            fail(who,
+                 fmt::format("accessor {}: {} indices are not a multiple of 3", primitive.indices, indices));
         expected.triangles = indices / 3;
     }
     const std::span<const unsigned char> stream = viewBytes(model, p.view, who);

@@ -114,7 +114,7 @@ private:
         const char* head = stream_->data_head();
         const int method = head[-2], transform = head[-1];
         if (method == draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED)
-            fail("its stream predicts as bitstreams before 2.2 did");
+            fail("its stream uses a prediction of bitstreams before 2.2");
         if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE ||
             transform != draco::PREDICTION_TRANSFORM_WRAP)
             return;
@@ -178,10 +178,10 @@ std::unique_ptr<draco::Mesh> decodeDracoStream(std::span<const unsigned char> st
     buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size(), DRACO_BITSTREAM_VERSION(2, 2));
     draco::DecoderBuffer ahead = buffer;
     draco::DracoHeader header;
-    if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok()) fail("holds no Draco stream");
+    if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok()) fail("is not a Draco stream");
     if (header.encoder_type != draco::TRIANGULAR_MESH) fail("its stream is a point cloud, not triangles");
     if (header.version_major != 2 || header.version_minor != 2)
-        fail(fmt::format("its stream is of bitstream {}.{}, not 2.2", header.version_major,
+        fail(fmt::format("its stream has bitstream version {}.{}, not 2.2", header.version_major,
                          header.version_minor));
 
     // Metadata is not needed: the stream is decoded as if it had none.
@@ -202,8 +202,7 @@ std::unique_ptr<draco::Mesh> decodeDracoStream(std::span<const unsigned char> st
         case draco::MESH_EDGEBREAKER_ENCODING:
             return decodeWith<draco::MeshEdgebreakerDecoder>(buffer, expected);
         default:
-            fail(fmt::format("its stream is encoded by method {}, which does not exist",
-                             header.encoder_method));
+            fail(fmt::format("its stream has the unknown encoding method {}", header.encoder_method));
     }
 }
 

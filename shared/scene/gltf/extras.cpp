@@ -43,7 +43,7 @@ const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view>
     }
     for (const auto& item : own->items())
         if (std::ranges::find(known, item.key()) == known.end())
-            notes.push_back(fmt::format("{}: {}: is not read", who, oneLine(item.key())));
+            notes.push_back(fmt::format("{}: {}: is ignored", who, oneLine(item.key())));
     return own;
 }
 
@@ -59,7 +59,7 @@ int takeNode(Json& object, std::size_t nodes, const std::string& who) {
     if (at == object.end()) return -1;
     const double index = at->is_number() ? at->get<double>() : -1;
     if (!(index >= 0 && index < static_cast<double>(nodes) && index == std::floor(index)))
-        throw std::runtime_error(fmt::format("{}: node: is not the index of one of {} nodes", who, nodes));
+        throw std::runtime_error(fmt::format("{}: node: is not an index of the {} nodes", who, nodes));
     object.erase(at);
     return static_cast<int>(index);
 }
@@ -97,13 +97,13 @@ LightExtras::OfLight ofLight(const Json& light, const std::string& who) {
     if (memberOf(*own, "shadow"))
         left([&] {
             if (!type || (*type != "point" && *type != "spot"))
-                throw std::runtime_error(who + ": shadow: belongs to point and spot lights");
+                throw std::runtime_error(who + ": shadow: applies only to point and spot lights");
             result.shadow = JsonFields(*own, who).flag("shadow", false);
         });
     if (!memberOf(*own, "angle")) return result;
     left([&] {
         if (!type || *type != "directional")
-            throw std::runtime_error(who + ": angle: belongs to directional lights");
+            throw std::runtime_error(who + ": angle: applies only to directional lights");
         result.angle = sunAngle(JsonFields(*own, who));
     });
     return result;
@@ -119,10 +119,10 @@ MaterialExtras::Lightmap lightmapOf(const Json& material, std::size_t textures, 
             const auto whole = [&](std::string_view key, double fallback, double end) {
                 const double index = fields.number(key, fallback, 0, maxCount);
                 if (!(index < end && index == std::floor(index)))
-                    fields.fail(key, fmt::format("{:g} is no whole number below {:g}", index, end));
+                    fields.fail(key, fmt::format("{:g} is not a whole number below {:g}", index, end));
                 return static_cast<int>(index);
             };
-            if (!fields.find("index")) fields.fail("index", "is missing: a texture");
+            if (!fields.find("index")) fields.fail("index", "is missing; give a texture");
             const double intensity = fields.number("intensity", 1, 0, maxIntensity);
             const int texcoord = whole("texCoord", 1, 2);
             result.texture = whole("index", 0, static_cast<double>(textures));

@@ -7,6 +7,7 @@
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/json.h"
 #include "shared/text/one_line.h"
@@ -60,15 +61,15 @@ std::uint32_t word(const Bytes& bytes, std::size_t at) {
 Container readContainer(const Bytes& bytes) {
     constexpr std::uint32_t json = 0x4e4f534a, binary = 0x004e4942;  // "JSON", "BIN\0"
     if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {{0, bytes.size()}, {}, {}};
-    if (bytes.size() < 12) fail(fmt::format("is cut short: {} bytes of a header of 12", bytes.size()));
+    if (bytes.size() < 12) fail(fmt::format("is cut short: {} of 12 header bytes", bytes.size()));
     const std::size_t length = word(bytes, 8);
     if (word(bytes, 4) != 2) fail(fmt::format("binary glTF version {}, not 2", word(bytes, 4)));
     if (length > bytes.size())
-        fail(fmt::format("is cut short: {} bytes of the {} that its header names", bytes.size(), length));
+        fail(fmt::format("is cut short: {} of the {} bytes in its header", bytes.size(), length));
     Container container;
     if (length < bytes.size())
-        container.notes.push_back(fmt::format("{} bytes after the {} that its header names: not read",
-                                              bytes.size() - length, length));
+        container.notes.push_back(fmt::format("{} after the {} in its header: ignored",
+                                              counted(bytes.size() - length, "byte"), length));
     std::size_t binaries = 0;
     for (std::size_t at = 12, chunk = 0; at < length; ++chunk) {
         if (length - at < 8) fail(fmt::format("chunk {}: its header ends past the file", chunk));
@@ -86,7 +87,8 @@ Container readContainer(const Bytes& bytes) {
         at += 8 + size;
     }
     if (container.json.size == 0) fail("holds no JSON chunk");
-    if (binaries > 1) container.notes.push_back(fmt::format("{} binary chunks: the first is read", binaries));
+    if (binaries > 1)
+        container.notes.push_back(fmt::format("{} binary chunks: only the first is read", binaries));
     return container;
 }
 
@@ -95,7 +97,7 @@ Container readContainer(const Bytes& bytes) {
 Json parse(std::string_view text) {
     if (text.empty()) fail("is empty");
     if (text.size() > MAX_JSON_BYTES)
-        fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), MAX_JSON_BYTES));
+        fail(fmt::format("its JSON has {} bytes; the limit is {}", text.size(), MAX_JSON_BYTES));
     Json document = parseJson(text, {.values = MAX_JSON_VALUES, .objects = MAX_JSON_OBJECTS});
     if (!document.is_object()) fail("its JSON is not an object");
     return document;
@@ -116,10 +118,10 @@ void checkVersion(const Json& document) {
         return value.is_string() ? value.get<std::string>() : std::string();
     };
     const std::string version = text("version"), least = text("minVersion");
-    if (version.empty()) fail("asset: names no version");
+    if (version.empty()) fail("asset: has no version");
     if (!version.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(version)));
     if (!least.empty() && isBeyond(least))
-        fail(fmt::format("asset: minVersion {}: 2.0 is read", oneLine(least)));
+        fail(fmt::format("asset: minVersion {} is not supported; 2.0 is", oneLine(least)));
 }
 
 void checkRequired(const Json& document) {
@@ -128,13 +130,13 @@ void checkRequired(const Json& document) {
     if (!required->is_array()) fail("extensionsRequired: is not an array");
     std::string missing;
     for (const Json& name : *required) {
-        if (!name.is_string()) fail("extensionsRequired: holds something other than names");
+        if (!name.is_string()) fail("extensionsRequired: contains a value that is not a name");
         if (!isBuilt(name.get<std::string>()))
             missing += (missing.empty() ? "" : ", ") + name.get<std::string>();
     }
     if (!missing.empty())
-        fail(
-            fmt::format("extensionsRequired: {} is not read: export the scene without it", oneLine(missing)));
+        fail(fmt::format("extensionsRequired: {} is not supported; export the scene without it",
+                         oneLine(missing)));
 }
 
 // ---- buffers and images ------------------------------------------------------------------------------
@@ -156,9 +158,9 @@ Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<C
         file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(binary->offset));
         data = std::move(file);
     } else if (mayBeEmpty(json)) {
-        fail("has no data: it stands in where EXT_meshopt_compression is not read");
+        fail("has no data: it is a fallback for readers without EXT_meshopt_compression");
     } else {
-        fail("has no uri, and the file no binary chunk for it");
+        fail("has no uri, and the file has no binary chunk for it");
     }
     data.resize(std::min<std::uint64_t>(data.size(), length));
     return data;
@@ -176,7 +178,7 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
         const auto length = json["byteLength"].get<std::uint64_t>();
         total += length;
         if (length > MAX_BUFFER_BYTES || total > MAX_BUFFER_BYTES)
-            fail(fmt::format("{}: buffers of more than {} bytes together: not read", who, MAX_BUFFER_BYTES));
+            fail(fmt::format("{}: the buffers together exceed the limit of {} bytes", who, MAX_BUFFER_BYTES));
         tinygltf::Buffer& buffer = out.model.buffers.emplace_back();
         buffer.name = json.value("name", std::string());
         try {
@@ -184,14 +186,14 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
             buffer.data = bytesOf(json, i == 0, bytes, binary, out.resources, found);
             for (const std::string& note : found) notes.add(fmt::format("{}: {}", who, note));
             if (buffer.data.size() < length) {
-                setMissing(buffer, fmt::format("{}: holds {} bytes of the {} that its byteLength names", who,
+                setMissing(buffer, fmt::format("{}: has {} of the {} bytes in its byteLength", who,
                                                buffer.data.size(), length));
-                notes.add(missing(buffer) + ": nothing that is drawn reads the others");
+                notes.add(missing(buffer) + ": the scene does not use the rest");
             }
         } catch (const std::runtime_error& e) {
             setMissing(buffer, fmt::format("{}: {}", who, e.what()));
             if (!mayBeEmpty(json) || json.contains("uri"))
-                notes.add(missing(buffer) + ": nothing that is drawn reads it");
+                notes.add(missing(buffer) + ": the scene does not use it");
         }
     }
     notes.moveTo(out.notes);
@@ -206,7 +208,7 @@ void noteCutViews(Document& out) {
             !missing(out.model.buffers[static_cast<std::size_t>(buffer)]).empty())
             continue;
         if (const std::string cut = cutOf(out.model, static_cast<int>(i)); !cut.empty())
-            notes.add(cut + ": nothing that is drawn reads further");
+            notes.add(cut + ": the scene does not use the rest");
     }
     notes.moveTo(out.notes);
 }
@@ -317,7 +319,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
         for (const auto& [name, where] : found.misplaced)
             if (isBuilt(name))
-                result.notes.push_back(fmt::format("{}: {} is not read there: left out",
+                result.notes.push_back(fmt::format("{}: {} is not supported there: left out",
                                                    where.empty() ? "the document" : where, name));
         result.broken_meshes = std::move(found.broken_meshes);
         result.left_out = std::move(found.extensions);

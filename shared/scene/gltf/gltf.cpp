@@ -31,8 +31,8 @@ namespace {
 void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
     for (const std::string& name : document.left_out)
         notes.push_back(
-            fmt::format("{}: left out, it is not read{}", name,
-                        name == "KHR_lights_image_based" ? "; --env FILE gives an environment" : ""));
+            fmt::format("{}: left out, not supported{}", name,
+                        name == "KHR_lights_image_based" ? "; --env FILE sets an environment" : ""));
     gltf::limitNotes(notes, 0, "extensions");
 }
 
@@ -44,7 +44,7 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
     gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
         tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
         if (image.uri.empty() && image.bufferView < 0)
-            throw std::runtime_error(fmt::format("image {}: has neither a uri nor a bufferView", imageOf[i]));
+            throw std::runtime_error(fmt::format("image {}: has no uri or bufferView", imageOf[i]));
         if (image.uri.empty()) return;
         const std::string uri = std::move(image.uri);
         image.uri = gltf::uriName(uri);
@@ -55,9 +55,8 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
             // One byte more than allowed shows that a file is too long.
             image.image = document.resources.read(uri, left + 1, notes[i]);
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
-                throw std::runtime_error(
-                    fmt::format("the image files are more than {} bytes together: not read",
-                                gltf::MAX_ENCODED_IMAGE_BYTES));
+                throw std::runtime_error(fmt::format("the image files together exceed the limit of {} bytes",
+                                                     gltf::MAX_ENCODED_IMAGE_BYTES));
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
         }

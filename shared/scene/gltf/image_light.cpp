@@ -48,7 +48,7 @@ Json takeExtension(Json& owner) {
 int indexOf(const Json& value, std::size_t count, const std::string& who) {
     const double index = value.is_number() ? value.get<double>() : -1;
     if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index)))
-        fail(who, fmt::format("is no whole number below {}", count));
+        fail(who, fmt::format("is not a whole number below {}", count));
     return static_cast<int>(index);
 }
 
@@ -67,7 +67,7 @@ ImageLight lightOf(const Json& json, std::size_t images, const std::string& who)
     const Json* mips = fields.find("specularImages");
     if (!mips || !mips->is_array() || mips->empty() || !mips->front().is_array() ||
         mips->front().size() != light.images.size())
-        fields.fail("specularImages", "is no array of mips of 6 images each");
+        fields.fail("specularImages", "is not an array of mip levels with 6 images each");
     for (std::size_t face = 0; face < light.images.size(); ++face)
         light.images[face] = indexOf(mips->front()[face], images,
                                      fmt::format("{}: specularImages: image of face {}", who, face));
@@ -93,12 +93,12 @@ Image faceOf(const tinygltf::Model& model, const Resources& resources, int index
         for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", who, note));
         bytes = file;
     }
-    if (bytes.empty()) fail(who, "has neither a uri nor a bufferView, or is empty");
+    if (bytes.empty()) fail(who, "has no uri or bufferView, or is empty");
     try {
         const ImageHeader header = imageHeader(bytes);
         if (header.width != header.height || header.width > largestFace)
             throw std::runtime_error(
-                fmt::format("is {} x {} pixels: faces of a cube are as wide as high, up to {}", header.width,
+                fmt::format("has {} x {} pixels; cube faces must be square, up to {} per side", header.width,
                             header.height, largestFace));
         return decodedRgbd(decodeImage(bytes));
     } catch (const std::runtime_error& e) {
@@ -143,7 +143,7 @@ std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t
             cube.faces[face] = faceOf(model, resources, light.images[face], notes);
             if (face > 0 && cube.faces[face].width != cube.faces[0].width)
                 fail(fmt::format("image {}", light.images[face]),
-                     fmt::format("is {} pixels a side, and the first face {}", cube.faces[face].width,
+                     fmt::format("has {} pixels per side, but the first face {}", cube.faces[face].width,
                                  cube.faces[0].width));
         }
         cube.side = cube.faces[0].width;

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/motion/pose.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,8 @@ public:
         for (const std::string& name : attributes_.Keys()) {
             const std::string what = fmt::format("{}: {}", who_, name);
             const std::size_t these = soundCount(model_, indexIn(attributes_, name.c_str(), -1, who_), what);
-            if (count && these != *count) fail(what, fmt::format("{} instances, others {}", these, *count));
+            if (count && these != *count)
+                fail(what, fmt::format("{} instances, but other attributes have {}", these, *count));
             count = these;
         }
         return count;
@@ -47,7 +49,7 @@ public:
             fail(what, fmt::format("accessor {} is not VEC{} of floats{}", accessor, width,
                                    mayBeIntegers ? " or normalized signed integers" : ""));
         if (!std::ranges::all_of(numbers.values, [](float v) { return std::isfinite(v); }))
-            fail(what, "holds values that are not finite");
+            fail(what, "has values that are not finite");
         return std::move(numbers.values);
     }
 
@@ -80,8 +82,8 @@ std::vector<glm::dmat4> copiesOf(Attributes attributes, std::size_t count, const
         copies.push_back(m);
     }
     if (unturned)
-        notes.push_back(fmt::format("{}: {} rotation{} 0 0 0 0: taken as none", who, unturned,
-                                    unturned == 1 ? " is" : "s are"));
+        notes.push_back(
+            fmt::format("{}: {} 0 0 0 0: no rotation is used", who, counted(unturned, "rotation")));
     return copies;
 }
 
@@ -100,7 +102,7 @@ void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneN
             continue;
         }
         if (node.skin >= 0) {
-            scene.notes.push_back(who + ": its mesh is skinned, which no node moves: drawn once");
+            scene.notes.push_back(who + ": its mesh is skinned, so nodes do not move it: drawn once");
             continue;
         }
         static const tinygltf::Value none{tinygltf::Value::Object()};  // tinygltf leaves out empty objects

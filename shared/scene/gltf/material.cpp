@@ -6,6 +6,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
@@ -88,7 +89,7 @@ private:
         const double inside = std::clamp(x, least, most);
         if (inside != x)
             // Printed with all digits, since 1.0000001 is outside as well.
-            scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: taken as {:g}", who_, what,
+            scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: {:g} is used", who_, what,
                                                x, least, most, inside));
         return inside;
     }
@@ -100,7 +101,7 @@ private:
         if (file_.alphaMode == "OPAQUE") return AlphaMode::opaque;
         if (file_.alphaMode == "MASK") return AlphaMode::mask;
         if (file_.alphaMode == "BLEND") return AlphaMode::blend;
-        fail(who_, fmt::format("alphaMode \"{}\" is none of OPAQUE, MASK, BLEND", file_.alphaMode));
+        fail(who_, fmt::format("alphaMode \"{}\" is not one of OPAQUE, MASK, BLEND", file_.alphaMode));
     }
 
     template <class Info>
@@ -117,11 +118,11 @@ private:
         const char* other = otherImageOf(model_.textures[static_cast<std::size_t>(texture)]);
         if (other && scene_.textures[static_cast<std::size_t>(texture)].image < 0)
             fail(who,
-                 fmt::format("texture {} has no image but that of {}, which is not read", texture, other));
+                 fmt::format("texture {} has only an image of {}, which is not supported", texture, other));
         if (transform) texcoord = readTransform(*transform, name, result, texcoord);
         if (texcoord < 0 || texcoord > 1)
             scene_.notes.push_back(
-                fmt::format("{} reads TEXCOORD_{}: left out, there are two UV sets", who, texcoord));
+                fmt::format("{} reads TEXCOORD_{}: left out, only two UV sets are supported", who, texcoord));
         else if (scene_.textures[static_cast<std::size_t>(texture)].image < 0)
             scene_.notes.push_back(
                 fmt::format("{}: texture {} has no PNG or JPEG image: left out", who, texture));
@@ -180,7 +181,7 @@ private:
         for (int c = 0; c < 3; ++c) {
             const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
             if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
-                fail(who_, fmt::format("emits {:g}, beyond any float", emitted));
+                fail(who_, fmt::format("emits {:g}, more than a float can store", emitted));
             m.emissive[c] = within("emissiveFactor", emitted, 0, std::numeric_limits<float>::max());
             parts_.emissive[c] = std::max(file_.emissiveFactor[static_cast<std::size_t>(c)], 0.0);
         }
@@ -206,7 +207,7 @@ private:
             const double ior = numberIn(*e, "ior", 1.5, who_);
             if (ior != 0 && ior < 1)
                 scene_.notes.push_back(
-                    fmt::format("{}: ior {} is neither 0 nor at least 1: taken as 1", who_, ior));
+                    fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, ior));
             m.ior = ior == 0 ? 0.0f : static_cast<float>(std::max(ior, 1.0));
         }
         if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
@@ -232,8 +233,8 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
         names += (count++ ? ", " : "") + (name.empty() ? std::to_string(i) : name);
     }
     if (count)
-        scene.notes.push_back(
-            fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", oneLine(names), what));
+        scene.notes.push_back(fmt::format(
+            "{} ({}) {}", counted(static_cast<std::uint64_t>(count), "material"), oneLine(names), what));
 }
 
 // What the model of thin transmission leaves out, once a scene.
@@ -248,17 +249,16 @@ void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& dra
     const auto extensionOf = [&](std::size_t i, const char* name) {
         return extension(model.materials[i].extensions, name);
     };
-    noteMaterials(
-        model, transmits,
-        "with KHR_materials_transmission: blended, without thickness; refraction, blur by roughness "
-        "and the colour of what passes are not modelled",
-        scene);
+    noteMaterials(model, transmits,
+                  "with KHR_materials_transmission: blended as thin surfaces; refraction, rough transmission "
+                  "and colour of transmitted light are not modelled",
+                  scene);
     const auto textured = [&](std::size_t i) {
         const auto* e = extensionOf(i, "KHR_materials_transmission");
         return transmits(i) && e && e->Has("transmissionTexture");
     };
-    noteMaterials(model, textured,
-                  "with a transmissionTexture: not read, transmissionFactor counts everywhere", scene);
+    noteMaterials(model, textured, "with a transmissionTexture: ignored, only transmissionFactor is used",
+                  scene);
     const auto thick = [&](std::size_t i) { return drawn[i] && extensionOf(i, "KHR_materials_volume"); };
     noteMaterials(model, thick, "with KHR_materials_volume: thickness and attenuation are not modelled",
                   scene);
@@ -313,7 +313,7 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
                 scene.material_parts[static_cast<int>(i)] = reader.parts();
         } catch (const std::runtime_error& e) {
             if (drawn[i]) throw;
-            left.add(std::string(e.what()) + ": left out, nothing is drawn with it");
+            left.add(std::string(e.what()) + ": left out, the scene does not use it");
             m = {};
             m.name = model.materials[i].name;
         }

@@ -6,6 +6,7 @@
 #include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -72,17 +73,17 @@ void checkSize(const tinygltf::Model& model, std::vector<Task>& tasks) {
     for (Task& task : tasks) {
         attempt(task, [&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
         if (decoded > most)
-            throw std::runtime_error(fmt::format(
-                "{}: {} bytes of geometry up to here from {} bytes of buffers: at most {} are read",
-                task.who(), decoded, encoded, most));
+            throw std::runtime_error(
+                fmt::format("{}: {} bytes of geometry so far from {} bytes of buffers; the limit is {}",
+                            task.who(), decoded, encoded, most));
     }
 }
 
 std::vector<float> readWeights(const tinygltf::Mesh& mesh, std::size_t targets, const std::string& who) {
     if (mesh.weights.empty()) return std::vector<float>(targets, 0.0f);
     if (mesh.weights.size() != targets)
-        throw std::runtime_error(fmt::format("{}: {} weights for {} morph target{}", who, mesh.weights.size(),
-                                             targets, targets == 1 ? "" : "s"));
+        throw std::runtime_error(fmt::format("{}: {} for {}", who, counted(mesh.weights.size(), "weight"),
+                                             counted(targets, "morph target")));
     std::vector<float> weights;
     for (const double w : mesh.weights) {
         weights.push_back(static_cast<float>(w));

@@ -38,7 +38,7 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
                              : !object.Get(key).IsString() ? ""
                                                            : object.Get(key).Get<std::string>();
     const auto at = std::find(std::begin(words), std::end(words), word);
-    if (at == std::end(words)) failView(view, fmt::format("\"{}\" is no {}", oneLine(word), key));
+    if (at == std::end(words)) failView(view, fmt::format("\"{}\" is not a {}", oneLine(word), key));
     return static_cast<Enum>(at - words);
 }
 
@@ -53,8 +53,8 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
     const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)
-        failView(view, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", length, offset, index,
-                                   buffer.data.size()));
+        failView(view, fmt::format("{} bytes at offset {} end past buffer {} ({} bytes)", length, offset,
+                                   index, buffer.data.size()));
     return std::span(buffer.data).subspan(offset, length);
 }
 
@@ -86,13 +86,13 @@ void checkRules(const MeshoptView& v, const tinygltf::BufferView& parent) {
         require(v.stride > 0 && v.stride % 4 == 0 && v.stride <= 256, stride("a multiple of 4 up to 256"));
     } else {
         require(v.stride == 2 || v.stride == 4, stride("2 or 4"));
-        require(v.filter == Filter::none, "indices have no filter");
+        require(v.filter == Filter::none, "indices must not have a filter");
     }
     if (v.mode == Mode::triangles)
-        require(v.count % 3 == 0, fmt::format("{} indices are no triangles", v.count));
+        require(v.count % 3 == 0, fmt::format("{} indices are not a multiple of 3", v.count));
     if (v.filter == Filter::octahedral) require(v.stride == 4 || v.stride == 8, stride("4 or 8"));
     if (v.filter == Filter::quaternion) require(v.stride == 8, stride("8"));
-    require(v.count > 0, "has no element");
+    require(v.count > 0, "has no elements");
     require(parent.byteStride == 0 || parent.byteStride == v.stride,
             fmt::format("byteStride {}, but the bufferView's is {}", v.stride, parent.byteStride));
     // Cannot overflow: a count of 31 bits times a stride of 9 bits.
@@ -100,7 +100,7 @@ void checkRules(const MeshoptView& v, const tinygltf::BufferView& parent) {
             fmt::format("{} elements of {} bytes, but the bufferView has {} bytes", v.count, v.stride,
                         parent.byteLength));
     require(v.stream.size() >= shortestStream(v),
-            fmt::format("{} bytes cannot hold {} elements", v.stream.size(), v.count));
+            fmt::format("{} bytes are too few for {} elements", v.stream.size(), v.count));
 }
 
 // ---- decoding ----------------------------------------------------------------------------------------
@@ -115,9 +115,9 @@ Bytes decoded(const MeshoptView& v) {
                            ? meshopt_decodeIndexBuffer(bytes.data(), v.count, v.stride, stream, size)
                            : meshopt_decodeIndexSequence(bytes.data(), v.count, v.stride, stream, size);
     // The library's three error codes.
-    if (result == -1) failView(v.view, "its bytes are not of its mode");
-    if (result == -2) failView(v.view, "its bytes end before its elements");
-    if (result != 0) failView(v.view, "its bytes do not end with its elements");
+    if (result == -1) failView(v.view, "its data has another mode");
+    if (result == -2) failView(v.view, "its data is too short for its elements");
+    if (result != 0) failView(v.view, "its data is too long for its elements");
 
     switch (v.filter) {
         case Filter::none:
@@ -186,7 +186,7 @@ void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteL
         }
     });
     for (std::size_t i = 0; i < views.size(); ++i) {
-        if (!views[i].fault.empty()) notes.add(views[i].fault + ": nothing that is drawn reads it");
+        if (!views[i].fault.empty()) notes.add(views[i].fault + ": the scene does not use it");
         give(model, views[i].view, std::move(results[i]), std::move(views[i].fault));
     }
 }

@@ -6,6 +6,7 @@
 #include "shared/scene/gltf/instancing.h"
 #include "shared/scene/gltf/motion_budget.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ private:
         for (const int joint : file.joints) {
             result.joints.push_back(sceneNode(joint, who, "joint"));
             if (result.joints.back() < 0)
-                fail(who, fmt::format("joint node {} is not in the scene that is drawn", joint));
+                fail(who, fmt::format("joint node {} is not in the drawn scene", joint));
         }
         // The skeleton only hints at what the joints say already; one outside the scene is dropped.
         if (file.skeleton >= 0) result.skeleton = sceneNode(file.skeleton, who, "skeleton");
@@ -116,8 +117,8 @@ void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& scene
         if (model.meshes[static_cast<std::size_t>(file.mesh)].primitives.empty()) continue;  // left out
         const std::size_t targets = targetsOf(model, file);
         if (file.weights.size() != targets)
-            fail(who, fmt::format("{} weights for {} morph target{}", file.weights.size(), targets,
-                                  targets == 1 ? "" : "s"));
+            fail(who, fmt::format("{} for {}", counted(file.weights.size(), "weight"),
+                                  counted(targets, "morph target")));
         std::vector<float> weights(file.weights.begin(), file.weights.end());
         if (!allFinite(weights)) fail(who, "a weight is not finite");
         scene.nodes[static_cast<std::size_t>(sceneNode[n])].weights = static_cast<int>(scene.weights.size());

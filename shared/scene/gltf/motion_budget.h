@@ -35,7 +35,8 @@ public:
         return readNumbers(model, accessor, who);
     }
     void hold(std::size_t bytesEach, std::size_t count, const std::string& who, const char* what) {
-        if (count > left_ / bytesEach) fail(who, fmt::format("{} {} more are too many", count, what));
+        if (count > left_ / bytesEach)
+            fail(who, fmt::format("{} more {} exceed the memory limit", count, what));
         left_ -= bytesEach * count;
     }
 

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -62,7 +63,7 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteL
         if (glm::length(q) > 0)
             m = glm::mat4_cast(glm::normalize(q));
         else
-            notes.add(who + ": rotation 0 0 0 0: taken as none");
+            notes.add(who + ": rotation 0 0 0 0: no rotation is used");
     }
     if (!node.scale.empty())
         for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
@@ -112,7 +113,7 @@ std::vector<bool> reached(const tinygltf::Model& model, int index, const std::ve
     for (const int root : waiting) {
         if (checkedIndex(root, model.nodes.size(), who, "node") < 0) fail(who, "node -1");
         if (parent[static_cast<std::size_t>(root)] >= 0)
-            fail(who, fmt::format("node {} is no root: it is a child of node {}", root,
+            fail(who, fmt::format("node {} is not a root: it is a child of node {}", root,
                                   parent[static_cast<std::size_t>(root)]));
     }
     while (!waiting.empty()) {
@@ -131,7 +132,7 @@ std::vector<bool> reached(const tinygltf::Model& model, int index, const std::ve
 double bounded(const std::string& who, const char* what, double x, double least, double most,
                NoteList& notes) {
     const double inside = std::clamp(x, least, most);
-    if (inside != x) notes.add(fmt::format("{}: {} {}: taken as {:g}", who, what, x, inside));
+    if (inside != x) notes.add(fmt::format("{}: {} {}: {:g} is used", who, what, x, inside));
     return inside;
 }
 
@@ -155,14 +156,14 @@ Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& note
     else if (l.type == "spot")
         light.kind = LightKind::spot;
     else
-        fail(who, fmt::format("type \"{}\" is none of directional, point, spot", l.type));
+        fail(who, fmt::format("type \"{}\" is not one of directional, point, spot", l.type));
     checkLength(l.color, 3, who, "color");
     constexpr double most = std::numeric_limits<float>::max();
     for (int c = 0; c < 3 && !l.color.empty(); ++c)
         light.color[c] =
             static_cast<float>(bounded(who, "color", l.color[static_cast<std::size_t>(c)], 0, most, notes));
     light.intensity = static_cast<float>(bounded(who, "intensity", l.intensity, 0, most, notes));
-    if (l.range < 0) notes.add(fmt::format("{}: range {}: taken as none", who, l.range));
+    if (l.range < 0) notes.add(fmt::format("{}: range {}: no range is used", who, l.range));
     if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
     if (light.kind == LightKind::spot) readCone(l.spot, who, light, notes);
     return light;
@@ -177,14 +178,14 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
         camera.near = c.perspective.znear;
         if (c.perspective.zfar != 0) camera.far = c.perspective.zfar;
         if (c.perspective.aspectRatio < 0)
-            notes.add(fmt::format("{}: aspectRatio {}: not read", who, c.perspective.aspectRatio));
+            notes.add(fmt::format("{}: aspectRatio {}: ignored", who, c.perspective.aspectRatio));
         else
             camera.aspect = c.perspective.aspectRatio;
         if (!(camera.yfov > 0 && camera.yfov < glm::pi<double>()))
-            fail(who, fmt::format("yfov {} does not lie between 0 and pi", camera.yfov));
+            fail(who, fmt::format("yfov {} is not between 0 and pi", camera.yfov));
         if (!(camera.near > 0)) fail(who, fmt::format("znear {} is not above 0", camera.near));
         if (!(camera.far > camera.near)) {
-            notes.add(fmt::format("{}: zfar {} is not beyond znear {}: taken as none", who, camera.far,
+            notes.add(fmt::format("{}: zfar {} is not beyond znear {}: no far plane is used", who, camera.far,
                                   camera.near));
             camera.far = std::numeric_limits<double>::infinity();
         }
@@ -200,9 +201,9 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
             fail(who, fmt::format("zfar {} is not beyond znear {}", camera.far, camera.near));
         for (const auto& [what, mag] :
              {std::pair{"xmag", c.orthographic.xmag}, std::pair{"ymag", c.orthographic.ymag}})
-            if (mag < 0) notes.add(fmt::format("{}: {} {}: taken as {}", who, what, mag, -mag));
+            if (mag < 0) notes.add(fmt::format("{}: {} {}: {} is used", who, what, mag, -mag));
     } else {
-        fail(who, fmt::format("type \"{}\" is neither perspective nor orthographic", c.type));
+        fail(who, fmt::format("type \"{}\" is not perspective or orthographic", c.type));
     }
     return camera;
 }
@@ -223,7 +224,8 @@ int chooseScene(const tinygltf::Model& model, const std::string& choice, std::ve
         if (choice == std::to_string(i)) return i;
     for (int i = 0; i < count; ++i)
         if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
-    fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
+    fail("scene=" + choice,
+         fmt::format("names none of the file's {}", counted(static_cast<std::uint64_t>(count), "scene")));
 }
 
 std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, int chosen,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/text/counted.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ namespace diptych::gltf {
 // rest only counted.
 class NoteList {
 public:
-    // `about` names them in the last line: "12 more notes on nodes like these".
+    // `about` names them in the last line: "12 more notes about nodes".
     explicit NoteList(std::string about) : about_(std::move(about)) {}
 
     void add(std::string note) {
@@ -28,7 +30,7 @@ public:
 
     void moveTo(std::vector<std::string>& notes) {
         for (std::string& note : notes_) notes.push_back(std::move(note));
-        if (more_) notes.push_back(fmt::format("{} more notes on {} like these", more_, about_));
+        if (more_) notes.push_back(fmt::format("{} about {}", counted(more_, "more note"), about_));
         notes_.clear();
         more_ = 0;
     }

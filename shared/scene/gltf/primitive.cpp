@@ -7,6 +7,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ public:
     Primitive read() {
         if (!drawsTriangles(file_.mode)) {
             if (file_.mode < 0 || file_.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-                fail(who_, fmt::format("{} is no mode", file_.mode));
+                fail(who_, fmt::format("mode {} does not exist", file_.mode));
             return nothing("points or lines");
         }
         if (!file_.attributes.contains("POSITION")) return nothing("has no POSITION");
@@ -51,10 +52,10 @@ public:
         if (result_.material < 0) result_.material = static_cast<int>(use_.materials.size()) - 1;
         countVertices();
         readTriangles();
-        if (result_.indices.empty()) return nothing("has no triangle");
+        if (result_.indices.empty()) return nothing("has no triangles");
         keepTouched();
         readPositions();
-        if (result_.indices.empty()) return nothing("has no triangle");
+        if (result_.indices.empty()) return nothing("has no triangles");
         readAttributes();
         const AttributeReader reader = attributes();
         if (use_.joints > 0) readJointSets(reader, use_.joints, touched_, result_);
@@ -98,7 +99,7 @@ private:
         const auto check = [&](const std::string& name, int accessor, std::size_t width) {
             const std::string who = fmt::format("{}: {}", who_, name);
             const std::size_t count = soundCount(model_, accessor, who, "vertices", width);
-            if (count != count_) fail(who, fmt::format("{} elements for {} positions", count, count_));
+            if (count != count_) fail(who, fmt::format("has {} elements for {} positions", count, count_));
         };
         for (const auto& [name, accessor] : file_.attributes)
             if (!name.starts_with('_')) check(name, accessor, widthOf(name));
@@ -123,7 +124,8 @@ private:
 
         std::vector<std::uint32_t>& out = result_.indices;
         if (file_.mode == TINYGLTF_MODE_TRIANGLES) {
-            if (order.size() % 3) note("the last {} indices make no triangle", order.size() % 3);
+            if (order.size() % 3)
+                note("the last {} cannot form a triangle", counted(order.size() % 3, "index", "indices"));
             order.resize(order.size() - order.size() % 3);
             out = std::move(order);
             return;
@@ -176,7 +178,7 @@ private:
             if (isUsable(positions[t[0]]) && isUsable(positions[t[1]]) && isUsable(positions[t[2]]))
                 sound.insert(sound.end(), {touched_[t[0]], touched_[t[1]], touched_[t[2]]});
         }
-        note("{} of {} triangles touch vertices that are not finite or beyond {:g} m: left out",
+        note("{} of {} triangles with a vertex that is not finite or beyond {:g} m: left out",
              (result_.indices.size() - sound.size()) / 3, result_.indices.size() / 3, maxCoordinate);
         result_.indices = std::move(sound);
         keepTouched();
@@ -195,7 +197,7 @@ private:
             result_.texcoords[set] = reader.read<glm::vec2>(name, readVectors<glm::vec2>);
             reader.repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
             if (result_.texcoords[set].empty() && materialReads(set))
-                note("its material reads {}, which it does not have: 0, 0", name);
+                note("its material reads {}, which it lacks: 0, 0 is used", name);
         }
         reader.repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
         for (glm::vec4& color : result_.colors) color = glm::clamp(color, 0.0f, 1.0f);
@@ -247,7 +249,8 @@ private:
             const double length = glm::length(sum[v]);
             result_.normals[v] = length > 0 ? glm::vec3(sum[v] / length) : glm::vec3(0, 0, 1);
         }
-        note("{} normals have no direction: taken from the triangles", broken.size());
+        note("{} no direction: triangle normals are used",
+             broken.size() == 1 ? "1 normal has" : counted(broken.size(), "normal") + " have");
     }
 
     // If the file has no tangents, a normal texture needs MikkTSpace's; nothing else reads them.
@@ -270,7 +273,9 @@ private:
             else
                 ++broken;
         }
-        if (broken) note("{} tangents have no direction: any that is perpendicular to the normal", broken);
+        if (broken)
+            note("{} no direction: any perpendicular to the normal is used",
+                 broken == 1 ? "1 tangent has" : counted(broken, "tangent") + " have");
     }
 };
 

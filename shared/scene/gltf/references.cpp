@@ -36,7 +36,7 @@ References::References(const Json& document) {
         items += collections_.back().count;
     }
     // Not reached within the limit on JSON (limits.h), of which an item takes at least two bytes.
-    if (items >= none) throw std::runtime_error("has more objects than 32 bits can number");
+    if (items >= none) throw std::runtime_error("has more objects than 32-bit indices can address");
     items_ = static_cast<Id>(items);
 }
 

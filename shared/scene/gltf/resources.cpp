@@ -59,7 +59,7 @@ Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
             const std::size_t more = text.find_first_not_of("= \t\r\n", i);
             if (more != text.npos)
                 notes.push_back(
-                    fmt::format("its base64 goes on after its end at character {}: not read", more));
+                    fmt::format("its base64 continues after its end, at character {}: ignored", more));
             break;
         }
         if (values[c] < 0) fail(fmt::format("its data is not base64 at character {}", i));
@@ -90,12 +90,12 @@ Bytes readData(std::string_view uri, std::vector<std::string>& notes) {
 // Throws unless the name is a relative path without a scheme.
 void checkRelative(const std::string& name) {
     if (name.empty()) fail("its uri is empty");
-    if (name.find('\0') != name.npos) fail("its uri holds a null character");
+    if (name.find('\0') != name.npos) fail("its uri contains a null character");
     const std::size_t colon = name.find(':');
     if (colon != name.npos && colon > 0 &&
         std::all_of(name.begin(), name.begin() + static_cast<long>(colon),
                     [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; }))
-        fail(oneLine(name) + ": only files beside the scene and data URIs are read");
+        fail(oneLine(name) + ": only files in the scene's folder and data URIs are read");
     if (name[0] == '/' || name[0] == '\\')
         fail(oneLine(name) + ": an absolute path leaves the scene's folder");
 }
@@ -120,10 +120,10 @@ std::vector<Candidate> candidates(const std::string& uri) {
     };
     const std::string decoded = percentDecoded(uri);
     std::vector<Candidate> all{{decoded, ""}};
-    if (uri != decoded) all.push_back({uri, "its uri is taken as it stands, not as percent-encoded"});
+    if (uri != decoded) all.push_back({uri, "its uri is read without percent-decoding"});
     for (std::size_t i = 0, count = all.size(); i < count; ++i)
         if (const std::string name = withSlashes(all[i].name); name != all[i].name)
-            all.push_back({name, "a backslash in its uri is taken as /"});
+            all.push_back({name, "a backslash in its uri is read as /"});
     return all;
 }
 

@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/rules.h"
 
 #include "shared/scene/gltf/properties.h"
+#include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -29,16 +30,16 @@ void checkAccessor(const Json& accessor, const std::string& who) {
     constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
     const auto type = accessor["componentType"].get<std::int64_t>();
     if (std::ranges::find(types, type) == types.end())
-        fail(who, fmt::format("componentType {} is none of glTF's", type));
+        fail(who, fmt::format("componentType {} does not exist", type));
     if (accessor.contains("sparse") && accessor["sparse"]["count"] > accessor["count"])
-        fail(who, fmt::format("{} sparse elements of {}", accessor["sparse"]["count"].dump(),
+        fail(who, fmt::format("{} sparse elements for {} elements", accessor["sparse"]["count"].dump(),
                               accessor["count"].dump()));
 }
 
 // Removes a member that must be above 0 but is 0, which exporters write to mean that there is none.
 void leaveOutZero(Json& item, const char* key, const std::string& who, NoteList& notes) {
     if (!item.contains(key) || item[key] != 0) return;
-    notes.add(fmt::format("{}: {} 0: taken as none", who, key));
+    notes.add(fmt::format("{}: {} 0: ignored", who, key));
     item.erase(key);
 }
 
@@ -88,15 +89,15 @@ void checkRules(std::string_view collection, Json& item, const std::string& who,
     if (collection == "accessors") return checkAccessor(item, who);
     if (collection == "nodes" && item.contains("matrix") &&
         (item.contains("translation") || item.contains("rotation") || item.contains("scale")))
-        notes.add(who + ": a matrix beside translation, rotation or scale: the matrix counts");
+        notes.add(who + ": has a matrix and translation, rotation or scale: the matrix is used");
     // Cameras and spot lights must have the object that their type names.
     if (collection == "cameras") {
         const std::string& type = item["type"].get_ref<const std::string&>();
-        if (!item.contains(type)) fail(who, fmt::format("is {0}, but has no {0}", type));
+        if (!item.contains(type)) fail(who, fmt::format("is {0} but has no {0}", type));
         if (type == "perspective") leaveOutZero(item["perspective"], "zfar", who, notes);
     }
     if (collection == "KHR_lights_punctual") {
-        if (item["type"] == "spot" && !item.contains("spot")) fail(who, "is spot, but has no spot");
+        if (item["type"] == "spot" && !item.contains("spot")) fail(who, "is spot but has no spot");
         leaveOutZero(item, "range", who, notes);
     }
 }
@@ -117,23 +118,23 @@ void checkStrides(Json& document, References& references, NoteList& notes) {
         const auto at = readers.find(view);
         const Readers read = at == readers.end() ? Readers{} : at->second;
         if (stride == 0) {
-            notes.add(who + ": byteStride 0: taken as packed");
+            notes.add(who + ": byteStride 0: read as packed");
             views[view].erase("byteStride");
         } else if (!read.index_bytes.empty()) {
             if (read.index_bytes != std::set{stride})
                 references.broken(
                     "bufferViews", view,
-                    fmt::format("{}: byteStride {}, but indices are packed: {} byte{} each", who, stride,
-                                *read.index_bytes.begin(), *read.index_bytes.begin() == 1 ? "" : "s"));
+                    fmt::format("{}: byteStride {}, but indices must be packed, {} each", who, stride,
+                                counted(static_cast<std::uint64_t>(*read.index_bytes.begin()), "byte")));
             else
                 notes.add(fmt::format("{}: byteStride {} of packed indices: ignored", who, stride));
             if (!read.others) views[view].erase("byteStride");
         } else if (stride < 4) {
             references.broken("bufferViews", view,
-                              fmt::format("{}: byteStride is {}, not from 4 to 252", who, stride));
+                              fmt::format("{}: byteStride {} is not from 4 to 252", who, stride));
         } else if (stride % 4 != 0) {
             references.broken("bufferViews", view,
-                              fmt::format("{}: byteStride {} is no multiple of 4", who, stride));
+                              fmt::format("{}: byteStride {} is not a multiple of 4", who, stride));
         }
     }
 }

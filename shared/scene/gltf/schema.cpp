@@ -109,7 +109,7 @@ private:
     // Exporters write null for absent values, and numbers for names: neither matters for drawing.
     bool isAbsent(const Json& value, const Property& p, const Where& where) {
         if (value.is_null()) {
-            note(where, fmt::format("{} is null: taken as absent", p.key));
+            note(where, fmt::format("{} is null: ignored", p.key));
             return true;
         }
         if (p.kind != Kind::name || p.required || value.is_string()) return false;
@@ -257,9 +257,9 @@ private:
         if (!value.is_object()) failAt(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
             const std::string name = oneLine(at.key());
-            if (name != at.key()) failAt(where, fmt::format("{} is no name of an attribute", name));
+            if (name != at.key()) failAt(where, fmt::format("{} is not an attribute name", name));
             if (at.value().is_null()) {
-                note(where, name + " is null: taken as absent");
+                note(where, name + " is null: ignored");
                 at = value.erase(at);
                 continue;
             }

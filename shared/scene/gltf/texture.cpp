@@ -30,7 +30,7 @@ Wrap wrapOf(int value, const std::string& who) {
         case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
             return Wrap::clamp_to_edge;
         default:
-            fail(who, fmt::format("{} is no wrap mode", value));
+            fail(who, fmt::format("{} is not a wrap mode", value));
     }
 }
 
@@ -41,7 +41,7 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     sampler.wrap_t = wrapOf(s.wrapT, who);
     if (s.magFilter != -1 && s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
         s.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
-        fail(who, fmt::format("{} is no magFilter", s.magFilter));
+        fail(who, fmt::format("{} is not a magFilter", s.magFilter));
     sampler.magnify_linear = s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
     const auto minify = [&](bool linear, bool mipmaps, bool between) {
         sampler.minify_linear = linear;
@@ -69,7 +69,7 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
             minify(true, true, true);
             break;
         default:
-            fail(who, fmt::format("{} is no minFilter", s.minFilter));
+            fail(who, fmt::format("{} is not a minFilter", s.minFilter));
     }
     return sampler;
 }
@@ -80,12 +80,12 @@ TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::str
                             std::vector<std::string>& notes) {
     const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
     if (picture.width > limits::texture_side || picture.height > limits::texture_side)
-        fail(who, fmt::format("is {} x {} pixels: from 1 to {} a side are read", picture.width,
-                              picture.height, limits::texture_side));
+        fail(who, fmt::format("has {} x {} pixels; each side must be 1 to {}", picture.width, picture.height,
+                              limits::texture_side));
     constexpr std::size_t bytesPerPixel = 4 * sizeof(float);
     const Image light = named(who, [&] { return radianceOf(picture, who, notes); });
     if (light.pixels() > most / bytesPerPixel)
-        fail(who, fmt::format("with it the images take over {} MiB decoded, which are read at most",
+        fail(who, fmt::format("with it the decoded images exceed the limit of {} MiB",
                               limits::imageBytes() >> 20));
     TextureImage image;
     image.width = light.width;
@@ -168,7 +168,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
     std::uint64_t total = 0;
     for (const Encoded& image : all)
         if ((total += image.decoded) > limits::imageBytes())
-            fail(image.who, fmt::format("with it the images take {} MiB decoded: {} MiB are read at most",
+            fail(image.who, fmt::format("with it the decoded images take {} MiB; the limit is {} MiB",
                                         total >> 20, limits::imageBytes() >> 20));
     // Pictures of linear light are few, and their size is known only once they are opened: they are decoded
     // one after the other.

@@ -51,7 +51,8 @@ std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, st
             fmt::format("{}: {} is not an array of {} numbers", who, key, fallback.size()));
     for (std::size_t i = 0; i < fallback.size(); ++i) {
         const tinygltf::Value& value = array.Get(static_cast<int>(i));
-        if (!value.IsNumber()) throw std::runtime_error(fmt::format("{}: {} is not numbers", who, key));
+        if (!value.IsNumber())
+            throw std::runtime_error(fmt::format("{}: {} does not contain only numbers", who, key));
         fallback[i] = value.GetNumberAsDouble();
     }
     return fallback;

@@ -50,17 +50,17 @@ ImageHeader imageHeader(std::span<const unsigned char> encoded) {
     const bool isPng = beginsWith(encoded, png);
     if (!isPng && !beginsWith(encoded, jpeg)) {
         const std::string_view kind = otherKind(encoded);
-        throw std::runtime_error(kind.empty() ? "is neither PNG nor JPEG"
-                                              : fmt::format("is {}; PNG and JPEG are read", kind));
+        throw std::runtime_error(kind.empty() ? "is not PNG or JPEG"
+                                              : fmt::format("is {}; only PNG and JPEG are supported", kind));
     }
     const ImageHeader header = isPng ? codec::readPngHeader(encoded) : codec::readJpegHeader(encoded);
     const std::int64_t width = header.width, height = header.height;
     if (width < 1 || height < 1 || width > maxSide || height > maxSide)
         throw std::runtime_error(
-            fmt::format("is {} x {} pixels: from 1 to {} a side are read", width, height, maxSide));
+            fmt::format("has {} x {} pixels; each side must be 1 to {}", width, height, maxSide));
     if (width * height / header.pixels_per_byte > static_cast<std::int64_t>(encoded.size()))
-        throw std::runtime_error(fmt::format("claims {} x {} pixels, which its {} bytes cannot hold", width,
-                                             height, encoded.size()));
+        throw std::runtime_error(
+            fmt::format("claims {} x {} pixels, too many for its {} bytes", width, height, encoded.size()));
     return header;
 }
 

@@ -3,6 +3,7 @@
 
 #include "shared/image/picture_file.h"
 #include "shared/scene/image/radiance_layer.h"
+#include "shared/text/counted.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -22,8 +23,8 @@ void limitRadiance(Image& radiance, const std::string& where, std::vector<std::s
         std::transform(p, p + 3, p, [](float v) { return std::min(v, largest); });
     }
     if (above > 0)
-        notes.push_back(fmt::format("{}: {} pixel{} above 65504, taken as 65504", where, above,
-                                    above == 1 ? " has a component" : "s have components"));
+        notes.push_back(fmt::format("{}: {} {} above 65504; 65504 is used", where, counted(above, "pixel"),
+                                    above == 1 ? "has a component" : "have components"));
 }
 
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes) {
@@ -31,14 +32,14 @@ Environment readEnvironment(const std::filesystem::path& file, std::vector<std::
     const std::string name = file.string();
     if (picture.display_referred)
         throw std::runtime_error(
-            fmt::format("{}: is a {} of display colours, and an environment is radiance: give an OpenEXR or "
-                        "Radiance HDR file",
+            fmt::format("{}: is a {} with display colours, but an environment needs radiance; give an "
+                        "OpenEXR or Radiance HDR file",
                         name, picture.format));
     const std::string where = "environment " + oneLine(name);
     Environment environment{name, named(name, [&] { return radianceOf(picture, where, notes); })};
     limitRadiance(environment.radiance, where, notes);
     if (picture.width != 2 * picture.height)
-        notes.push_back(fmt::format("{}: {} x {} pixels, not twice as wide as high: taken as all directions",
+        notes.push_back(fmt::format("{}: {} x {} pixels, not twice as wide as high; mapped to all directions",
                                     where, picture.width, picture.height));
     return environment;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/radiance_layer.h"
 
+#include "shared/text/counted.h"
+
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -68,8 +70,8 @@ Image repairedFrom(const PictureLayer& layer, Repaired& repaired) {
 
 void note(std::vector<std::string>& notes, std::size_t pixels, const std::string& where, const char* what) {
     if (pixels > 0)
-        notes.push_back(fmt::format("{}: {} pixel{} {}, taken as 0", where, pixels,
-                                    pixels == 1 ? " has a component that is" : "s have components that are",
+        notes.push_back(fmt::format("{}: {} {} {}; 0 is used", where, counted(pixels, "pixel"),
+                                    pixels == 1 ? "has a component that is" : "have components that are",
                                     what));
 }
 
@@ -88,7 +90,7 @@ Image radianceOf(const PictureFile& picture, const std::string& where, std::vect
         for (const std::string& line : *said) notes.push_back(where + ": " + line);
     if (!layer->name.empty())
         notes.push_back(
-            fmt::format("{}: has no R, G, B without a layer: {} is read", where, oneLine(layer->name)));
+            fmt::format("{}: has no R, G, B outside layers; layer {} is read", where, oneLine(layer->name)));
     Repaired repaired;
     Image radiance = repairedFrom(*layer, repaired);
     note(notes, repaired.negative, where, "negative");

@@ -263,9 +263,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     }
     EnvironmentSun none;
     none.why = fmt::format(
-        "no spot of at most {} sr is {:g} times as bright as the mean, compact in this picture, and {:g} % "
-        "of "
-        "its light",
+        "no compact spot of at most {} sr is {:g} times as bright as the mean and has {:g} % of the light",
         sun_spot::largestSolidAngle, sun_spot::leastContrast, 100 * sun_spot::leastShare);
     return none;
 }

@@ -38,12 +38,12 @@ const nlohmann::json* JsonFields::find(std::string_view key) const {
 void JsonFields::knownOnly(std::span<const std::string_view> known, std::string_view what) const {
     for (const auto& item : object_.items())
         if (std::ranges::find(known, item.key()) == known.end() && item.key() != "extras")
-            fail(item.key(), fmt::format("is not a field of {}", what));
+            fail(item.key(), fmt::format("is not a known field of {}", what));
 }
 
 std::string JsonFields::text(std::string_view key, const std::string& fallback) const {
     const nlohmann::json* value = find(key);
-    if (value && !value->is_string()) fail(key, "is not a text");
+    if (value && !value->is_string()) fail(key, "is not text");
     return value ? oneLine(value->get_ref<const std::string&>()) : fallback;
 }
 
@@ -56,7 +56,7 @@ bool JsonFields::flag(std::string_view key, bool fallback) const {
 double JsonFields::within(std::string_view key, double x, double least, double most) const {
     if (!(std::abs(x) <= largestFloat)) fail(key, fmt::format("{:g} is too large", x));
     if (x < least) fail(key, fmt::format("{:g} is below {:g}", x, least));
-    if (x > most) fail(key, fmt::format("{:g} is beyond {:g}", x, most));
+    if (x > most) fail(key, fmt::format("{:g} is above {:g}", x, most));
     return x;
 }
 

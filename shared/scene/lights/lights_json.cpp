@@ -66,8 +66,8 @@ LightKind kindOf(const JsonFields& fields) {
     std::vector<std::string_view> names;
     for (const auto& [kind, name] : types) names.push_back(name);
     const std::string all = fmt::format("{}", fmt::join(names, ", "));
-    fields.fail("type", type.empty() ? "is missing: one of " + all
-                                     : fmt::format("\"{}\" is none of {}", oneLine(type), all));
+    fields.fail("type", type.empty() ? "is missing; use one of " + all
+                                     : fmt::format("\"{}\" is not one of {}", oneLine(type), all));
 }
 
 // Of `intensity`.
@@ -84,7 +84,7 @@ void checkKeys(const JsonFields& fields, LightKind kind) {
         if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
         std::vector<std::string_view> owners;
         for (const LightKind owner : own.kinds) owners.push_back(typeOf(owner));
-        fields.fail(own.key, fmt::format("belongs to {} lights, and this is a {} one",
+        fields.fail(own.key, fmt::format("applies only to {} lights; this is a {} light",
                                          fmt::join(owners, " and "), typeOf(kind)));
     }
     fields.knownOnly(known, "a light");
@@ -94,7 +94,7 @@ void readCone(const JsonFields& fields, Light& light) {
     constexpr double right = glm::half_pi<double>();
     const double inner = fields.number("innerConeAngle", static_cast<double>(light.inner_cone), 0, any);
     const double outer = fields.number("outerConeAngle", static_cast<double>(light.outer_cone), 0, any);
-    if (outer > right + rounding) fields.fail("outerConeAngle", fmt::format("{:g} is beyond pi / 2", outer));
+    if (outer > right + rounding) fields.fail("outerConeAngle", fmt::format("{:g} is above pi / 2", outer));
     if (!(static_cast<float>(inner) < static_cast<float>(outer)))
         fields.fail("innerConeAngle", fmt::format("{:g} is not below outerConeAngle {:g}", inner, outer));
     light.inner_cone = static_cast<float>(inner);
@@ -150,12 +150,13 @@ Importance importanceOf(const JsonFields& fields) {
     const std::string word = fields.text("importance", "auto");
     for (const auto& [importance, name] : words)
         if (word == name) return importance;
-    fields.fail("importance", fmt::format("\"{}\" is none of auto, important, not_important", oneLine(word)));
+    fields.fail("importance",
+                fmt::format("\"{}\" is not one of auto, important, not_important", oneLine(word)));
 }
 
 float sunAngle(const JsonFields& fields) {
     const double angle = fields.number("angle", 0, 0, any);
-    if (angle > glm::pi<double>() + rounding) fields.fail("angle", fmt::format("{:g} is beyond pi", angle));
+    if (angle > glm::pi<double>() + rounding) fields.fail("angle", fmt::format("{:g} is above pi", angle));
     return static_cast<float>(std::min(angle, glm::pi<double>()));
 }
 

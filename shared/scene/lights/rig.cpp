@@ -48,7 +48,7 @@ struct Box {
 Order parseOrder(const std::string& lights, std::string_view item) {
     const std::size_t colon = item.find(':');
     if (colon == std::string_view::npos)
-        failLights(lights, fmt::format("'{}' is neither KIND:N nor a file", item));
+        failLights(lights, fmt::format("'{}' is not KIND:N or a file", item));
     const std::string_view kind = item.substr(0, colon), digits = item.substr(colon + 1);
     const auto found = std::ranges::find(STREAM_NAMES, kind);
     if (found == STREAM_NAMES.end()) failLights(lights, fmt::format("unknown kind '{}'", kind));
@@ -56,7 +56,7 @@ Order parseOrder(const std::string& lights, std::string_view item) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
     if (error == std::errc::result_out_of_range) count = MOST_LIGHTS + 1;
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
-        failLights(lights, fmt::format("'{}' is no count", digits));
+        failLights(lights, fmt::format("'{}' is not a count", digits));
     return {static_cast<Stream>(found - STREAM_NAMES.begin()), count};
 }
 

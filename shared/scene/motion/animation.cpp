@@ -106,9 +106,9 @@ std::span<const Animation> animationsOf(const Scene& scene, const std::string& c
         there += fmt::format("{}{}{}", i ? ", " : "", i,
                              all[i].name.empty() ? "" : fmt::format(" \"{}\"", oneLine(all[i].name)));
     if (all.size() > shown) there += fmt::format(" and {} more", all.size() - shown);
-    throw std::runtime_error(fmt::format(
-        "--animation \"{}\": {}", oneLine(choice),
-        all.empty() ? "nothing of the scene is animated" : "the scene's animations are " + there));
+    throw std::runtime_error(
+        fmt::format("--animation \"{}\": {}", oneLine(choice),
+                    all.empty() ? "the scene has no animation" : "the scene's animations are " + there));
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "shared/scene/motion/deformation_bounds.h"
 #include "shared/scene/motion/morphed_tangents.h"
 #include "shared/scene/motion/properties.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -260,8 +261,9 @@ void leaveOutWhatIsBeyond(Scene& scene) {
     }
     const auto note = [&](std::size_t count, const char* what) {
         if (count)
-            scene.notes.push_back(fmt::format("{} {}{} not finite or beyond {:g} m: left out", count, what,
-                                              count == 1 ? " is" : "s are", maxCoordinate));
+            scene.notes.push_back(fmt::format("{} {} not finite or beyond {:g} m: left out",
+                                              counted(count, what), count == 1 ? "is" : "are",
+                                              maxCoordinate));
     };
     std::size_t beyond = 0, copiesBeyond = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {

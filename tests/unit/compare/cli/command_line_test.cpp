@@ -109,7 +109,7 @@ TEST(CommandLine, AMistypedWordIsFollowedByTheOneThatWasMeant) {
     EXPECT_EQ(whatIsThrown({"compare", "--paint"}).find("did you mean"), std::string::npos);
     EXPECT_EQ(whatIsThrown({"compare", "--size", "WxxH"}).find("did you mean"), std::string::npos)
         << "no word of a list";
-    EXPECT_EQ(whatIsThrown({"compare", "--color", "maybe"}), "--color maybe: auto, on or off");
+    EXPECT_EQ(whatIsThrown({"compare", "--color", "maybe"}), "--color maybe: takes auto, on or off");
 }
 
 TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
@@ -325,10 +325,10 @@ TEST(CommandLine, WhatIsAudited) {
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
         {{"audit", "--quantity", "ofset"}, "did you mean offset"},
         {{"audit", "--require", "ofset=1"}, "--require ofset: there is no such quantity"},
-        {{"audit", "--require", "offset"}, "is NAME=MAGNITUDE"},
-        {{"audit", "--require", "offset=far"}, "is NAME=MAGNITUDE"},
-        {{"audit", "--require", "offset=1e3m"}, "is NAME=MAGNITUDE"},
-        {{"audit", "--require", "offset=-1"}, "is NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset"}, "takes NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=far"}, "takes NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=1e3m"}, "takes NAME=MAGNITUDE"},
+        {{"audit", "--require", "offset=-1"}, "takes NAME=MAGNITUDE"},
     };
     for (const auto& [words, name] : wrong) {
         const std::string what = whatIsThrown(words);
@@ -434,9 +434,9 @@ TEST(CommandLine, ABaselineIsAPathOrAFile) {
     EXPECT_EQ(o.baseline_file, "left.exr");
     EXPECT_TRUE(o.update_baseline && o.allow_noise);
     EXPECT_EQ(whatIsThrown({"compare", "--update-baseline"}),
-              "--update-baseline: --baseline FILE.exr says which file, which is written whole");
+              "--update-baseline: needs --baseline FILE.exr (without ?part=), the file to replace");
     EXPECT_EQ(whatIsThrown({"compare", "--baseline", "left"}),
-              "--baseline left: is none of deferred, forward_plus, reference, and no .exr file");
+              "--baseline left: is not deferred, forward_plus, reference or an .exr file");
 }
 
 TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
@@ -462,41 +462,41 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--runs", "-1"}, "--runs -1"},
         {{"compare", "--exposure", "1", "--ev100", "1"}, "--ev100"},
         {{"compare", "--exposure", "0"}, "--exposure 0"},
-        {{"compare", "--exposure", "0x10"}, "--exposure: 0x10 is no decimal number"},
-        {{"compare", "--ev100", "0x1p3"}, "--ev100: 0x1p3 is no decimal number"},
-        {{"compare", "--runs", "0x5"}, "--runs: 0x5 is no decimal number"},
+        {{"compare", "--exposure", "0x10"}, "--exposure: 0x10 is not a decimal number"},
+        {{"compare", "--ev100", "0x1p3"}, "--ev100: 0x1p3 is not a decimal number"},
+        {{"compare", "--runs", "0x5"}, "--runs: 0x5 is not a decimal number"},
         {{"compare", "--ibl-intensity", "0x1"}, "--ibl-intensity"},
-        {{"diff", "a", "b", "--tolerance", "0x1"}, "--tolerance: 0x1 is no decimal number"},
-        {{"diff", "a", "b", "--ppd", "-0X1.8p3"}, "--ppd: -0X1.8p3 is no decimal number"},
+        {{"diff", "a", "b", "--tolerance", "0x1"}, "--tolerance: 0x1 is not a decimal number"},
+        {{"diff", "a", "b", "--ppd", "-0X1.8p3"}, "--ppd: -0X1.8p3 is not a decimal number"},
         {{"choose", "--max-bytes", "0x10MiB"}, "--max-bytes 0x10MiB"},
         {{"choose", "--max-bytes", "infKiB"}, "--max-bytes infKiB"},
         {{"audit", "--require", "offset=0x10"}, "--require offset=0x10"},
         {{"audit", "--require", "offset=inf"}, "--require offset=inf"},
         {{"audit", "--require", "offset="}, "--require offset="},
         {{"audit", "--require", "offset"}, "--require offset"},
-        {{"compare", "-o", ""}, "--out: \"\" names neither folder nor file"},
+        {{"compare", "-o", ""}, "--out: \"\" names no folder or file"},
         {{"compare", "a\nb.glb"}, "a?b.glb: has a line break in its name"},
         {{"compare", "--exposure", "inf"}, "--exposure inf"},
         {{"compare", "--ev100", "inf"}, "--ev100"},
         {{"compare", "--fps", "0"}, "--fps 0"},
         {{"compare", "--fps", "inf"}, "--fps inf"},
-        {{"compare", "--frames", "0"}, "--frames 0: 1 or more"},
-        {{"compare", "--frames", "2"}, "--frames 2: render draws them; compare takes --times"},
-        {{"plan", "--frames", "2"}, "--frames 2: render draws them"},
-        {{"render", "--fps", "-24"}, "--fps -24: above 0"},
-        {{"render", "--fps", "nan"}, "--fps nan: above 0"},
-        {{"render", "--frames", "-3"}, "--frames -3: 1 or more"},
+        {{"compare", "--frames", "0"}, "--frames 0: must be 1 or more"},
+        {{"compare", "--frames", "2"}, "--frames 2: only render takes it; compare takes --times"},
+        {{"plan", "--frames", "2"}, "--frames 2: only render takes it"},
+        {{"render", "--fps", "-24"}, "--fps -24: must be above 0"},
+        {{"render", "--fps", "nan"}, "--fps nan: must be above 0"},
+        {{"render", "--frames", "-3"}, "--frames -3: must be 1 or more"},
         {{"render", "--frames", "2.5"}, "--frames"},
         {{"render", "--frames", "3", "--fps", "1e-310"},
-         "--fps 1e-310: the last of 3 frames is at no finite time"},
+         "--fps 1e-310: the time of the last of 3 frames is not finite"},
         {{"compare", "--times", "0,1", "--time", "2"}, "--time"},
-        {{"compare", "--times", "0,one"}, "--times 0,one: \"one\" is no time"},
-        {{"compare", "--times", "0,1,"}, "--times 0,1,: \"\" is no time"},
-        {{"compare", "--times", ""}, "--times : \"\" is no time"},
-        {{"compare", "--times", "0.5,1,0.50"}, "--times 0.5,1,0.50: 0.50 is there twice"},
-        {{"render", "--fps", "24"}, "--fps 24: of how many --frames?"},
-        {{"compare", "--times", "0,-1"}, "--times 0,-1: each is finite and at least 0 s"},
-        {{"compare", "--times", "inf"}, "--times inf: \"inf\" is no time"},
+        {{"compare", "--times", "0,one"}, "--times 0,one: \"one\" is not a time"},
+        {{"compare", "--times", "0,1,"}, "--times 0,1,: \"\" is not a time"},
+        {{"compare", "--times", ""}, "--times : \"\" is not a time"},
+        {{"compare", "--times", "0.5,1,0.50"}, "--times 0.5,1,0.50: 0.50 is given twice"},
+        {{"render", "--fps", "24"}, "--fps 24: needs --frames N"},
+        {{"compare", "--times", "0,-1"}, "--times 0,-1: each time must be finite and at least 0 s"},
+        {{"compare", "--times", "inf"}, "--times inf: \"inf\" is not a time"},
         {{"render", "--times", "0,1"}, "--times"},
         {{"diff", "a", "b", "--blur", "inf"}, "--blur"},
         {{"diff", "a", "b", "--tolerance", "nan"}, "--tolerance nan"},
@@ -528,7 +528,7 @@ TEST(CommandLine, APixelIsTwoNumbersFromTheTopLeft) {
     for (const std::string wrong :
          {"3", "3,", ",4", "3,4,5", "3;4", "3.5,4", "a,b", "3, 4", "-1,4", "3,-4", "99999999999,0"})
         EXPECT_EQ(whatIsThrown({"compare", "--pixel=" + wrong}),
-                  "--pixel " + wrong + ": is X,Y in pixels from the top left, as 320,180");
+                  "--pixel " + wrong + ": takes X,Y in pixels from the top left, for example 320,180");
     EXPECT_NE(parseCommandLine({"compare", "--help", "all"}).help.find("--pixel X,Y"), std::string::npos);
 }
 

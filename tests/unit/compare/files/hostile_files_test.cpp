@@ -123,7 +123,7 @@ TEST(HostileParts, ALinkInAShardIsRefusedByName) {
     ASSERT_TRUE(fs::exists(shards.shard / picture));
     fs::remove(shards.shard / picture);
     fs::create_symlink("../../secret.png", shards.shard / picture);
-    EXPECT_NE(shards.merged().find(picture + ": \"lit.png\" is a link, which is not followed"),
+    EXPECT_NE(shards.merged().find(picture + ": \"lit.png\" is a link; links are not followed"),
               std::string::npos);
     EXPECT_FALSE(fs::exists(fs::symlink_status(shards.root / "out" / picture)));
 
@@ -133,21 +133,21 @@ TEST(HostileParts, ALinkInAShardIsRefusedByName) {
 
     fs::rename(shards.shard / "box-1", shards.root / "private");
     fs::create_directory_symlink("../private", shards.shard / "box-1");
-    EXPECT_NE(shards.merged().find("\"box-1\" is a link, which is not followed"), std::string::npos);
+    EXPECT_NE(shards.merged().find("\"box-1\" is a link; links are not followed"), std::string::npos);
     EXPECT_FALSE(fs::exists(shards.root / "out/box-1"));
 }
 
 TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
     const std::pair<const char*, std::function<void(Json&)>> attacks[] = {
-        {"comparisons[0].frames[0]: is no whole number from 0 to 1",
+        {"comparisons[0].frames[0]: is not a whole number from 0 to 1",
          [](Json& json) {
              json["comparisons"][0]["frames"] = {1000000, 1};
          }},
-        {"comparisons[0].frames[1]: is no whole number from 0 to 1",
+        {"comparisons[0].frames[1]: is not a whole number from 0 to 1",
          [](Json& json) {
              json["comparisons"][0]["frames"] = {0, -1};
          }},
-        {"closer[0][2]: is no whole number from 0 to 1",
+        {"closer[0][2]: is not a whole number from 0 to 1",
          [](Json& json) {
              json["closer"] = {{0, 1, 2}};
          }},
@@ -163,18 +163,18 @@ TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
          [](Json& json) { json["tables"] = Json::array(); }},
         {"exposures: has 0 elements, and there are 1 comparisons",
          [](Json& json) { json["exposures"] = Json::array(); }},
-        {"frames: is no array",
+        {"frames: is not an array",
          [](Json& json) {
              json["frames"] = {{"0", 1}};
          }},
-        {"frames[1].notes[0]: is no string", [](Json& json) { json["frames"][1]["notes"] = {1}; }},
+        {"frames[1].notes[0]: is not a string", [](Json& json) { json["frames"][1]["notes"] = {1}; }},
         {"rows[0].worst: is no channel's number", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
         {"comparisons[0].channels[0][1]: is no verdict",
          [](Json& json) { json["comparisons"][0]["channels"][0][1] = "perhaps"; }},
-        {"junit[0]: is no whole number from 0 to", [](Json& json) { json["junit"][0] = -1; }},
+        {"junit[0]: is not a whole number from 0 to", [](Json& json) { json["junit"][0] = -1; }},
         {"stands twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
         {"stands twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
-        {"nests deeper than 128",
+        {"is nested deeper than 128 levels",
          [](Json& json) {
              for (int i = 0; i < 200; ++i) json["notes"] = Json::array({json["notes"]});
          }},
@@ -275,23 +275,23 @@ TEST(HostileShards, OneBadShardIsNamedAndTheOthersAreJoined) {
 
 TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
     const std::pair<const char*, std::function<void(Json&)>> attacks[] = {
-        {"shard.json.shard.count: is no whole number from 1 to 65536",
+        {"shard.json.shard.count: is not a whole number from 1 to 65536",
          [](Json& json) { json["shard"]["count"] = 2147483647; }},
-        {"shard.count: is no whole number", [](Json& json) { json["shard"]["count"] = -1; }},
-        {"shard.index: is no whole number from 1 to 1", [](Json& json) { json["shard"]["index"] = 2; }},
-        {"items[0][2]: is no whole number from 1 to 1", [](Json& json) { json["items"][0][2] = 0; }},
+        {"shard.count: is not a whole number", [](Json& json) { json["shard"]["count"] = -1; }},
+        {"shard.index: is not a whole number from 1 to 1", [](Json& json) { json["shard"]["index"] = 2; }},
+        {"items[0][2]: is not a whole number from 1 to 1", [](Json& json) { json["items"][0][2] = 0; }},
         {"items[0][1]: \"../\" is no folder", [](Json& json) { json["items"][0][1] = "../"; }},
         {"items[0][1]: \"/etc/\" is no folder", [](Json& json) { json["items"][0][1] = "/etc/"; }},
         {"items[0][1]: \"box-1\" is no folder", [](Json& json) { json["items"][0][1] = "box-1"; }},
         {"items[1]: has the folder of another scene",
          [](Json& json) { json["items"].push_back(json["items"][0]); }},
-        {"items[0]: is no array", [](Json& json) { json["items"] = {1}; }},
-        {"errors[0][1]: is no string",
+        {"items[0]: is not an array", [](Json& json) { json["items"] = {1}; }},
+        {"errors[0][1]: is not a string",
          [](Json& json) {
              json["errors"] = Json::array({Json::array({"scene", 5})});
          }},
         {"has no \"plan\"", [](Json& json) { json.erase("plan"); }},
-        {"software: is no string", [](Json& json) { json["software"] = 3; }},
+        {"software: is not a string", [](Json& json) { json["software"] = 3; }},
         {"is not ours", [](Json& json) { json["schema"] = 2; }},
     };
     const Shards shards;
@@ -354,7 +354,7 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
         cli::runMerge(options);
         ADD_FAILURE() << "merged";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("count: is no whole number from 1 to 65536"),
+        EXPECT_NE(std::string(error.what()).find("count: is not a whole number from 1 to 65536"),
                   std::string::npos)
             << error.what();
     }

@@ -54,7 +54,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
         {R"({"settings": {"msaa": [4.5]}})", "4.5 is not"},
         {R"({"settings": {"time": [0, 1]}})", "--time says it for every row"},
         {R"({"settings": {"camera": ["a"]}})", "--camera says it"},
-        {R"({"settings": {"gbuffer": "full", "gbuffer": "compact"}})", "\"gbuffer\" stands twice"},
+        {R"({"settings": {"gbuffer": "full", "gbuffer": "compact"}})", "\"gbuffer\" appears twice"},
         {R"({"settings": {"light_cutoff": [0], "light-cutoff": [1]}})", "stands twice"},
         {"/nowhere/grid.json", "/nowhere/grid.json: no such file"},
         {"/tmp", "/tmp: is a folder"},
@@ -65,7 +65,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
         EXPECT_TRUE(said.starts_with("--grid")) << said;
         EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
-    EXPECT_NE(gridFault(std::string(100000, '[')).find("nests deeper"), std::string::npos);
+    EXPECT_NE(gridFault(std::string(100000, '[')).find("nested deeper"), std::string::npos);
 }
 
 // Bytes changed, taken out and put in: a plan comes out, or one line that says why not.

@@ -154,7 +154,7 @@ TEST(Rules, FaultsWordByWord) {
     EXPECT_EQ(
         fault({{"presets", {{"a", {{"preset", "b"}}}, {"b", {{"preset", "a"}}}}}, {"rules", Json::array()}}),
         "dir/t.json: preset a: preset a leads back to itself");
-    EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: nests deeper than 128");
+    EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: is nested deeper than 128 levels");
 }
 
 // The JSON schema for editors has the same figures.

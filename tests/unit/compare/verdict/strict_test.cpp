@@ -285,7 +285,7 @@ TEST(Strict, FailsADiffOfPixelsOfTwoShapes) {
         return diffPictures((here / a).string(), (here / b).string(), options);
     };
     const std::string line =
-        (here / "b.hdr").string() + ": its pixels are not square (aspect 2): they are shown square";
+        (here / "b.hdr").string() + ": its pixels are not square (aspect 2) but are shown square";
     for (const auto& [a, b] : {std::pair{"a.hdr", "b.hdr"}, {"b.hdr", "a.hdr"}}) {
         EXPECT_EQ(diff(a, b, false).notes, Lines{line});
         EXPECT_EQ(diff(a, b, true).failures, Lines{line});
@@ -298,7 +298,7 @@ TEST(Strict, FailsOverWhatABaselineSaysOfItsPixels) {
     for (const bool strict : {false, true}) {
         Frame baseline = fewChannels()[0];
         baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
-        baseline.origin.not_applied = {"its white is of 100 cd/m2, which is not applied"};
+        baseline.origin.not_applied = {"its white luminance of 100 cd/m2 is not applied"};
         const Comparison c =
             makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {})
                 .comparisons.at(0);

@@ -8,8 +8,7 @@ namespace diptych {
 namespace {
 
 constexpr const char* tilesNeedDepthsSays =
-    "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
-    "--prepass on";
+    "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass on";
 
 // A tile's lights are chosen by its depths, which deferred has of its G-buffer and forward+ of a pre-pass;
 // froxels and objects need none.

@@ -287,7 +287,8 @@ TEST(Settings, TheReferenceFollowsTheFilterOfRoughnessWhereItShadesCaptures) {
     EXPECT_FALSE(referenceSettings(asked).spec_aa);
     EXPECT_EQ(referenceSettings(asked).spec_aa_variance, Settings().spec_aa_variance);
     asked.path = Path::reference;
-    EXPECT_EQ(ignoredBecause(asked, "spec-aa"), "the reference takes samples where a roughness is filtered");
+    EXPECT_EQ(ignoredBecause(asked, "spec-aa"),
+              "the reference takes several samples instead of filtering roughness");
 }
 
 TEST(Settings, AbsentKeysKeepTheBase) {
@@ -502,14 +503,13 @@ TEST(Settings, LightsByObjectAreForwardPlussAlone) {
         EXPECT_EQ(s.problem().value_or("none"), "none");
     }
     s.pixel_lights = -1;
-    EXPECT_EQ(s.problem().value_or("none"), "--pixel-lights -1: is at least 0");
+    EXPECT_EQ(s.problem().value_or("none"), "--pixel-lights -1: must be at least 0");
     s.pixel_lights = 4;
     s.path = Path::deferred;
     EXPECT_EQ(
         s.problem().value_or("none"),
-        "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a "
-        "pixel shows; use --path forward_plus, or where both paths are drawn --forward-plus "
-        "assign=per_object");
+        "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
+        "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered");
 }
 
 TEST(Settings, TheReferenceHasMoreThanThePaths) {
@@ -526,14 +526,13 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     EXPECT_EQ(s.problem().value_or("none"), "none");
     for (const int spp : {0, -1, 65537}) {
         s.spp = spp;
-        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--spp {}: 1 to 65536", spp));
+        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--spp {}: must be 1 to 65536", spp));
     }
     s.spp = 1;
     s.path = Path::deferred;
-    EXPECT_EQ(
-        s.problem().value_or("none"),
-        "--reference-mode scene has no meaning without a reference (--path reference, compare: --baseline "
-        "reference); use surface");
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--reference-mode scene has no effect without a reference (--path reference, compare: "
+              "--baseline reference); use surface");
 }
 
 // The reference traces shadows and samples lights: Settings of particular techniques for these do not affect
@@ -575,26 +574,25 @@ TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
     EXPECT_EQ(s.problem().value_or("none"), "none");
     s.shadow_size = 127;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--clipmap-page-size 32: four pages side by side are more than --shadow-size 127; use "
-              "--shadow-size 128 or more");
+              "--clipmap-page-size 32: four pages in a row exceed --shadow-size 127; use --shadow-size 128 "
+              "or more");
     s.path = Path::reference;
     EXPECT_EQ(s.problem().value_or("none"), "none") << "which ignores both";
     s.path = Path::deferred;
     s.shadow_size = 200;
     s.clipmap_page_size = 64;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--clipmap-page-size 64: four pages side by side are more than --shadow-size 200; use a "
-              "smaller one");
+              "--clipmap-page-size 64: four pages in a row exceed --shadow-size 200; use a smaller one");
     s = {};
     s.shadows = Shadows::clipmap;
     s.shadow_cascades = 2;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--shadow-cascades 2 has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
+              "--shadow-cascades 2 has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
     s = {};
     s.shadows = Shadows::pcf;
     s.clipmap_pages = 64;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--clipmap-pages 64 has no meaning without --shadows clipmap; use 512");
+              "--clipmap-pages 64 has no effect without --shadows clipmap; use 512");
 }
 
 // The Settings of moments belong to one shadow technique only.
@@ -605,7 +603,7 @@ TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::clipmap}) {
         s.shadows = shadows;
         EXPECT_EQ(s.problem().value_or("none"),
-                  "--evsm-exponent 5 has no meaning without --shadows evsm or evsm4; use 0");
+                  "--evsm-exponent 5 has no effect without --shadows evsm or evsm4; use 0");
     }
     s.shadows = Shadows::evsm;
     EXPECT_EQ(s.problem().value_or("none"), "none");
@@ -619,7 +617,8 @@ TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
         s.evsm_exponent = exponent;
         EXPECT_EQ(s.problem().value_or("none"), "none");
     }
-    const std::string are = "is 0 to 44.36, in 16 bits to 5.54: the largest whose square the format holds";
+    const std::string are =
+        "must be 0 to 44.36, or 0 to 5.54 with 16-bit moments; larger squares exceed the format";
     s.evsm_exponent = 44.4f;
     EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 44.4: " + are);
     s.evsm_precision = EvsmPrecision::fp16;
@@ -638,10 +637,9 @@ TEST(Settings, StepsOfDepthAreReadBackAndHaveOneSample) {
     }
     s.path = Path::forward_plus;
     s.prepass = Switch::off;
-    EXPECT_EQ(
-        s.problem().value_or("none"),
-        "--depth-format d16 has no meaning with --prepass off: both paths shade the depth that was stored; "
-        "use --prepass on");
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--depth-format d16 cannot be used with --prepass off: shading needs the stored depth; use "
+              "--prepass on");
     s.depth_format = DepthFormat::d32f_standard;
     EXPECT_EQ(s.problem().value_or("none"), "none");
     for (const char* option : {"depth-format", "lit-format", "shading-precision"}) {
@@ -665,14 +663,15 @@ TEST(Settings, EveryPathDrawsEveryTime) {
     for (const double time :
          {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         s.time = time;
-        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--time {}: is finite and at least 0 s", time));
+        EXPECT_EQ(s.problem().value_or("none"),
+                  fmt::format("--time {}: must be finite and at least 0 s", time));
     }
 }
 
 TEST(Settings, AnEnvironmentWithoutANameIsNone) {
     Settings s;
     s.env = "";
-    EXPECT_EQ(s.problem().value_or("none"), "--env '': names no file; use none");
+    EXPECT_EQ(s.problem().value_or("none"), "--env '': is empty; name a file, or use none");
 }
 
 TEST(Settings, AnEnvironmentGivesItsIntensityAMeaning) {

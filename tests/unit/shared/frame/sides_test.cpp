@@ -53,16 +53,17 @@ TEST(Sides, AreRefusedInOneLineThatHelps) {
     EXPECT_EQ(sidesRefused("gbufer=compact", ""),
               "--deferred gbufer=compact: there is no Setting gbufer; did you mean gbuffer?");
     EXPECT_EQ(sidesRefused("", "size=8x8"),
-              "--forward-plus size=8x8: both sides show one view of one scene; give --size to both");
+              "--forward-plus size=8x8: both paths show one view of one scene; use --size, which sets both");
     EXPECT_EQ(
         sidesRefused("", "gbuffer=compact"),
         "--forward-plus gbuffer=compact: forward_plus has no G-buffer; --deferred gbuffer=compact sets it");
     EXPECT_EQ(sidesRefused("spp=4", ""),
-              "--deferred spp=4: the reference alone takes samples of what it shades");
-    EXPECT_EQ(sidesRefused("path=reference", ""), "--deferred path=reference: it is of this path already");
-    EXPECT_EQ(sidesRefused("every", ""), "--deferred every: NAME=VALUE,..., as assign=every");
+              "--deferred spp=4: only the reference takes several samples of a surface");
+    EXPECT_EQ(sidesRefused("path=reference", ""),
+              "--deferred path=reference: the option already selects the path");
+    EXPECT_EQ(sidesRefused("every", ""), "--deferred every: takes NAME=VALUE,..., for example assign=every");
     EXPECT_EQ(sidesRefused("assign=every,assign=tiled", ""),
-              "--deferred assign=every,assign=tiled: assign is there twice");
+              "--deferred assign=every,assign=tiled: assign is given twice");
     EXPECT_NE(sidesRefused("", "assign=evry").find("--assign evry: not "), std::string::npos);
     for (const std::string_view option : viewOptions()) settingField(option);  // throws where there is none
 }

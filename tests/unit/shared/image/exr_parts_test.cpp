@@ -120,11 +120,11 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
         EXPECT_EQ(file.notes.lines,
                   Names{levels == Imf::MIPMAP_LEVELS
-                            ? "part \"normals\": is mip-mapped: its largest level is read"
-                            : "part \"normals\": is rip-mapped: its largest level is read"});
+                            ? "part \"normals\": is mip-mapped; only its largest level is read"
+                            : "part \"normals\": is rip-mapped; only its largest level is read"});
         EXPECT_EQ(partsOf(exrOf({tiled})).notes.lines,
-                  Names{levels == Imf::MIPMAP_LEVELS ? "is mip-mapped: its largest level is read"
-                                                     : "is rip-mapped: its largest level is read"});
+                  Names{levels == Imf::MIPMAP_LEVELS ? "is mip-mapped; only its largest level is read"
+                                                     : "is rip-mapped; only its largest level is read"});
     }
 }
 
@@ -149,14 +149,14 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     deep.deep = true;
     deep.compression = Imf::ZIPS_COMPRESSION;
     const std::string file = exrOf({colorPart, normalsPart, deep});
-    EXPECT_EQ(partFault(file), "a.exr: part \"ids\": holds deep samples, which are not read");
+    EXPECT_EQ(partFault(file), "a.exr: part \"ids\": holds deep samples, which are not supported");
     const PictureFile asked = partsOf(file, "beauty");
     EXPECT_EQ(layerNames(asked), (Names{"", "albedo"}));
     EXPECT_EQ(asked.layers[0].channels, (Names{"R", "G", "B", "A"}));
     expectMade(asked.layers[0], 0, {3, 2, 1, 0}, colorPart.data, colorPart.data);
     expectMade(partsOf(file, "normals").layers[0], 1, {0, 1, 2}, colorPart.data, colorPart.data);
     EXPECT_EQ(partFault(file, "fog"), "a.exr: has no part \"fog\"");
-    EXPECT_EQ(partFault(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not read");
+    EXPECT_EQ(partFault(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not supported");
 }
 
 // Changes the right end of the last part's display window, which OpenEXR writes the same for all parts.
@@ -181,10 +181,9 @@ TEST(ExrParts, APartIsNamedBehindTheFile) {
 
 TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
     const std::string file = withLastDisplay(exrOf({colorPart, normalsPart}), 11);
-    EXPECT_EQ(
-        partFault(file),
-        "a.exr: part \"normals\": its display window is 12 x 6 at 0, 0, that of the parts before it 9 x 6 "
-        "at 0, 0: one part at a time is read, as FILE.exr?part=1");
+    EXPECT_EQ(partFault(file),
+              "a.exr: part \"normals\": its display window is 12 x 6 at 0, 0, but 9 x 6 at 0, 0 in the parts "
+              "before it; read one part, for example FILE.exr?part=1");
     EXPECT_EQ(partsOf(file, "1").width, 12);
     EXPECT_EQ(partsOf(file, "beauty").width, 9);
     const PictureFile wide = partsOf(file, "normals");
@@ -204,7 +203,7 @@ TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
 
 TEST(ExrParts, TwoSpellingsOfOneChannelAreRefused) {
     const MadePart a{"a", {{"b.R", Imf::HALF}}}, ab{"a.b", {{"R", Imf::HALF}}};
-    EXPECT_EQ(partFault(exrOf({a, ab})), "a.exr: channel a.b.R: stands in two parts");
+    EXPECT_EQ(partFault(exrOf({a, ab})), "a.exr: channel a.b.R: appears in two parts");
 }
 
 TEST(ExrParts, ClaimsCountTogether) {
@@ -214,9 +213,9 @@ TEST(ExrParts, ClaimsCountTogether) {
     // 54 pixels of 7 floats, of 3, and of 2 with their 2 uint32: 1512, 648 and 864 bytes.
     EXPECT_EQ(partFault(file, {}, 1512 + 648 + 864), "");
     EXPECT_EQ(partFault(file, {}, 1512 + 648 + 863),
-              "a.exr: part \"ids\": and the parts before it claim 0 MiB: 0 MiB are read at most");
+              "a.exr: part \"ids\": this part and the parts before it claim 0 MiB; the limit is 0 MiB");
     EXPECT_EQ(partFault(file, {}, 1511),
-              "a.exr: part \"beauty\": claims 9 x 6 pixels of 28 bytes: 0 MiB are read at most");
+              "a.exr: part \"beauty\": claims 9 x 6 pixels of 28 bytes; the limit is 0 MiB");
     EXPECT_EQ(partFault(file, "normals", 648), "") << "only what is asked for counts";
 
     // 1 GiB of zeros is allowed around small pixels, but once, not for each part.
@@ -226,7 +225,7 @@ TEST(ExrParts, ClaimsCountTogether) {
         small.back().display = box(0, 0, 7999, 5999);
     }
     EXPECT_EQ(partFault(exrOf(small)),
-              "a.exr: part \"c\": and the parts before it claim 1098 MiB: 1024 MiB are read at most");
+              "a.exr: part \"c\": this part and the parts before it claim 1098 MiB; the limit is 1024 MiB");
 }
 
 // Replaces the 32 bit number `index` of the part's attribute; `part` counts the headers in the file.
@@ -242,15 +241,15 @@ std::string with(std::string file, int part, const std::string& attribute, std::
 TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
     const std::string file = exrOf({colorPart, normalsPart}), size = std::to_string(file.size());
     EXPECT_EQ(partFault(with(file, 1, "dataWindow", 2, 65535)),
-              "a.exr: part \"normals\": claims 65536 x 6 pixels; its " + size + " bytes cannot hold them");
+              "a.exr: part \"normals\": claims 65536 x 6 pixels, too many for its " + size + " bytes");
     EXPECT_EQ(partFault(with(file, 1, "dataWindow", 3, 1 << 20)),
-              "a.exr: part \"normals\": claims 9 x 1048577 pixels; its " + size + " bytes cannot hold them");
+              "a.exr: part \"normals\": claims 9 x 1048577 pixels, too many for its " + size + " bytes");
     std::string unknown = file;
     unknown[unknown.rfind("compression\0compression\0"s) + 24 + 4] = 77;
-    EXPECT_EQ(partFault(unknown), "a.exr: part \"normals\": compression 77 is not known");
+    EXPECT_EQ(partFault(unknown), "a.exr: part \"normals\": unknown compression 77");
     std::string kind = file;
     kind.replace(kind.rfind("scanlineimage"), 4, "\nscn");
-    EXPECT_EQ(partFault(kind), "a.exr: part \"normals\": is of type \"?scnlineimage\"");
+    EXPECT_EQ(partFault(kind), "a.exr: part \"normals\": has the unknown type \"?scnlineimage\"");
     EXPECT_EQ(partFault(file.substr(0, file.rfind("displayWindow") + 3)),
               "a.exr: its header holds a name without an end");
     // If pixels are missing, the library's message is prefixed by the part's name.
@@ -272,12 +271,11 @@ TEST(ExrParts, SubsampledPartsAreRefusedByName) {
         return file;
     };
     EXPECT_EQ(partFault(sampled("BY")), "") << "at full size a name is a name";
-    EXPECT_EQ(
-        partFault(halved("BY")),
-        "a.exr: part \"fog\": channel BY is subsampled, which is not read: luminance and chroma (Y, RY, BY) "
-        "stand for R, G, B");
+    EXPECT_EQ(partFault(halved("BY")),
+              "a.exr: part \"fog\": channel BY is subsampled, which is not supported: the file has luminance "
+              "and chroma (Y, RY, BY) instead of R, G, B");
     EXPECT_EQ(partFault(halved("mist.U")),
-              "a.exr: part \"fog\": channel mist.U is subsampled, which is not read");
+              "a.exr: part \"fog\": channel mist.U is subsampled, which is not supported");
     EXPECT_EQ(partFault(halved("BY"), "beauty"), "") << "the other part alone";
 }
 

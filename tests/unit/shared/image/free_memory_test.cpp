@@ -102,7 +102,7 @@ TEST_F(FreeMemoryOf, ARefusalIsOneLineWithBothNumbers) {
         ADD_FAILURE();
     } catch (const std::runtime_error& e) {
         EXPECT_STREQ(e.what(),
-                     "diff of a.png and b.png, 16384x16384: needs about 3.1 GB, 2.0 GB are free here "
+                     "diff of a.png and b.png, 16384x16384: needs about 3.1 GB, but only 2.0 GB are free "
                      "(ulimit -v); compare smaller pictures");
     }
 }

@@ -187,10 +187,9 @@ TEST(Png, ClaimsAreCheckedBeforeMemoryIsTaken) {
     };
     EXPECT_EQ(fault(64, 64), "");
     EXPECT_EQ(fault(64, 64, 64 * 64 * 12 - 1),
-              "a.png: claims 64 x 64 pixels of 12 bytes: 0 MiB are read at most");
-    EXPECT_EQ(fault(20000, 20000),
-              "a.png: claims 20000 x 20000 pixels; its " + size + " bytes cannot hold them");
-    EXPECT_EQ(fault(70000, 1), "a.png: claims 70000 x 1 pixels: 1 to 65536 a side are read");
+              "a.png: claims 64 x 64 pixels of 12 bytes; the limit is 0 MiB");
+    EXPECT_EQ(fault(20000, 20000), "a.png: claims 20000 x 20000 pixels, too many for its " + size + " bytes");
+    EXPECT_EQ(fault(70000, 1), "a.png: claims 70000 x 1 pixels; each side must be 1 to 65536");
     EXPECT_EQ(readPng(std::as_bytes(std::span(whole)), "a.png").data, readPng(file).data);
 }
 

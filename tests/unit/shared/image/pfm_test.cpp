@@ -107,7 +107,7 @@ TEST(Pfm, FaultsAreNamed) {
     for (const char* cut : {"", "PF", "PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n-1"})
         EXPECT_EQ(pfmFault(cut), "a.pfm: its header is cut short") << cut;
     EXPECT_EQ(pfmFault("PF\n" + std::string(65, '1') + " 1\n-1\n"),
-              "a.pfm: \"" + std::string(40, '1') + "...\" in its header has no end");
+              "a.pfm: \"" + std::string(40, '1') + "...\" in its header is too long");
     EXPECT_EQ(pfmFault("PF\n1x 1\n-1\n" + pixel), "a.pfm: its width is \"1x\", not a number");
     EXPECT_EQ(pfmFault("PF\n1 1.5\n-1\n" + pixel), "a.pfm: its height is \"1.5\", not a number");
     EXPECT_EQ(pfmFault("PF\n1 99999999999\n-1\n" + pixel),
@@ -115,16 +115,16 @@ TEST(Pfm, FaultsAreNamed) {
     EXPECT_EQ(pfmFault("PF\n1 1\none\n" + pixel), "a.pfm: its scale is \"one\", not a number");
     for (const char* scale : {"0", "-0.0", "nan", "inf", "1e-40"})
         EXPECT_EQ(pfmFault("PF\n1 1\n"s + scale + "\n" + pixel),
-                  "a.pfm: its scale is "s + scale + ", which leaves nothing of its values");
-    EXPECT_EQ(pfmFault("PF\n0 1\n-1\n" + pixel), "a.pfm: claims 0 x 1 pixels: 1 to 65536 a side are read");
+                  "a.pfm: its scale is "s + scale + ", not a normal number");
+    EXPECT_EQ(pfmFault("PF\n0 1\n-1\n" + pixel), "a.pfm: claims 0 x 1 pixels; each side must be 1 to 65536");
     EXPECT_EQ(pfmFault("PF\n-1 -1\n-1\n" + pixel),
-              "a.pfm: claims -1 x -1 pixels: 1 to 65536 a side are read");
+              "a.pfm: claims -1 x -1 pixels; each side must be 1 to 65536");
     EXPECT_EQ(pfmFault("PF\n65537 1\n-1\n" + pixel),
-              "a.pfm: claims 65537 x 1 pixels: 1 to 65536 a side are read");
+              "a.pfm: claims 65537 x 1 pixels; each side must be 1 to 65536");
     EXPECT_EQ(pfmFault("PF\n1 1\n-1\n" + pixel, 11),
-              "a.pfm: claims 1 x 1 pixels of 12 bytes: 0 MiB are read at most");
+              "a.pfm: claims 1 x 1 pixels of 12 bytes; the limit is 0 MiB");
     EXPECT_EQ(pfmFault("PF\n2 1\n-1\n" + pixel),
-              "a.pfm: is cut short: 2 x 1 pixels are 24 bytes, 12 of them are there");
+              "a.pfm: is cut short: 2 x 1 pixels need 24 bytes, but it has 12");
 }
 
 }  // namespace

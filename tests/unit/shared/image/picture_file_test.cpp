@@ -70,8 +70,7 @@ TEST(PictureFile, TheFirstBytesSayWhatItIsNotTheEnding) {
 
 TEST(PictureFile, WhatIsNotReadIsToldInOneLine) {
     const std::string none =
-        "a: is no picture that is read: by their first bytes OpenEXR, PNG, JPEG, TIFF, Radiance HDR and PFM "
-        "are";
+        "a: is not a supported image; supported formats: OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PFM";
     EXPECT_EQ(pictureFault(""), none);
     EXPECT_EQ(pictureFault("GIF89a"), none);
     EXPECT_EQ(pictureFault("\xff\xd8\xff\xe0 a JPEG"), "a: does not decode: Premature end of JPEG file");
@@ -81,7 +80,7 @@ TEST(PictureFile, WhatIsNotReadIsToldInOneLine) {
     EXPECT_EQ(pictureFault("\x89PNG\r\n\x1a\n"), "a: is cut short");
     EXPECT_EQ(pictureFault("#?RADIANCE\n"), "a: its header has no end");
     EXPECT_EQ(pictureFault("PF4\n1 1\n1\n"), "a: is not a PFM: it begins with \"PF4\", not PF or Pf");
-    EXPECT_EQ(pictureFault("PF\n1 1\n1\n", "beauty"), "a: has no parts, which are an OpenEXR file's");
+    EXPECT_EQ(pictureFault("PF\n1 1\n1\n", "beauty"), "a: has no parts; only OpenEXR files have them");
     EXPECT_THROW(readPicture(folder() / "none.exr"), std::runtime_error);
 }
 
@@ -161,16 +160,16 @@ TEST(PicturePng, GammaOneIsLinearUnlessSrgbStandsBesideIt) {
         said.insert(said.end(), file.notes.not_applied.begin(), file.notes.not_applied.end());
         return said;
     };
-    const std::string other = "its gamma of 0.5 is not applied: its values are taken as sRGB's";
+    const std::string other = "its gamma of 0.5 is not applied; its values are read as sRGB";
     EXPECT_EQ(of(0, false, false), Names{"display"});
     EXPECT_EQ(of(1, false, false), Names{"linear"});
     EXPECT_EQ(of(1, true, false), Names{"display"});
     EXPECT_EQ(of(0.45455, false, false), Names{"display"});
     EXPECT_EQ(of(0.5, false, false), (Names{"display", other}));
-    for (const auto& [gamma, taken_as] : {std::pair{0, "sRGB's"}, {1, "linear"}}) {
+    for (const auto& [gamma, taken_as] : {std::pair{0, "sRGB"}, {1, "linear"}}) {
         const std::string note = of(gamma, false, true).at(1);
         EXPECT_TRUE(note.starts_with("its colour profile (3 bytes, ")) << note;
-        EXPECT_TRUE(note.ends_with(std::string(") is not applied: its values are taken as ") + taken_as))
+        EXPECT_TRUE(note.ends_with(std::string(") is not applied; its values are read as ") + taken_as))
             << note;
     }
 }

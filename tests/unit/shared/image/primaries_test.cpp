@@ -64,7 +64,7 @@ TEST(Primaries, Rec709ToFourDigitsIsNothingAndALineIsNoColours) {
         FileNotes said;
         EXPECT_FALSE(matrixToRec709(none, said));
         ASSERT_EQ(said.not_applied.size(), 1u);
-        EXPECT_TRUE(said.not_applied[0].ends_with("span no colours: Rec. 709's are assumed"));
+        EXPECT_TRUE(said.not_applied[0].ends_with("do not span a colour space; Rec. 709 is assumed"));
     }
 }
 
@@ -95,8 +95,8 @@ TEST(Primaries, OfAnExr) {
     const PictureFile plain = with(rec709, 1, 0), other = with(aces, 2, 100);
     EXPECT_TRUE(plain.notes.lines.empty() && plain.notes.not_applied.empty());
     ASSERT_EQ(other.notes.lines.size(), 1u);
-    EXPECT_EQ(other.notes.not_applied, (Names{"its pixels are not square (aspect 2): they are shown square",
-                                              "its white is of 100 cd/m2, which is not applied"}));
+    EXPECT_EQ(other.notes.not_applied, (Names{"its pixels are not square (aspect 2) but are shown square",
+                                              "its white luminance of 100 cd/m2 is not applied"}));
     EXPECT_EQ(channel(plain, "normals").data, channel(other, "normals").data);
     const Image stored = channel(plain, "lit"), shown = channel(other, "lit");
     FileNotes notes;
@@ -119,10 +119,9 @@ TEST(Primaries, OfARadiancePicture) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(grey.layers[0].image.data[static_cast<std::size_t>(c)], 1.00390625f / 2, 1e-6);
     ASSERT_EQ(grey.notes.lines.size(), 2u);
-    EXPECT_EQ(grey.notes.lines[0],
-              "its values were multiplied by 0.5 0.5 0.5, by its EXPOSURE and COLORCORR");
+    EXPECT_EQ(grey.notes.lines[0], "its values were multiplied by 0.5 0.5 0.5 (its EXPOSURE and COLORCORR)");
     EXPECT_TRUE(grey.notes.lines[1].starts_with(converted));
-    EXPECT_EQ(grey.notes.not_applied, Names{"its pixels are not square (aspect 0.5): they are shown square"});
+    EXPECT_EQ(grey.notes.not_applied, Names{"its pixels are not square (aspect 0.5) but are shown square"});
     EXPECT_EQ(faultOf([&] { with("PRIMARIES=1 2 3\n"); }), "a: PRIMARIES=1 2 3 is not eight numbers");
 }
 
@@ -158,11 +157,11 @@ TEST(Primaries, WhatAPngSaysBesideThem) {
     made.chunks = {{"cICP", "\x0c\x10\x00\x01"s},
                    {"acTL", bigEndianOf({3, 0})},
                    {"pHYs", bigEndianOf({2000, 1000}) + "\0"s}};
-    EXPECT_EQ(decodedFrom(pngOf(made)).notes.not_applied,
-              (Names{"its pixels are not square (aspect 0.5): they are shown square",
-                     "its colours are of code points 12 16 0 1 (ITU-T H.273), which are not applied: its "
-                     "values are taken as sRGB's",
-                     "the first of its 3 frames alone is read"}));
+    EXPECT_EQ(
+        decodedFrom(pngOf(made)).notes.not_applied,
+        (Names{"its pixels are not square (aspect 0.5) but are shown square",
+               "its colour code points 12 16 0 1 (ITU-T H.273) are not applied; its values are read as sRGB",
+               "only the first of its 3 frames is read"}));
     made.chunks = {{"cICP", "\x01\x0d\x00\x01"s},
                    {"acTL", bigEndianOf({1, 0})},
                    {"pHYs", bigEndianOf({2835, 2835}) + "\1"s}};

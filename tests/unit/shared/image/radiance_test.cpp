@@ -48,7 +48,7 @@ TEST(Radiance, ExposuresAreTakenOutAgain) {
                   "a.hdr: COLORCORR=1 "s + bad + " is not three numbers above 0")
             << bad;
     EXPECT_EQ(radianceFault(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "EXPOSURE=1e-9\n")),
-              "a.hdr: EXPOSURE and COLORCORR take its values beyond a float's range");
+              "a.hdr: EXPOSURE and COLORCORR scale its values beyond the range of float");
 }
 
 // A picture of 3 x 2; pixel i of its rows from the top left has the mantissa 128 + i.
@@ -83,11 +83,11 @@ TEST(Radiance, OldRunsInARowAreDigits) {
         EXPECT_EQ(image.at(x, 1), 192.5f / 128);
     }
     EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x80\x00\x00\x81\x01\x01\x01\x2c\x01\x01\x01\x01"s)),
-              "a.hdr: a run goes past its line");
-    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x01\x01\x01\x2c"s)), "a.hdr: begins a line with a run");
+              "a.hdr: a run is longer than its line");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x01\x01\x01\x2c"s)), "a.hdr: a line begins with a run");
     EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x80\x00\x00\x81"s + "\x01\x01\x01\x00\x01\x01\x01\x00"s +
                                                    "\x01\x01\x01\x00\x01\x01\x01\x00"s)),
-              "a.hdr: a run goes past its line")
+              "a.hdr: a run is longer than its line")
         << "four digits are more than any line";
 }
 
@@ -101,11 +101,11 @@ TEST(Radiance, NewRunsAreByComponent) {
         EXPECT_EQ(image.at(x, 0, 1), (1.5f + static_cast<float>(x)) / 256);
         EXPECT_EQ(image.at(x, 0, 2), (x < 3 ? 5.5f : 6.5f) / 256);
     }
-    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 9", line)), "a.hdr: a line of 8 pixels where 9 stand");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 9", line)), "a.hdr: a line has 8 pixels instead of 9");
     EXPECT_EQ(radianceFault(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x89\xc8"s)),
-              "a.hdr: a run goes past its line");
+              "a.hdr: a run is longer than its line");
     EXPECT_EQ(radianceFault(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x00\xc8"s)),
-              "a.hdr: a run goes past its line");
+              "a.hdr: a run is longer than its line");
     for (std::size_t size = 0; size < line.size(); ++size)
         EXPECT_NE(radianceFault(hdr("-Y 1 +X 8", line.substr(0, size))), "") << size << " bytes";
 }
@@ -115,7 +115,7 @@ TEST(Radiance, FaultsAreNamed) {
     EXPECT_EQ(radianceFault(""), "a.hdr: is not a Radiance picture: it does not begin with #?");
     EXPECT_EQ(radianceFault("#?RADIANCE"), "a.hdr: its header has no end");
     EXPECT_EQ(radianceFault("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + pixel),
-              "a.hdr: FORMAT 32-bit_rle_xyze, CIE XYZ, is not read: 32-bit_rle_rgbe is");
+              "a.hdr: FORMAT 32-bit_rle_xyze (CIE XYZ) is not supported; use 32-bit_rle_rgbe");
     EXPECT_EQ(radianceFault("#?RADIANCE\nFORMAT=a\x01thing\n\n-Y 1 +X 1\n" + pixel),
               "a.hdr: FORMAT a?thing is not 32-bit_rle_rgbe");
     for (const char* bad :
@@ -123,16 +123,16 @@ TEST(Radiance, FaultsAreNamed) {
         EXPECT_EQ(radianceFault(hdr(bad, pixel)),
                   "a.hdr: resolution \""s + bad + "\" is not like -Y 480 +X 640");
     EXPECT_EQ(radianceFault(hdr("-Y 0 +X 1", pixel)),
-              "a.hdr: claims 1 x 0 pixels: 1 to 65536 a side are read");
+              "a.hdr: claims 1 x 0 pixels; each side must be 1 to 65536");
     EXPECT_EQ(radianceFault(hdr("-Y 70000 +X 1", pixel)),
-              "a.hdr: claims 1 x 70000 pixels: 1 to 65536 a side are read");
+              "a.hdr: claims 1 x 70000 pixels; each side must be 1 to 65536");
     EXPECT_EQ(radianceFault(hdr("-Y 99999999999 +X 1", pixel)),
               "a.hdr: resolution \"-Y 99999999999 +X 1\" is not like -Y 480 +X 640");
     const std::string huge = hdr("-Y 20000 +X 20000", pixel);
-    EXPECT_EQ(radianceFault(huge), "a.hdr: claims 20000 x 20000 pixels; its " + std::to_string(huge.size()) +
-                                       " bytes cannot hold them");
+    EXPECT_EQ(radianceFault(huge), "a.hdr: claims 20000 x 20000 pixels, too many for its " +
+                                       std::to_string(huge.size()) + " bytes");
     EXPECT_EQ(radianceFault(hdr("-Y 20 +X 20", pixel), 4799),
-              "a.hdr: claims 20 x 20 pixels of 12 bytes: 0 MiB are read at most");
+              "a.hdr: claims 20 x 20 pixels of 12 bytes; the limit is 0 MiB");
     // 65536 lines of one run each would expand 786 kB to 48 GiB; the first one is truncated.
     EXPECT_EQ(radianceFault(hdr("-Y 5000 +X 65536", std::string(40000, '\x03'))), "a.hdr: is cut short")
         << "walked through before 3.7 GiB are taken";

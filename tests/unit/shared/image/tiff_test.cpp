@@ -138,9 +138,9 @@ TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
         const char* said;
     };
     for (const Case& wrong : {Case{259, 7, "compression 7"}, Case{262, 5, "photometric interpretation 5"},
-                              Case{258, 4, "4 bit samples"}, Case{339, 2, "format 2"},
+                              Case{258, 4, "4-bit samples"}, Case{339, 2, "format 2"},
                               Case{277, 4, "4 samples"}, Case{256, 70000, "70000 x 2 pixels"},
-                              Case{257, 60000, "bytes cannot hold"}, Case{256, 0, "a.tif"}}) {
+                              Case{257, 60000, "too many for its"}, Case{256, 0, "a.tif"}}) {
         MadeTiff file = sound;
         file.tags[wrong.tag] = wrong.value;
         const std::string fault = tiffFault(file.bytes());

@@ -183,7 +183,7 @@ TEST(DefaultView, OfAClosedRoomIsFromInside) {
     EXPECT_NEAR(view.eye.y, 1.6, 1e-3) << "a person's eye over the floor";
     EXPECT_TRUE(view.eye.x > 0 && view.eye.x < 8 && view.eye.z > 0 && view.eye.z < 6);
     EXPECT_EQ(view.backward.y, 0);
-    EXPECT_EQ(wordsOf(view), "from inside; 100 % of the picture is covered");
+    EXPECT_EQ(wordsOf(view), "from inside; the scene covers 100 % of the image");
 }
 
 // As tall as a doll's house, or as a crawl space: nobody stands in it.

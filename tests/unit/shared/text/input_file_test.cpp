@@ -24,7 +24,7 @@ TEST(InputFile, ReadsARegularFileAndALinkToOne) {
     fs::create_symlink("a.txt", root / "b.txt");
     EXPECT_EQ(textIn(root / "a.txt", 4), "four");
     EXPECT_EQ(textIn(root / "b.txt", 4), "four") << "users may name a file by a link";
-    EXPECT_EQ(faultOf([&] { textIn(root / "a.txt", 3); }), "is 4 bytes: at most 3 are read");
+    EXPECT_EQ(faultOf([&] { textIn(root / "a.txt", 3); }), "has 4 bytes; the limit is 3");
     EXPECT_EQ(faultOf([&] { textIn(root / "none.txt", 3); }), "no such file");
 }
 
@@ -47,8 +47,7 @@ TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
     // A file of 2^40 bytes that takes no room on disk.
     { std::ofstream(root / "sparse"); }
     fs::resize_file(root / "sparse", std::uintmax_t(1) << 40);
-    EXPECT_EQ(faultOf([&] { textIn(root / "sparse", 1000); }),
-              "is 1099511627776 bytes: at most 1000 are read");
+    EXPECT_EQ(faultOf([&] { textIn(root / "sparse", 1000); }), "has 1099511627776 bytes; the limit is 1000");
 }
 
 TEST(InputFile, BelowAFolderNoLinkIsFollowed) {

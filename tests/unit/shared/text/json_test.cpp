@@ -27,16 +27,16 @@ TEST(JsonReader, DepthIsRefusedBeforeParsing) {
              [&] { parseJson(deep); }, [&] { parseOrderedJson(deep); }, [&] { parseUniqueJson(deep); },
              [&] { checkJson(deep); },
              [&] { parseJson(deep, [](int, const std::string&) { return true; }); }})
-        EXPECT_EQ(readerFault(read), "nests deeper than 128");
+        EXPECT_EQ(readerFault(read), "is nested deeper than 128 levels");
     EXPECT_EQ(readerFault([] { parseJson(std::string(128, '[') + std::string(128, ']')); }), "");
 }
 
 TEST(JsonReader, ValuesAreCountedBeforeParsing) {
     const std::string many = "[" + std::string((std::size_t(1) << 24) + 10, ',') + "]";
-    EXPECT_EQ(readerFault([&] { parseJson(many); }), "has 16777228 values: at most 16777216 are read");
-    EXPECT_EQ(readerFault([&] { parseOrderedJson(many); }), "has 16777228 values: at most 16777216 are read");
-    EXPECT_EQ(readerFault([] { parseJson("[1,[],{}]", {.values = 5}); }), "has 6 values: at most 5 are read");
-    EXPECT_EQ(readerFault([] { parseJson("[{},{}]", {.objects = 1}); }), "has 2 objects: at most 1 are read");
+    EXPECT_EQ(readerFault([&] { parseJson(many); }), "has 16777228 values; the limit is 16777216");
+    EXPECT_EQ(readerFault([&] { parseOrderedJson(many); }), "has 16777228 values; the limit is 16777216");
+    EXPECT_EQ(readerFault([] { parseJson("[1,[],{}]", {.values = 5}); }), "has 6 values; the limit is 5");
+    EXPECT_EQ(readerFault([] { parseJson("[{},{}]", {.objects = 1}); }), "has 2 objects; the limit is 1");
 }
 
 TEST(JsonReader, ErrorsNameThePlaceAndNotTheLibrary) {
@@ -52,7 +52,7 @@ TEST(JsonReader, ErrorsNameThePlaceAndNotTheLibrary) {
                     jsonIn(file);
                 }).starts_with(file.string() + ": is not JSON: parse error at line 1"));
     EXPECT_EQ(readerFault([] { parseUniqueJson(R"([{"a":1},{"a":1,"b":{"a":2},"a":3}])"); }),
-              "\"a\" stands twice");
+              "\"a\" appears twice");
     EXPECT_EQ(readerFault([] { parseUniqueJson(R"([{"a":1},{"a":{"a":2}}])"); }), "");
 }
 
@@ -68,24 +68,24 @@ TEST(JsonAt, WhatDoesNotFitNamesItsPlace) {
         nlohmann::json::parse(R"({"a":[{"n":"x"},{"n":-1}],"f":1.5,"big":18446744073709551615,"t":true})");
     const JsonAt top(json);
     EXPECT_EQ(top.at("a")[0].at("n").text(), "x");
-    EXPECT_EQ(readerFault([&] { top.at("a")[1].at("n").text(); }), "a[1].n: is no string");
-    EXPECT_EQ(readerFault([&] { top.at("a")[2]; }), "a: has 2 elements: too few");
+    EXPECT_EQ(readerFault([&] { top.at("a")[1].at("n").text(); }), "a[1].n: is not a string");
+    EXPECT_EQ(readerFault([&] { top.at("a")[2]; }), "a: has only 2 elements");
     EXPECT_EQ(readerFault([&] { top.at("b"); }), "has no \"b\"");
     EXPECT_EQ(readerFault([&] { top.at("a").at("b"); }), "a: has no \"b\"");
-    EXPECT_EQ(readerFault([&] { top.at("f").each(); }), "f: is no array");
-    EXPECT_EQ(readerFault([&] { top.at("f").whole(0, 5); }), "f: is no whole number from 0 to 5");
+    EXPECT_EQ(readerFault([&] { top.at("f").each(); }), "f: is not an array");
+    EXPECT_EQ(readerFault([&] { top.at("f").whole(0, 5); }), "f: is not a whole number from 0 to 5");
     EXPECT_EQ(readerFault([&] { top.at("a")[1].at("n").index(9); }),
-              "a[1].n: is no whole number from 0 to 8");
-    EXPECT_EQ(readerFault([&] { top.at("f").index(0); }), "f: is an index, and there is nothing");
+              "a[1].n: is not a whole number from 0 to 8");
+    EXPECT_EQ(readerFault([&] { top.at("f").index(0); }), "f: is an index into an empty list");
     EXPECT_EQ(top.at("big").whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max()),
               std::numeric_limits<std::uint64_t>::max());
     EXPECT_NE(readerFault([&] { top.at("big").whole(0, 2147483647); }), "");
     EXPECT_EQ(top.at("a")[1].at("n").whole(-1, 1), -1);
     EXPECT_TRUE(top.at("t").flag());
-    EXPECT_EQ(readerFault([&] { top.at("t").number(); }), "t: is no number");
-    EXPECT_EQ(readerFault([&] { top.at("f").flag(); }), "f: is neither true nor false");
+    EXPECT_EQ(readerFault([&] { top.at("t").number(); }), "t: is not a number");
+    EXPECT_EQ(readerFault([&] { top.at("f").flag(); }), "f: is not true or false");
     EXPECT_EQ(top.textOr("none", "or"), "or");
-    EXPECT_EQ(readerFault([&] { top.textOr("f", "or"); }), "f: is no string")
+    EXPECT_EQ(readerFault([&] { top.textOr("f", "or"); }), "f: is not a string")
         << "no fallback for what is wrong";
 }
 

@@ -148,11 +148,11 @@ TEST_F(Barriers, ContradictionsAreNamed) {
         return "";
     };
     EXPECT_EQ(fault({{picture, {}, colorSampled}, {picture, {}, access::colorAttachment}}),
-              "pass shade: picture is used in two layouts at once");
+              "pass shade: uses picture in two layouts at once");
     EXPECT_EQ(fault({{list, {}, computeWrite}, {list, {}, fragmentRead}}),
-              "pass shade: list is written and read in different stages of one pass");
+              "pass shade: writes and reads list in different stages");
     EXPECT_EQ(fault({{pyramid, {0, 2, 0, 1}, colorSampled}, {pyramid, {1, 1, 0, 1}, colorSampled}}),
-              "pass shade: uses of pyramid overlap in part; declare them for the same part");
+              "pass shade: uses of pyramid overlap partially; declare the same levels and layers");
     EXPECT_EQ(fault({{pyramid, {3, 1, 0, 1}, colorSampled}}),
               "pass shade: pyramid has no such level or layer");
     EXPECT_EQ(fault({{pyramid, {0, 1, 1, 2}, colorSampled}}),

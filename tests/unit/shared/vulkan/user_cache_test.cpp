@@ -32,9 +32,9 @@ TEST(UserCache, AFolderOfThisUserAloneIsUsed) {
 TEST(UserCache, AFolderThatOthersMayWriteToIsNotUsed) {
     for (const mode_t mode : {0777, 0720, 0702, 01777}) {
         const fs::path cache = cacheOf(mode);
-        EXPECT_EQ(cacheFault(cache), cache.string() +
-                                         ": is not used as a cache: others may write to it; chmod go-w makes "
-                                         "it yours alone");
+        EXPECT_EQ(
+            cacheFault(cache),
+            cache.string() + ": not used as a cache: other users may write to it; run chmod go-w on it");
     }
 }
 

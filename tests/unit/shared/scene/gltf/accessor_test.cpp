@@ -282,7 +282,7 @@ TEST(GltfAccessor, PrimitiveRestartIsRefused) {
                                        : f.accessor<std::uint32_t>({0, 1, 4294967295u}, type, "SCALAR", 1);
         const std::string value = type == UBYTE ? "255" : type == USHORT ? "65535" : "4294967295";
         EXPECT_TRUE(f.error().ends_with("mesh 0, primitive 0: indices: index 2 is " + value +
-                                        ", which would restart the primitive: glTF forbids it"))
+                                        ", the primitive restart value, which glTF forbids"))
             << f.error();
     }
 }
@@ -296,6 +296,6 @@ TEST(GltfAccessor, TypesThatAnAttributeMayNotHaveAreRefused) {
     f = GltfFile::triangle();
     f.primitive()["attributes"]["TEXCOORD_0"] = f.accessor(std::vector<std::uint32_t>(6, 1), UINT, "VEC2", 2);
     EXPECT_PRED2(ends, f.error(),
-                 "mesh 0, primitive 0: TEXCOORD_0: accessor 1 has component type 5125, which no attribute "
-                 "may have");
+                 "mesh 0, primitive 0: TEXCOORD_0: accessor 1 has component type 5125, which is not allowed "
+                 "for attributes");
 }

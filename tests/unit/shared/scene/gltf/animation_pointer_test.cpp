@@ -314,8 +314,9 @@ TEST(GltfAnimationPointer, KeysBeyondTheRangeAreNoted) {
     f.channel("/materials/0/pbrMetallicRoughness/roughnessFactor", {0.5f, 3});
     f.channel("/materials/0/extensions/KHR_materials_ior/ior", {0.5f, 2});
     const Scene scene = f.load();
-    EXPECT_TRUE(mentions(scene.notes, "animation 0: channel 0: 3 is outside 0 to 1: taken as the nearest"));
-    EXPECT_TRUE(mentions(scene.notes, "animation 0: channel 1: ior 0.5 is neither 0 nor at least 1"));
+    EXPECT_TRUE(
+        mentions(scene.notes, "animation 0: channel 0: 3 is outside 0 to 1: the nearest value is used"));
+    EXPECT_TRUE(mentions(scene.notes, "animation 0: channel 1: ior 0.5 is not 0 or at least 1"));
     EXPECT_EQ(poseAt(scene, 1).materials.at(0).roughness, 1);
     EXPECT_EQ(poseAt(scene, 0).materials.at(0).ior, 1);
     EXPECT_EQ(poseAt(scene, 1).materials.at(0).ior, 2);
@@ -358,7 +359,7 @@ TEST(GltfAnimationPointer, WhatAFactorSwitchesOnIsNeeded) {
 // ---- faults ------------------------------------------------------------------------------------------
 
 TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
-    const std::string nothing = "names nothing that is moved here";
+    const std::string nothing = "names a property that cannot be animated here";
     const std::pair<std::string, std::string> cases[] = {
         {"", nothing},
         {"/", nothing},
@@ -375,9 +376,9 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", nothing},
         {"/materials/0/doubleSided", nothing},
         {"/materials/0/extras/a", nothing},
-        {"/nodes/3/scale", "the file has 3 of them"},
-        {"/materials/1/alphaCutoff", "the file has 1 of them"},
-        {"/meshes/0/weights/2", "there are 2 morph targets"},
+        {"/nodes/3/scale", "the file has 3"},
+        {"/materials/1/alphaCutoff", "the file has 1"},
+        {"/meshes/0/weights/2", "the mesh has 2 morph targets"},
         {"/cameras/0/orthographic/znear", "the camera is perspective"},
         {"/cameras/0/orthographic/xmag", "the camera is perspective"},
         {"/cameras/1/perspective/yfov", "the camera is orthographic"},
@@ -417,7 +418,7 @@ TEST(GltfAnimationPointer, OutputsFitWhatTheyMove) {
     EXPECT_TRUE(mentions(g.load().notes, "4 elements for 2 keys"));
     PointerFile h;
     h.channel("/nodes/0/weights", {0, 0, 0, 1, 1, 1});
-    EXPECT_TRUE(mentions(h.load().notes, "3 weights a key, but node 0 has 2 morph targets"));
+    EXPECT_TRUE(mentions(h.load().notes, "3 weights per key, but node 0 has 2 morph targets"));
 }
 
 // Neither by two pointers, nor by a pointer and a plain target, nor as an array and as its element.
@@ -434,7 +435,7 @@ TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
                                                             : std::vector<float>{0, 1});
         const Scene scene = f.load();
         EXPECT_EQ(scene.animations.at(0).channels.size(), 1u) << first << " " << second;
-        EXPECT_TRUE(mentions(scene.notes, "is moved by an earlier channel already")) << first << second;
+        EXPECT_TRUE(mentions(scene.notes, "an earlier channel already animates")) << first << second;
     }
     PointerFile elements;
     elements.channel("/nodes/0/weights/0", {0, 1}).channel("/nodes/0/weights/1", {0, 1});
@@ -444,7 +445,7 @@ TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
     Json second = plain.json["animations"][0]["channels"][0];
     second["target"] = {{"node", 0}, {"path", "translation"}};
     plain.json["animations"][0]["channels"].push_back(second);
-    EXPECT_TRUE(mentions(plain.load().notes, "node 0 is moved by an earlier channel already"));
+    EXPECT_TRUE(mentions(plain.load().notes, "an earlier channel already animates node 0"));
 }
 
 // An unlit material shows its base colour alone, a sun has no cone: such channels move nothing.

@@ -59,7 +59,7 @@ TEST(GltfAssets, RequiredSpecularGlossinessIsRefusedByName) {
     } catch (const std::runtime_error& e) {
         EXPECT_EQ(std::string(e.what()), file +
                                              ": extensionsRequired: KHR_materials_pbrSpecularGlossiness is "
-                                             "not read: export the scene without it");
+                                             "not supported; export the scene without it");
     }
 }
 

@@ -181,11 +181,11 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
     };
     const auto byte = [](std::size_t at, char value) { return [=](GltfFile& f) { f.data[at] = value; }; };
     const Fault faults[] = {
-        {"mode 0, neither triangles nor a strip", [](GltfFile& f) { f.primitive()["mode"] = 0; }},
-        {"NORMAL_9: the primitive has none",
+        {"mode 0 is not triangles or a triangle strip", [](GltfFile& f) { f.primitive()["mode"] = 0; }},
+        {"NORMAL_9: the primitive has no such attribute",
          [](GltfFile& f) { extensionOf(f)["attributes"]["NORMAL_9"] = 3; }},
         {"NORMAL: 9 vertices, but COLOR_0 has 8", count(3, 8)},
-        {"accessor 5: 23 indices are no triangles", count(5, 23)},
+        {"accessor 5: 23 indices are not a multiple of 3", count(5, 23)},
         {"its stream holds 8 triangles, not 9", count(5, 27)},
         {"its stream holds 9 vertices, not 10",
          [](GltfFile& f) {
@@ -198,9 +198,9 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
          type(2, "componentType", USHORT)},
         {"COLOR_0: its stream has unsigned bytes, but accessor 3 has normalized unsigned shorts",
          type(3, "componentType", USHORT)},
-        {"holds no Draco stream", byte(0, 'd')},
-        {"its stream is of bitstream 1.2, not 2.2", byte(5, 1)},
-        {"its stream is encoded by method 9, which does not exist", byte(8, 9)},
+        {"is not a Draco stream", byte(0, 'd')},
+        {"its stream has bitstream version 1.2, not 2.2", byte(5, 1)},
+        {"its stream has the unknown encoding method 9", byte(8, 9)},
         {"its stream is a point cloud, not triangles",
          [&](GltfFile& f) {
              extensionOf(f)["bufferView"] = viewOf(f, {points.data(), points.size()});
@@ -222,7 +222,7 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
 TEST(GltfDraco, ClaimsBeyondTheFileAreRefused) {
     GltfFile f = compressed(encoded(2));
     f.json["accessors"][5]["count"] = 30000000;
-    EXPECT_EQ(dracoLine(f).find("its compressed geometry asks for 960000"), 0u);
+    EXPECT_EQ(dracoLine(f).find("its compressed geometry claims 960000"), 0u);
     GltfFile strip = compressed(encoded(2));
     strip.primitive().erase("indices");  // without indices nothing tells the number of triangles
     EXPECT_EQ(dracoLine(strip), "");

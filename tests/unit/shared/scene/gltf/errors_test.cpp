@@ -52,7 +52,7 @@ TEST(GltfErrors, Schema) {
          [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC5"; }},
         {"accessor 0: bufferView 7, but the file has 1",
          [](GltfFile& f) { f.json["accessors"][0]["bufferView"] = 7; }},
-        {"bufferView 0: byteStride is 2, not from 4 to 252",
+        {"bufferView 0: byteStride 2 is not from 4 to 252",
          [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 2; }},
         {"bufferView 0: has no buffer", [](GltfFile& f) { f.json["bufferViews"][0].erase("buffer"); }},
         {"node 0: rotation has 3 numbers, not 4",
@@ -83,27 +83,27 @@ TEST(GltfErrors, Schema) {
          }},
         {"node 0: KHR_lights_punctual: light 0, but the file has 0",
          [](GltfFile& f) { f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; }},
-        {"accessor 0: componentType 9999 is none of glTF's",
+        {"accessor 0: componentType 9999 does not exist",
          [](GltfFile& f) { f.json["accessors"][0]["componentType"] = 9999; }},
         {"accessor 0: type is \"VEC2 VEC3\", not one of SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4",
          [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC2 VEC3"; }},
-        {"accessor 0: 4 sparse elements of 3",
+        {"accessor 0: 4 sparse elements for 3 elements",
          [](GltfFile& f) {
              f.json["accessors"][0]["sparse"] = {{"count", 4},
                                                  {"indices", {{"bufferView", 0}, {"componentType", UBYTE}}},
                                                  {"values", {{"bufferView", 0}}}};
          }},
-        {"bufferView 0: byteStride 14 is no multiple of 4",
+        {"bufferView 0: byteStride 14 is not a multiple of 4",
          [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 14; }},
-        {"light 0: is spot, but has no spot",
+        {"light 0: is spot but has no spot",
          [](GltfFile& f) {
              f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
              f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
          }},
-        {"mesh 0, primitive 0: attributes: A?B is no name of an attribute",
+        {"mesh 0, primitive 0: attributes: A?B is not an attribute name",
          [](GltfFile& f) { f.primitive()["attributes"]["A\nB"] = 0; }},
         {"meshes is an object, not an array", [](GltfFile& f) { f.json["meshes"] = Json::object(); }},
-        {"extensionsRequired: KHR_texture_basisu is not read: export the scene without it",
+        {"extensionsRequired: KHR_texture_basisu is not supported; export the scene without it",
          [](GltfFile& f) {
              f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform"};
          }},
@@ -123,15 +123,15 @@ TEST(GltfErrors, BuffersAndImages) {
         {"buffer 0: .: is a folder", buffer(".")},
         {"buffer 0: ../x.bin: leaves the scene's folder", buffer("%2e%2e/x.bin")},
         {"buffer 0: /etc/passwd: an absolute path leaves the scene's folder", buffer("/etc/passwd")},
-        {"buffer 0: http://example.org/x.bin: only files beside the scene and data URIs are read",
+        {"buffer 0: http://example.org/x.bin: only files in the scene's folder and data URIs are read",
          buffer("http://example.org/x.bin")},
         {"buffer 0: its data URI has no comma before the data",
          buffer("data:application/octet-stream;base64")},
         {"buffer 0: its data URI has a comma in quotes before the data; write it as %2C",
          buffer("data:text/plain;x=\"a,b\";base64,AAAA")},
         {"buffer 0: its data is not base64 at character 3", buffer("data:;base64,AAA*")},
-        {"buffer 0: holds 3 bytes of the 36 that its byteLength names", buffer("data:;base64,AAAA")},
-        {"buffer 0: has no uri, and the file no binary chunk for it",
+        {"buffer 0: has 3 of the 36 bytes in its byteLength", buffer("data:;base64,AAAA")},
+        {"buffer 0: has no uri, and the file has no binary chunk for it",
          [](GltfFile& f) {
              f.written();
              f.json["buffers"][0].erase("uri");
@@ -154,10 +154,10 @@ TEST(GltfErrors, Documents) {
         linesFor("{\"asset\": 1"),
         "is not JSON: parse error at line 1, column 12: syntax error while parsing object - unexpected end "
         "of input; expected '}'");
-    EXPECT_EQ(linesFor("{}"), "asset: names no version");
+    EXPECT_EQ(linesFor("{}"), "asset: has no version");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"1.0\"}}"), "asset: version 1.0, not 2.0");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0}"), "scene 0, but the file has 0");
-    EXPECT_EQ(linesFor("glTF\x02"), "is cut short: 5 bytes of a header of 12");
+    EXPECT_EQ(linesFor("glTF\x02"), "is cut short: 5 of 12 header bytes");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"2.0\", \"extras\": 1e999}}"),
               "is not JSON: number overflow parsing '1e999'");
 }
@@ -170,11 +170,11 @@ TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     f.json["nodes"][0]["name"] = "[[[{{{\\\"[[[";  // brackets in strings are not nesting
     EXPECT_EQ(f.error(), "");
     f.json["extras"] = deep(128);
-    EXPECT_EQ(f.error(), (testFolder() / "scene.gltf").string() + ": nests deeper than 128");
-    EXPECT_EQ(linesFor("{\"extras\":" + std::string(1000000, '[')), "nests deeper than 128");
+    EXPECT_EQ(f.error(), (testFolder() / "scene.gltf").string() + ": is nested deeper than 128 levels");
+    EXPECT_EQ(linesFor("{\"extras\":" + std::string(1000000, '[')), "is nested deeper than 128 levels");
     std::string objects;
     for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
-    EXPECT_EQ(linesFor("{\"extras\":" + objects), "nests deeper than 128");
+    EXPECT_EQ(linesFor("{\"extras\":" + objects), "is nested deeper than 128 levels");
 }
 
 // Symbolic links are followed if they stay in the folder, and refused if they lead out of it.

@@ -97,12 +97,12 @@ TEST(GltfExtras, OnlyTheScenesOwn) {
 TEST(GltfExtras, WhatIsWrongIsLeftOutWithANote) {
     const std::pair<Json, const char*> cases[] = {
         {{{"type", "rect"}, {"size", {0, 1}}}, "size: 0 is below 1e-18: left out"},
-        {{{"type", "rect"}, {"radius", 1}}, "radius: belongs to disc and tube lights"},
-        {{{"type", "disc"}, {"colour", {1, 1, 1}}}, "colour: is not a field of a light: left out"},
-        {{{"type", "disc"}, {"node", 3}}, "node: is not the index of one of 2 nodes: left out"},
-        {{{"type", "disc"}, {"node", -1}}, "node: is not the index of one of 2 nodes: left out"},
-        {{{"type", "disc"}, {"node", 0.5}}, "node: is not the index of one of 2 nodes: left out"},
-        {{{"type", "disc"}, {"node", "lamp"}}, "node: is not the index of one of 2 nodes: left out"},
+        {{{"type", "rect"}, {"radius", 1}}, "radius: applies only to disc and tube lights"},
+        {{{"type", "disc"}, {"colour", {1, 1, 1}}}, "colour: is not a known field of a light: left out"},
+        {{{"type", "disc"}, {"node", 3}}, "node: is not an index of the 2 nodes: left out"},
+        {{{"type", "disc"}, {"node", -1}}, "node: is not an index of the 2 nodes: left out"},
+        {{{"type", "disc"}, {"node", 0.5}}, "node: is not an index of the 2 nodes: left out"},
+        {{{"type", "disc"}, {"node", "lamp"}}, "node: is not an index of the 2 nodes: left out"},
         {{{"type", "disc"}, {"node", 1}}, "node: 1 is not in the scene: left out"},
         {"disc", "is not an object: left out"},
         {nullptr, "is not an object: left out"},
@@ -129,7 +129,7 @@ TEST(GltfExtras, OthersMayBeAnything) {
     const std::pair<Json, const char*> ours[] = {
         {3, "scene 0: extras: diptych: is not an object: left out"},
         {{{"lights", 3}}, "scene 0: extras: diptych: lights: is not an array: left out"},
-        {{{"lamps", 3}, {"lights", Json::array()}}, "scene 0: extras: diptych: lamps: is not read"},
+        {{{"lamps", 3}, {"lights", Json::array()}}, "scene 0: extras: diptych: lamps: is ignored"},
     };
     for (const auto& [value, note] : ours) {
         GltfFile f = GltfFile::triangle();
@@ -162,12 +162,12 @@ TEST(GltfExtras, ASunHasAnAngle) {
 
     const std::pair<Json, const char*> faults[] = {
         {sun({{"angle", -1}}), "light 0: extras: diptych: angle: -1 is below 0: left out"},
-        {sun({{"angle", 4}}), "light 0: extras: diptych: angle: 4 is beyond pi: left out"},
+        {sun({{"angle", 4}}), "light 0: extras: diptych: angle: 4 is above pi: left out"},
         {sun({{"angle", "wide"}}), "light 0: extras: diptych: angle: is not a number: left out"},
-        {sun({{"size", 1}}), "light 0: extras: diptych: size: is not read"},
+        {sun({{"size", 1}}), "light 0: extras: diptych: size: is ignored"},
         {sun(7), "light 0: extras: diptych: is not an object: left out"},
         {{{"type", "point"}, {"extras", {{"diptych", {{"angle", 1}}}}}},
-         "light 0: extras: diptych: angle: belongs to directional lights: left out"},
+         "light 0: extras: diptych: angle: applies only to directional lights: left out"},
     };
     for (const auto& [light, note] : faults) {
         scene = lit(light);
@@ -206,9 +206,10 @@ TEST(GltfExtras, PointsAndSpotsAskForAShadow) {
         const bool asks = light["type"] != "directional";
         EXPECT_EQ(scene.lights[0].shadow, asks) << type;
         EXPECT_EQ(poseAt(scene, 0).lights.at(0).shadow, asks) << "as it is drawn";
-        EXPECT_EQ(mentions(scene.notes,
-                           "light 0: extras: diptych: shadow: belongs to point and spot lights: left out"),
-                  !asks)
+        EXPECT_EQ(
+            mentions(scene.notes,
+                     "light 0: extras: diptych: shadow: applies only to point and spot lights: left out"),
+            !asks)
             << type;
     }
     const Scene odd = lit({{"type", "point"}, {"extras", {{"diptych", {{"shadow", "yes"}}}}}});
@@ -218,12 +219,12 @@ TEST(GltfExtras, PointsAndSpotsAskForAShadow) {
 
 TEST(GltfExtras, AnImportanceThatIsNoneIsLeftOutWithANote) {
     const std::pair<Json, const char*> faults[] = {
-        {"high", "importance: \"high\" is none of auto, important, not_important: left out"},
+        {"high", "importance: \"high\" is not one of auto, important, not_important: left out"},
         {"not important",
-         "importance: \"not important\" is none of auto, important, not_important: left out"},
-        {"a\nb", "importance: \"a?b\" is none of auto, important, not_important: left out"},
-        {1, "importance: is not a text: left out"},
-        {nullptr, "importance: is not a text: left out"},
+         "importance: \"not important\" is not one of auto, important, not_important: left out"},
+        {"a\nb", "importance: \"a?b\" is not one of auto, important, not_important: left out"},
+        {1, "importance: is not text: left out"},
+        {nullptr, "importance: is not text: left out"},
     };
     for (const auto& [word, note] : faults) {
         const Scene sun = lit(

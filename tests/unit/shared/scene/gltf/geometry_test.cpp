@@ -151,7 +151,8 @@ TEST(GltfGeometry, SparseAccessorsReplaceElements) {
         const Scene scene = f.load();
         EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}}));
         f.data[f.json["bufferViews"][static_cast<std::size_t>(indices)]["byteOffset"]] = 3;
-        EXPECT_NE(f.error().find("accessor 0: sparse index 3 of 3"), std::string::npos) << f.error();
+        EXPECT_NE(f.error().find("accessor 0: sparse index 3 is past its 3 elements"), std::string::npos)
+            << f.error();
     }
 }
 
@@ -211,5 +212,5 @@ TEST(GltfGeometry, MissingTextureCoordinatesAreNoted) {
     texture["texCoord"] = 1;
     EXPECT_EQ(f.load().notes,
               std::vector<std::string>{
-                  "mesh 0, primitive 0: its material reads TEXCOORD_1, which it does not have: 0, 0"});
+                  "mesh 0, primitive 0: its material reads TEXCOORD_1, which it lacks: 0, 0 is used"});
 }

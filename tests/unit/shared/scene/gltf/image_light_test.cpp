@@ -163,13 +163,13 @@ TEST(GltfImageLight, WhatIsWrongLeavesItOutWithANote) {
          [&](GltfFile& f) {
              light(f)["specularImages"][0] = {0, 1, 2, 3, 4};
          }},
-        {"image of face 5: is no whole number below 6",
+        {"image of face 5: is not a whole number below 6",
          [&](GltfFile& f) { light(f)["specularImages"][0][5] = 6; }},
-        {"image of face 2: is no whole number below 6",
+        {"image of face 2: is not a whole number below 6",
          [&](GltfFile& f) { light(f)["specularImages"][0][2] = -1; }},
-        {"image of face 0: is no whole number below 6",
+        {"image of face 0: is not a whole number below 6",
          [&](GltfFile& f) { light(f)["specularImages"][0][0] = nullptr; }},
-        {"scene 0: EXT_lights_image_based: light: is no whole number below 1",
+        {"scene 0: EXT_lights_image_based: light: is not a whole number below 1",
          [](GltfFile& f) { f.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1; }},
         {"scene 0: EXT_lights_image_based: names no light",
          [](GltfFile& f) { f.json["scenes"][0]["extensions"]["EXT_lights_image_based"] = 0; }},
@@ -181,11 +181,12 @@ TEST(GltfImageLight, WhatIsWrongLeavesItOutWithANote) {
         {"light 0", [&](GltfFile& f) { light(f) = "sky"; }},
         {"light 0: image 3: face3.png",
          [](GltfFile&) { std::filesystem::remove(testFolder() / "face3.png"); }},
-        {"light 0: image 1: has neither", [](GltfFile& f) { f.json["images"][1] = Json::object(); }},
-        {"light 0: image 4: is neither PNG nor JPEG",
+        {"light 0: image 1: has no uri or bufferView",
+         [](GltfFile& f) { f.json["images"][1] = Json::object(); }},
+        {"light 0: image 4: is not PNG or JPEG",
          [](GltfFile& f) { f.json["images"][4]["uri"] = "data:image/png;base64,AAAA"; }},
-        {"light 0: image 2: is 2 x 1 pixels", [](GltfFile& f) { f.json["images"][2]["uri"] = twoPixels; }},
-        {"light 0: image 1: is 4 pixels a side, and the first face 16",
+        {"light 0: image 2: has 2 x 1 pixels", [](GltfFile& f) { f.json["images"][2]["uri"] = twoPixels; }},
+        {"light 0: image 1: has 4 pixels per side, but the first face 16",
          [](GltfFile&) {
              writePng(testFolder() / "face1.png", {4, 4, 3, std::vector<std::uint8_t>(48, 9)});
          }},
@@ -205,9 +206,9 @@ TEST(GltfImageLight, WhatIsWrongLeavesItOutWithANote) {
 TEST(GltfImageLight, KtxCubesAreNamed) {
     GltfFile file = GltfFile::triangle();
     file.json["extensionsUsed"] = {"KHR_lights_image_based"};
-    EXPECT_EQ(file.load().notes, (std::vector<std::string>{
-                                     "KHR_lights_image_based: left out, it is not read; --env FILE gives an "
-                                     "environment"}));
+    EXPECT_EQ(file.load().notes,
+              (std::vector<std::string>{
+                  "KHR_lights_image_based: left out, not supported; --env FILE sets an environment"}));
 }
 
 }  // namespace

@@ -34,11 +34,11 @@ TEST(GltfLightmap, IsReadFromTheExtrasOnTheSecondSet) {
 
 TEST(GltfLightmap, WhatIsWrongLeavesItOutWithANote) {
     const std::pair<Json, const char*> cases[] = {
-        {{{"index", 1}}, "index: 1 is no whole number below 1"},
-        {{{"index", 0.5}}, "index: 0.5 is no whole number below 1"},
+        {{{"index", 1}}, "index: 1 is not a whole number below 1"},
+        {{{"index", 0.5}}, "index: 0.5 is not a whole number below 1"},
         {{{"index", -1}}, "index"},
         {{{"texCoord", 1}}, "index: is missing"},
-        {{{"index", 0}, {"texCoord", 2}}, "texCoord: 2 is no whole number below 2"},
+        {{{"index", 0}, {"texCoord", 2}}, "texCoord: 2 is not a whole number below 2"},
         {{{"index", 0}, {"intensity", -1}}, "intensity"},
         {{{"index", 0}, {"strength", 1}}, "strength"},
         {3, "lightmap"},
@@ -87,7 +87,7 @@ TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     EXPECT_EQ(image.rgba32, (std::vector<float>{0.25f, 40, 0.25f, 1, 0.25f, 0.25f, 0, 1}));
     EXPECT_EQ(image.largest, 40);
     EXPECT_TRUE(std::ranges::any_of(scene.notes, [](const std::string& note) {
-        return note.find("negative, taken as 0") != std::string::npos;
+        return note.find("negative; 0 is used") != std::string::npos;
     }));
 
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;

@@ -167,11 +167,11 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
         {{{"pbrMetallicRoughness", {{"baseColorFactor", {-1, 0, 0, 1}}}}},
          [](const Material& m) { return m.base_color.r; },
          0,
-         "material 0: baseColorFactor -1 is outside 0 to 1: taken as 0"},
+         "material 0: baseColorFactor -1 is outside 0 to 1: 0 is used"},
         {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 1e30, 1}}}}},
          [](const Material& m) { return m.base_color.b; },
          1,
-         "material 0: baseColorFactor 1e+30 is outside 0 to 1: taken as 1"},
+         "material 0: baseColorFactor 1e+30 is outside 0 to 1: 1 is used"},
         {{{"pbrMetallicRoughness", {{"metallicFactor", 2}}}},
          [](const Material& m) { return m.metallic; },
          1,
@@ -199,7 +199,7 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
         {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}},
          [](const Material& m) { return m.ior; },
          1,
-         "material 0: ior 0.5 is neither 0 nor at least 1: taken as 1"},
+         "material 0: ior 0.5 is not 0 or at least 1: 1 is used"},
         {{{"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}},
           {"emissiveFactor", {1, 1, 1}}},
          [](const Material& m) { return m.emissive.g; },
@@ -209,15 +209,15 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
         {{{"pbrMetallicRoughness", {{"metallicFactor", 1.00000001}}}},
          [](const Material& m) { return m.metallic; },
          1,
-         "metallicFactor 1.00000001 is outside 0 to 1: taken as 1"},
+         "metallicFactor 1.00000001 is outside 0 to 1: 1 is used"},
         {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.5}}}}}},
          [](const Material& m) { return m.transmission; },
          1,
-         "material 0: transmissionFactor 1.5 is outside 0 to 1: taken as 1"},
+         "material 0: transmissionFactor 1.5 is outside 0 to 1: 1 is used"},
         {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", -1e30}}}}}},
          [](const Material& m) { return m.transmission; },
          0,
-         "material 0: transmissionFactor -1e+30 is outside 0 to 1: taken as 0"},
+         "material 0: transmissionFactor -1e+30 is outside 0 to 1: 0 is used"},
         {specular({{"specularFactor", 1.5}}), [](const Material& m) { return m.specular; }, 1,
          "specularFactor 1.5 "},
         {specular({{"specularColorFactor", {-1, 1, 1}}}),
@@ -254,7 +254,7 @@ TEST(GltfMaterial, EmissionBeyondAnyFloatIsRefused) {
     GltfFile f =
         withMaterial({{"emissiveFactor", {1e38, 0, 0}},
                       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}}}}});
-    EXPECT_TRUE(f.error().ends_with(": material 0: emits 1e+39, beyond any float")) << f.error();
+    EXPECT_TRUE(f.error().ends_with(": material 0: emits 1e+39, more than a float can store")) << f.error();
 }
 
 // Thin surfaces: the factor is read, and once a scene it is said what is not modelled.
@@ -270,8 +270,8 @@ TEST(GltfMaterial, TransmissionIsReadAndWhatIsNotModelledIsSaid) {
     EXPECT_TRUE(blends(scene.materials[0]));
     EXPECT_TRUE(scene.images.empty()) << "the texture is not read";
     for (const char* said :
-         {"1 material (glass) with KHR_materials_transmission: blended, without thickness; refraction, blur",
-          "1 material (glass) with a transmissionTexture: not read, transmissionFactor counts everywhere",
+         {"1 material (glass) with KHR_materials_transmission: blended as thin surfaces; refraction, rough",
+          "1 material (glass) with a transmissionTexture: ignored, only transmissionFactor is used",
           "1 material (glass) with KHR_materials_volume: thickness and attenuation are not modelled"})
         EXPECT_TRUE(mentions(scene.notes, said)) << said;
 

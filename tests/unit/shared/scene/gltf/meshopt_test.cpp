@@ -252,22 +252,24 @@ TEST(GltfMeshopt, WhatIsWrongIsSaidInOneLine) {
          set(1, "byteStride", 16)},
         {"bufferView 1: EXT_meshopt_compression: 4 elements of 12 bytes, but the bufferView has 36 bytes",
          set(1, "count", 4)},
-        {"bufferView 1: EXT_meshopt_compression: has no element", set(1, "count", 0)},
+        {"bufferView 1: EXT_meshopt_compression: has no elements", set(1, "count", 0)},
         {"bufferView 1: EXT_meshopt_compression: byteStride 12, not 4 or 8", set(1, "filter", "OCTAHEDRAL")},
         {"bufferView 1: EXT_meshopt_compression: byteStride 12, not 8", set(1, "filter", "QUATERNION")},
         {"bufferView 2: EXT_meshopt_compression: byteStride 8, not 2 or 4", set(2, "byteStride", 8)},
-        {"bufferView 2: EXT_meshopt_compression: indices have no filter", set(2, "filter", "EXPONENTIAL")},
-        {"bufferView 2: EXT_meshopt_compression: 4 indices are no triangles", set(2, "count", 4)},
-        {"bufferView 2: EXT_meshopt_compression: 5 bytes cannot hold 3 elements", set(2, "byteLength", 5)},
-        {"bufferView 1: EXT_meshopt_compression: 999 bytes from 36 on end past buffer 0 (122 bytes)",
+        {"bufferView 2: EXT_meshopt_compression: indices must not have a filter",
+         set(2, "filter", "EXPONENTIAL")},
+        {"bufferView 2: EXT_meshopt_compression: 4 indices are not a multiple of 3", set(2, "count", 4)},
+        {"bufferView 2: EXT_meshopt_compression: 5 bytes are too few for 3 elements",
+         set(2, "byteLength", 5)},
+        {"bufferView 1: EXT_meshopt_compression: 999 bytes at offset 36 end past buffer 0 (122 bytes)",
          set(1, "byteLength", 999)},
-        {"bufferView 1: EXT_meshopt_compression: buffer 1: has no data: it stands in "
-         "where EXT_meshopt_compression is not read",
+        {"bufferView 1: EXT_meshopt_compression: buffer 1: has no data: it is a fallback for readers without "
+         "EXT_meshopt_compression",
          set(1, "buffer", 1)},
-        {"bufferView 2: EXT_meshopt_compression: its bytes are not of its mode", set(2, "mode", "INDICES")},
-        {"bufferView 1: EXT_meshopt_compression: its bytes are not of its mode",
+        {"bufferView 2: EXT_meshopt_compression: its data has another mode", set(2, "mode", "INDICES")},
+        {"bufferView 1: EXT_meshopt_compression: its data has another mode",
          [](GltfFile& f) { f.data[36] = '\x77'; }},
-        {"buffer 1: has no data: it stands in where EXT_meshopt_compression is not read",
+        {"buffer 1: has no data: it is a fallback for readers without EXT_meshopt_compression",
          [](GltfFile& f) { f.json["bufferViews"][1].erase("extensions"); }},
     };
     for (const Fault& fault : faults) {
@@ -299,7 +301,9 @@ TEST(GltfMeshopt, OneStreamForManyViewsIsBounded) {
              "VEC3");
     const Json view = f.json["bufferViews"].back();
     for (int i = 0; i < 1000; ++i) f.json["bufferViews"].push_back(view);
-    EXPECT_EQ(meshoptLine(f).find("its compressed geometry asks for 3148873728 bytes, more than the "), 0u);
+    EXPECT_EQ(
+        meshoptLine(f).find("its compressed geometry claims 3148873728 bytes; the limit for buffers of "),
+        0u);
 }
 
 // Damaged streams result in a scene or in a one-line error; AddressSanitizer checks memory.

@@ -96,13 +96,13 @@ TEST(GltfMotion, MorphTargetsThatDoNotFitAreRefusedInOneLine) {
                          "primitive has 2: left out"));
     f = {};
     f.json["meshes"][0]["weights"] = {1};
-    EXPECT_PRED2(ends, f.error(), "mesh 0: 1 weights for 2 morph targets");
+    EXPECT_PRED2(ends, f.error(), "mesh 0: 1 weight for 2 morph targets");
     f = {};
     f.json["nodes"][0]["weights"] = {1, 2, 3};
     EXPECT_PRED2(ends, f.error(), "node 0: 3 weights for 2 morph targets");
     f = {};
     f.primitive()["targets"][0]["POSITION"] = f.accessor<float>({0, 0, 1}, FLOAT, "VEC3", 3);
-    EXPECT_PRED2(ends, f.error(), "mesh 0, primitive 0: target 0: POSITION: 1 elements for 3 positions");
+    EXPECT_PRED2(ends, f.error(), "mesh 0, primitive 0: target 0: POSITION: has 1 elements for 3 positions");
 }
 
 TEST(GltfMotion, DeltasThatAreNotFiniteAreZeroWithANote) {
@@ -195,8 +195,8 @@ TEST(GltfMotion, KeysAtOneTimeAreReadAndNoted) {
     f.channel("translation", "LINEAR", f.vectors(3), f.accessor<float>({0, 0, 2}, FLOAT, "SCALAR", 1));
     const Scene scene = f.load();
     EXPECT_EQ(scene.animations.at(0).keyframes.at(0).times, (std::vector<float>{0, 0, 2}));
-    EXPECT_TRUE(mentions(scene.notes,
-                         "animation 0: channel 0: keys at one time: the last of them counts from there on"));
+    EXPECT_TRUE(
+        mentions(scene.notes, "animation 0: channel 0: several keys at one time: the last one is used"));
 }
 
 // Animations are not essential: a faulty channel is left out with a note on its fault.
@@ -210,19 +210,19 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
     };
     static const auto withTimes = times;
     for (const Case& c : {
-             Case{"input: key 2 at 0.5 s is before the one before it",
+             Case{"input: key 2 at 0.5 s is before the previous key",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, 0.5f});
                   }},
-             Case{"input: key 1 is at nan s",
+             Case{"input: key 1 has the invalid time nan s",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, NAN, 2});
                   }},
-             Case{"input: key 0 is at -1 s",
+             Case{"input: key 0 has the invalid time -1 s",
                   [](AnimatedFile& f) {
                       withTimes(f, {-1, 0, 2});
                   }},
-             Case{"input: key 2 is at inf s",
+             Case{"input: key 2 has the invalid time inf s",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, INFINITY});
                   }},
@@ -244,11 +244,11 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
                       f.channel("rotation", "LINEAR",
                                 f.accessor(std::vector<float>(12, 0), FLOAT, "VEC4", 4));
                   }},
-             Case{"output: holds values that are not finite",
+             Case{"output: has values that are not finite",
                   [](AnimatedFile& f) {
                       f.channel("scale", "LINEAR", f.accessor(std::vector<float>(9, NAN), FLOAT, "VEC3", 3));
                   }},
-             Case{"3 weights a key, but node 0 has 2 morph targets",
+             Case{"3 weights per key, but node 0 has 2 morph targets",
                   [](AnimatedFile& f) { f.channel("weights", "STEP", f.vectors(9, "SCALAR", 1)); }},
              Case{"node 0 has a matrix, which cannot be animated",
                   [](AnimatedFile& f) {
@@ -270,6 +270,6 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
     twice.channel("translation", "STEP", twice.vectors(3));
     const Scene scene = twice.load();
     EXPECT_EQ(scene.animations.at(0).channels.size(), 1u);
-    EXPECT_TRUE(
-        mentions(scene.notes, "1 of 2 channels left out: channel 1: node 0 is moved by an earlier channel"));
+    EXPECT_TRUE(mentions(scene.notes,
+                         "1 of 2 channels left out: channel 1: an earlier channel already animates node 0"));
 }

@@ -150,25 +150,22 @@ TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
                     {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"znear", near}, {"zfar", far}}}};
     };
     const Case cases[] = {
-        {perspective(4, 1, 9), "camera 0: yfov 4 does not lie between 0 and pi: left out", false, 0},
+        {perspective(4, 1, 9), "camera 0: yfov 4 is not between 0 and pi: left out", false, 0},
         {perspective(1, 0, 9), "camera 0: znear 0 is not above 0: left out", false, 0},
         {perspective(1, -2, 9), "camera 0: znear -2 is not above 0: left out", false, 0},
-        {perspective(1, 2, 2), "camera 0: zfar 2 is not beyond znear 2: taken as none", true, none},
-        {perspective(1, 2, -1), "camera 0: zfar -1 is not beyond znear 2: taken as none", true, none},
-        {perspective(1, 2, 0), "camera 0: zfar 0: taken as none", true, none},
+        {perspective(1, 2, 2), "camera 0: zfar 2 is not beyond znear 2: no far plane is used", true, none},
+        {perspective(1, 2, -1), "camera 0: zfar -1 is not beyond znear 2: no far plane is used", true, none},
+        {perspective(1, 2, 0), "camera 0: zfar 0: ignored", true, none},
         {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", -2}, {"znear", 1}}}},
-         "camera 0: aspectRatio -2: not read",
+         "camera 0: aspectRatio -2: ignored",
          true,
          none},
         {orthographic(1, 0, 0, 9), "camera 0: ymag is 0: left out", false, 0},
         {orthographic(1, 1, -1, 9), "camera 0: znear -1 is negative: left out", false, 0},
         {orthographic(1, 1, 9, 9), "camera 0: zfar 9 is not beyond znear 9: left out", false, 0},
-        {orthographic(1, -3, 0, 9), "camera 0: ymag -3: taken as 3", true, 9},
-        {orthographic(-2, 3, 0, 9), "camera 0: xmag -2: taken as 2", true, 9},
-        {{{"type", "orthographic"}},
-         "camera 0: is orthographic, but has no orthographic: left out",
-         false,
-         0},
+        {orthographic(1, -3, 0, 9), "camera 0: ymag -3: 3 is used", true, 9},
+        {orthographic(-2, 3, 0, 9), "camera 0: xmag -2: 2 is used", true, 9},
+        {{{"type", "orthographic"}}, "camera 0: is orthographic but has no orthographic: left out", false, 0},
     };
     for (const Case& c : cases) {
         GltfFile f = GltfFile::triangle();
@@ -201,18 +198,18 @@ TEST(GltfNode, LightsThatCannotBeAreRepaired) {
     const float right = static_cast<float>(std::acos(0.0)), none = std::numeric_limits<float>::infinity();
     const Case cases[] = {
         {{{"color", {1, -0.5, 0}}},
-         "light 0: color -0.5: taken as 0",
+         "light 0: color -0.5: 0 is used",
          [](const Light& l) { return l.color.g; },
          0},
         {{{"intensity", -3}},
-         "light 0: intensity -3: taken as 0",
+         "light 0: intensity -3: 0 is used",
          [](const Light& l) { return l.intensity; },
          0},
-        {{{"range", 0}}, "light 0: range 0: taken as none", range, none},
-        {{{"range", -2}}, "light 0: range -2: taken as none", range, none},
-        {cone(0.5, 0.25), "light 0: innerConeAngle 0.5: taken as 0.25", inner, 0.25f},
-        {cone(-1, 0.25), "light 0: innerConeAngle -1: taken as 0", inner, 0},
-        {cone(0.25, 3), "light 0: outerConeAngle 3: taken as 1.5708", outer, right},
+        {{{"range", 0}}, "light 0: range 0: no range is used", range, none},
+        {{{"range", -2}}, "light 0: range -2: no range is used", range, none},
+        {cone(0.5, 0.25), "light 0: innerConeAngle 0.5: 0.25 is used", inner, 0.25f},
+        {cone(-1, 0.25), "light 0: innerConeAngle -1: 0 is used", inner, 0},
+        {cone(0.25, 3), "light 0: outerConeAngle 3: 1.5708 is used", outer, right},
     };
     for (const Case& c : cases) {
         GltfFile f = GltfFile::triangle();
@@ -232,12 +229,13 @@ TEST(GltfNode, TransformsThatCannotBeAreNoted) {
     GltfFile f = GltfFile::triangle();
     f.json["nodes"][0] = {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}, {"translation", {1, 2, 3}}};
     Scene scene = f.load();
-    EXPECT_EQ(scene.notes, std::vector<std::string>{"node 0: rotation 0 0 0 0: taken as none"});
+    EXPECT_EQ(scene.notes, std::vector<std::string>{"node 0: rotation 0 0 0 0: no rotation is used"});
     EXPECT_EQ(scene.nodes[0].parent_from_node, glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1));
     f.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 7, 8, 9, 1};
     scene = f.load();
-    EXPECT_EQ(scene.notes, std::vector<std::string>{
-                               "node 0: a matrix beside translation, rotation or scale: the matrix counts"});
+    EXPECT_EQ(scene.notes,
+              std::vector<std::string>{
+                  "node 0: has a matrix and translation, rotation or scale: the matrix is used"});
     EXPECT_EQ(scene.nodes[0].parent_from_node, glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 7, 8, 9, 1));
 }
 

@@ -48,11 +48,11 @@ TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
     };
     const Json bad = {{"index", 9}};
     const Case cases[] = {
-        {"buffer 1: gone.bin: no such file: nothing that is drawn reads it",
+        {"buffer 1: gone.bin: no such file: the scene does not use it",
          [](GltfFile& f) {
              f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "gone.bin"}});
          }},
-        {"buffer 1: has no uri, and the file no binary chunk for it: nothing that is drawn reads it",
+        {"buffer 1: has no uri, and the file has no binary chunk for it: the scene does not use it",
          [](GltfFile& f) {
              f.json["buffers"].push_back({{"byteLength", 4}});
          }},
@@ -64,7 +64,7 @@ TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
          [](GltfFile& f) {
              f.json["bufferViews"].push_back({{"buffer", 5}, {"byteLength", 4}});
          }},
-        {"accessor 1: componentType 7 is none of glTF's: left out",
+        {"accessor 1: componentType 7 does not exist: left out",
          [](GltfFile& f) {
              f.json["accessors"].push_back({{"componentType", 7}, {"count", 1}, {"type", "SCALAR"}});
          }},
@@ -88,12 +88,12 @@ TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
          [](GltfFile& f) {
              f.json["nodes"].push_back({{"mesh", 9}});
          }},
-        {"camera 0: is perspective, but has no perspective: left out",
+        {"camera 0: is perspective but has no perspective: left out",
          [](GltfFile& f) {
              f.json["cameras"] = {{{"type", "perspective"}}};
              f.json["nodes"][0]["camera"] = 0;
          }},
-        {"light 0: is spot, but has no spot: left out",
+        {"light 0: is spot but has no spot: left out",
          [](GltfFile& f) {
              f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
          }},
@@ -144,7 +144,7 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
              f.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
              f.primitive()["material"] = 0;
          }},
-        {"light 0: is spot, but has no spot",
+        {"light 0: is spot but has no spot",
          [](GltfFile& f) {
              f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
              f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
@@ -179,8 +179,8 @@ TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
          "mesh 1, primitive 0: left out, it needs accessor 1: 300 vertices of 12 bytes end at 3600, past "
          "bufferView 1 (36 bytes)",
          [](GltfFile& f, Json&) { f.json["accessors"][1]["count"] = 300; }},
-        {"accessor 1: componentType 7 is none of glTF's",
-         "mesh 1: left out, it needs accessor 1: componentType 7 is none of glTF's",
+        {"accessor 1: componentType 7 does not exist",
+         "mesh 1: left out, it needs accessor 1: componentType 7 does not exist",
          [](GltfFile& f, Json&) { f.json["accessors"][1]["componentType"] = 7; }},
         {"mesh 1, primitive 0: attributes: POSITION names accessor 99, but the file has 2",
          "mesh 1, primitive 0: attributes: POSITION names accessor 99, but the file has 2: left out",
@@ -190,8 +190,8 @@ TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
          [&](GltfFile& f, Json& mesh) {
              primitive(mesh)["indices"] = f.accessor<std::uint8_t>({0, 9, 2}, UBYTE, "SCALAR", 1);
          }},
-        {"mesh 1, primitive 0: NORMAL: 2 elements for 3 positions",
-         "mesh 1, primitive 0: NORMAL: 2 elements for 3 positions: left out",
+        {"mesh 1, primitive 0: NORMAL: has 2 elements for 3 positions",
+         "mesh 1, primitive 0: NORMAL: has 2 elements for 3 positions: left out",
          [&](GltfFile& f, Json& mesh) {
              primitive(mesh)["attributes"]["NORMAL"] =
                  f.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
@@ -266,7 +266,7 @@ TEST(GltfRepair, NotesOfAMillionBrokenThingsAreFew) {
     const Lines notes = f.load().notes;
     ASSERT_EQ(notes.size(), 21u);
     EXPECT_EQ(notes[0], "material 0: doubleSided is 0, not true or false: left out");
-    EXPECT_EQ(notes[20], "980 more notes on objects like these");
+    EXPECT_EQ(notes[20], "980 more notes about objects");
 }
 
 TEST(GltfRepair, MaterialsThatNothingIsDrawnWithOpenNoImage) {
@@ -277,14 +277,14 @@ TEST(GltfRepair, MaterialsThatNothingIsDrawnWithOpenNoImage) {
     f.json["materials"] = {{{"name", "spare"}, {"normalTexture", {{"index", 0}}}},
                            {{"name", "broken"}, {"normalTexture", {{"index", 1}}}}};
     const Scene scene = f.load();
-    EXPECT_EQ(scene.notes, Lines{"sampler 0: 1 is no wrap mode: left out, nothing is drawn with it"});
+    EXPECT_EQ(scene.notes, Lines{"sampler 0: 1 is not a wrap mode: left out, the scene does not use it"});
     EXPECT_TRUE(scene.images.empty());
     EXPECT_EQ(scene.materials.at(0).normal_texture.texture, -1);
     EXPECT_EQ(scene.materials.at(1).name, "broken");
     f.primitive()["material"] = 0;
     EXPECT_TRUE(f.error().ends_with(": image 0: missing.png: no such file"));
     f.json["images"][0].erase("uri");
-    EXPECT_TRUE(f.error().ends_with(": image 0: has neither a uri nor a bufferView")) << f.error();
+    EXPECT_TRUE(f.error().ends_with(": image 0: has no uri or bufferView")) << f.error();
 }
 
 // ---- odd JSON ----------------------------------------------------------------------------------------
@@ -301,11 +301,10 @@ TEST(GltfRepair, NullIsAbsent) {
     const Scene scene = f.load();
     EXPECT_EQ(f.only(scene).positions, corners);
     EXPECT_EQ(scene.notes,
-              (Lines{"animations is null: taken as absent", "extensionsRequired is null: taken as absent",
-                     "mesh 0, primitive 0: attributes: NORMAL is null: taken as absent",
-                     "mesh 0, primitive 0: KHR_draco_mesh_compression is null: taken as absent",
-                     "mesh 0, primitive 0: indices is null: taken as absent",
-                     "node 0: children is null: taken as absent"}));
+              (Lines{"animations is null: ignored", "extensionsRequired is null: ignored",
+                     "mesh 0, primitive 0: attributes: NORMAL is null: ignored",
+                     "mesh 0, primitive 0: KHR_draco_mesh_compression is null: ignored",
+                     "mesh 0, primitive 0: indices is null: ignored", "node 0: children is null: ignored"}));
     f.primitive()["attributes"] = nullptr;
     EXPECT_TRUE(f.error().ends_with(": mesh 0, primitive 0: has no attributes")) << f.error();
 }
@@ -337,8 +336,8 @@ TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
     f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");
     Lines expected;
     for (const char letter : std::string("abcdefg"))
-        expected.push_back(fmt::format("EXT_{}: left out, it is not read", letter));
-    expected.push_back("node 0: KHR_texture_transform is not read there: left out");
+        expected.push_back(fmt::format("EXT_{}: left out, not supported", letter));
+    expected.push_back("node 0: KHR_texture_transform is not supported there: left out");
     EXPECT_EQ(f.load().notes, expected);
 }
 
@@ -349,7 +348,8 @@ TEST(GltfRepair, NewerVersionsAreRefusedByName) {
     EXPECT_EQ(f.error(), "");
     for (const char* version : {"2.1", "3.0", "10.0", "two"}) {
         f.json["asset"]["minVersion"] = version;
-        EXPECT_TRUE(f.error().ends_with(std::string(": asset: minVersion ") + version + ": 2.0 is read"))
+        EXPECT_TRUE(
+            f.error().ends_with(std::string(": asset: minVersion ") + version + " is not supported; 2.0 is"))
             << f.error();
     }
 }
@@ -363,11 +363,11 @@ TEST(GltfRepair, Strides) {
     f.primitive()["indices"] = indices;
     f.json["bufferViews"][1]["byteStride"] = 2;
     Scene scene = f.load();
-    EXPECT_EQ(scene.notes, (Lines{"bufferView 0: byteStride 0: taken as packed",
+    EXPECT_EQ(scene.notes, (Lines{"bufferView 0: byteStride 0: read as packed",
                                   "bufferView 1: byteStride 2 of packed indices: ignored"}));
     EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}));
     f.json["bufferViews"][1]["byteStride"] = 4;
-    EXPECT_TRUE(f.error().ends_with(": bufferView 1: byteStride 4, but indices are packed: 2 bytes each"))
+    EXPECT_TRUE(f.error().ends_with(": bufferView 1: byteStride 4, but indices must be packed, 2 bytes each"))
         << f.error();
     f.primitive().erase("indices");
     EXPECT_EQ(f.error(), "") << "nothing that is drawn reads it";
@@ -383,11 +383,11 @@ TEST(GltfRepair, BytesBesideTheChunks) {
     write("two.glb", two);
     write("after.glb", bytes + "garbage");
     Scene scene = loadScene((testFolder() / "two.glb").string());
-    EXPECT_EQ(scene.notes, Lines{"2 binary chunks: the first is read"});
+    EXPECT_EQ(scene.notes, Lines{"2 binary chunks: only the first is read"});
     EXPECT_EQ(f.only(scene).positions, corners);
     scene = loadScene((testFolder() / "after.glb").string());
-    EXPECT_EQ(scene.notes, Lines{"7 bytes after the " + std::to_string(bytes.size()) +
-                                 " that its header names: not read"});
+    EXPECT_EQ(scene.notes,
+              Lines{"7 bytes after the " + std::to_string(bytes.size()) + " in its header: ignored"});
     EXPECT_EQ(f.only(scene).positions, corners);
 }
 
@@ -402,9 +402,9 @@ TEST(GltfRepair, FallbackBuffersMayBeMissing) {
         f.json["buffers"].push_back(fallback);
         const Scene scene = loadAsIs(f);
         EXPECT_EQ(f.only(scene).positions, corners);
-        EXPECT_EQ(scene.notes,
-                  uri ? Lines{"buffer 1: scene.fallback.bin: no such file: nothing that is drawn reads it"}
-                      : Lines{});
+        EXPECT_EQ(
+            scene.notes,
+            uri ? Lines{"buffer 1: scene.fallback.bin: no such file: the scene does not use it"} : Lines{});
     }
 }
 
@@ -417,24 +417,22 @@ TEST(GltfRepair, PaddingThatIsNotThereIsNotNeeded) {
     const std::vector<glm::vec3> turned{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}};
     f.json["bufferViews"][1]["byteLength"] = 8;
     Scene scene = loadAsIs(f);
-    EXPECT_EQ(scene.notes,
-              Lines{"bufferView 1: 8 bytes from 36 on end past buffer 0 (42 bytes): nothing that is "
-                    "drawn reads further"});
+    EXPECT_EQ(scene.notes, Lines{"bufferView 1: 8 bytes at offset 36 end past buffer 0 (42 bytes): the scene "
+                                 "does not use the rest"});
     EXPECT_EQ(f.only(scene).positions, turned);
     f.json["buffers"][0]["byteLength"] = 44;
     scene = loadAsIs(f);
     EXPECT_EQ(scene.notes,
-              Lines{"buffer 0: holds 42 bytes of the 44 that its byteLength names: nothing that is "
-                    "drawn reads the others"});
+              Lines{"buffer 0: has 42 of the 44 bytes in its byteLength: the scene does not use the rest"});
     EXPECT_EQ(f.only(scene).positions, turned);
     // A byte that is drawn is needed.
     write("a buffer.bin", f.data.substr(0, 41));
-    EXPECT_EQ(errorAsIs(f), "buffer 0: holds 41 bytes of the 44 that its byteLength names");
+    EXPECT_EQ(errorAsIs(f), "buffer 0: has 41 of the 44 bytes in its byteLength");
     f.json["buffers"][0]["byteLength"] = 41;
-    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes from 36 on end past buffer 0 (41 bytes)");
+    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes at offset 36 end past buffer 0 (41 bytes)");
     // None of a view's is there.
     f.json["bufferViews"][1]["byteOffset"] = 41;
-    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes from 41 on end past buffer 0 (41 bytes)");
+    EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes at offset 41 end past buffer 0 (41 bytes)");
 }
 
 // An empty view of an empty buffer is valid and empty.
@@ -463,17 +461,17 @@ TEST(GltfRepair, UrisOfEveryKindOfWriter) {
     for (std::size_t at; (at = percent.find("g")) != percent.npos;) percent.replace(at, 1, "%67");
     const std::pair<std::string, std::string> cases[] = {
         {"both%20one.bin", ""},
-        {"a%20b.bin", "buffer 0: a%20b.bin: its uri is taken as it stands, not as percent-encoded"},
-        {"sub\\x.bin", "buffer 0: sub/x.bin: a backslash in its uri is taken as /"},
-        {"sub%5Cx.bin", "buffer 0: sub/x.bin: a backslash in its uri is taken as /"},
-        {"sub\\y%20z.bin", "buffer 0: sub/y z.bin: a backslash in its uri is taken as /"},
+        {"a%20b.bin", "buffer 0: a%20b.bin: its uri is read without percent-decoding"},
+        {"sub\\x.bin", "buffer 0: sub/x.bin: a backslash in its uri is read as /"},
+        {"sub%5Cx.bin", "buffer 0: sub/x.bin: a backslash in its uri is read as /"},
+        {"sub\\y%20z.bin", "buffer 0: sub/y z.bin: a backslash in its uri is read as /"},
         {"DATA:;base64," + base64, ""},
         {"Data:application/octet-stream;BASE64," + base64, ""},
         {"data:;base64," + percent, ""},
         {"data:;base64," + base64 + "==", ""},
         {"data:;base64," + base64 + "=\n", ""},
         {"data:;base64," + base64 + "==AAAA",
-         "buffer 0: its base64 goes on after its end at character 50: not read"},
+         "buffer 0: its base64 continues after its end, at character 50: ignored"},
     };
     for (const auto& [uri, note] : cases) {
         f.json["buffers"][0]["uri"] = uri;
@@ -485,7 +483,7 @@ TEST(GltfRepair, UrisOfEveryKindOfWriter) {
     f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "data:;base64,%2B%2b%2F%2f%2Bw%3D%3D"}});
     EXPECT_EQ(loadAsIs(f).notes.size(), 1u) << "only that of buffer 0";
     f.json["buffers"][1]["byteLength"] = 5;
-    EXPECT_TRUE(mentions(loadAsIs(f).notes, "buffer 1: holds 4 bytes of the 5 that its byteLength names"));
+    EXPECT_TRUE(mentions(loadAsIs(f).notes, "buffer 1: has 4 of the 5 bytes in its byteLength"));
 }
 
 // No way of writing a path leads out of the folder.

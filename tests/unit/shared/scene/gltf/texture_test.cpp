@@ -105,8 +105,8 @@ TEST(GltfTexture, TransformsBeyondAnyPictureAreNoted) {
             .load();
     EXPECT_EQ(scene.materials[0].normal_texture.u, glm::dvec3(1, 0, 1e12));
     EXPECT_EQ(scene.materials[0].normal_texture.v, glm::dvec3(0, -1e12, 0));
-    EXPECT_TRUE(mentions(
-        scene.notes, "material 0: normalTexture offset 1e+30 is outside -1e+12 to 1e+12: taken as 1e+12"));
+    EXPECT_TRUE(mentions(scene.notes,
+                         "material 0: normalTexture offset 1e+30 is outside -1e+12 to 1e+12: 1e+12 is used"));
     EXPECT_TRUE(mentions(scene.notes, "material 0: normalTexture scale -1e+38 "));
 }
 
@@ -115,8 +115,9 @@ TEST(GltfTexture, AThirdUvSetIsLeftOutWithANote) {
         for (const Json& info : {Json{{"index", 0}, {"texCoord", 2}}, transformed({{"texCoord", 2}})}) {
             const Scene scene = withMaterial(c.material(info)).load();
             EXPECT_EQ((scene.materials[0].*c.slot).texture, -1) << c.name;
-            EXPECT_TRUE(mentions(scene.notes, std::string("material 0: ") + c.name +
-                                                  " reads TEXCOORD_2: left out, there are two UV sets"));
+            EXPECT_TRUE(
+                mentions(scene.notes, std::string("material 0: ") + c.name +
+                                          " reads TEXCOORD_2: left out, only two UV sets are supported"));
         }
 }
 
@@ -163,10 +164,11 @@ TEST(GltfTexture, SamplersThatAreLeftOpen) {
 }
 
 TEST(GltfTexture, ModesThatAreNoneAreRefused) {
-    for (const auto& [key, value, expected] : {std::tuple{"wrapS", 10496, "sampler 0: 10496 is no wrap mode"},
-                                               {"wrapT", 1, "sampler 0: 1 is no wrap mode"},
-                                               {"magFilter", 9987, "sampler 0: 9987 is no magFilter"},
-                                               {"minFilter", 9988, "sampler 0: 9988 is no minFilter"}}) {
+    for (const auto& [key, value, expected] :
+         {std::tuple{"wrapS", 10496, "sampler 0: 10496 is not a wrap mode"},
+          {"wrapT", 1, "sampler 0: 1 is not a wrap mode"},
+          {"magFilter", 9987, "sampler 0: 9987 is not a magFilter"},
+          {"minFilter", 9988, "sampler 0: 9988 is not a minFilter"}}) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
         f.json["samplers"] = {{{key, value}}};
         f.json["textures"][0]["sampler"] = 0;
@@ -179,7 +181,7 @@ TEST(GltfTexture, ModesThatAreNoneAreRefused) {
 TEST(GltfTexture, BrokenImagesInUseAreRefused) {
     for (const auto& [uri, expected] :
          {std::pair{"missing.png", "image 0: missing.png: no such file"},
-          std::pair{"scene.gltf", "image 0 (scene.gltf): is neither PNG nor JPEG"},
+          std::pair{"scene.gltf", "image 0 (scene.gltf): is not PNG or JPEG"},
           std::pair{"data:image/png;base64,iVBORw0KGgoAAAAN", "image 0: does not decode"}}) {
         GltfFile f = GltfFile::triangle();
         f.primitive()["material"] = 0;
@@ -202,7 +204,7 @@ TEST(GltfTexture, ImagesInBufferViewsAreChecked) {
     EXPECT_NE(f.error().find("image 0: is neither"), std::string::npos) << f.error();
     f.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 30}, {"byteLength", 4000}});
     f.json["images"][0]["bufferView"] = 1;
-    EXPECT_NE(f.error().find("bufferView 1: 4000 bytes from 30 on end past buffer 0 (36 bytes)"),
+    EXPECT_NE(f.error().find("bufferView 1: 4000 bytes at offset 30 end past buffer 0 (36 bytes)"),
               std::string::npos)
         << f.error();
 }
@@ -212,7 +214,7 @@ TEST(GltfTexture, BasisuAndWebpAreRefusedByNameWhereRequired) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
         f.json["extensionsUsed"] = f.json["extensionsRequired"] = {name};
         EXPECT_TRUE(f.error().ends_with(std::string(": extensionsRequired: ") + name +
-                                        " is not read: export the scene without it"))
+                                        " is not supported; export the scene without it"))
             << f.error();
     }
 }
@@ -226,16 +228,16 @@ TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
         f.json["images"].push_back({{"uri", "picture.ktx2"}});  // never opened
         f.json["textures"][0]["extensions"] = {{name, {{"source", 1}}}};
         const Scene scene = f.load();
-        EXPECT_TRUE(mentions(scene.notes, std::string(name) + ": left out, it is not read"));
+        EXPECT_TRUE(mentions(scene.notes, std::string(name) + ": left out, not supported"));
         EXPECT_EQ(scene.images.size(), 1u);
         EXPECT_EQ(scene.materials[0].emissive_texture.texture, 0);
         f.json["textures"][0].erase("source");
         EXPECT_TRUE(f.error().ends_with(
-            std::string(": material 0: emissiveTexture: texture 0 has no image but that of ") + name +
-            ", which is not read"))
+            std::string(": material 0: emissiveTexture: texture 0 has only an image of ") + name +
+            ", which is not supported"))
             << f.error();
         f.primitive().erase("material");
-        EXPECT_TRUE(mentions(f.load().notes, "which is not read: left out, nothing is drawn with it"));
+        EXPECT_TRUE(mentions(f.load().notes, "which is not supported: left out, the scene does not use it"));
     }
     GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
     f.json["textures"][0].erase("source");
@@ -261,5 +263,5 @@ TEST(GltfTexture, AllImagesTogetherHaveALimit) {
         f.json["meshes"][0]["primitives"].back()["material"] = f.json["materials"].size() - 1;
     }
     const std::string most = std::to_string(limits::imageBytes() >> 20);
-    EXPECT_TRUE(f.error().ends_with("MiB decoded: " + most + " MiB are read at most")) << f.error();
+    EXPECT_TRUE(f.error().ends_with("MiB; the limit is " + most + " MiB")) << f.error();
 }

@@ -61,7 +61,7 @@ TEST(Environment, TheUnnamedLayerIsReadOrTheFirstWithColours) {
     writeExr(in / "sky.exr", {{{"Z"}, &depth}, {{"sky.R", "sky.G", "sky.B"}, &image}});
     EXPECT_EQ(readEnvironment(in / "sky.exr", notes).radiance.data, image.data);
     ASSERT_EQ(notes.size(), 1u);
-    EXPECT_NE(notes[0].find("sky.exr: has no R, G, B without a layer: sky is read"), std::string::npos)
+    EXPECT_NE(notes[0].find("sky.exr: has no R, G, B outside layers; layer sky is read"), std::string::npos)
         << notes[0];
 }
 
@@ -82,9 +82,9 @@ TEST(Environment, WhatIsNoRadianceIsZeroAndCounted) {
     std::vector<std::string> notes;
     EXPECT_EQ(readEnvironment(in / "sky.exr", notes).radiance.data, expected.data);
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_TRUE(notes[0].ends_with("sky.exr: 3 pixels have components that are negative, taken as 0"))
+    EXPECT_TRUE(notes[0].ends_with("sky.exr: 3 pixels have components that are negative; 0 is used"))
         << notes[0];
-    EXPECT_TRUE(notes[1].ends_with("sky.exr: 1 pixel has a component that is not finite, taken as 0"))
+    EXPECT_TRUE(notes[1].ends_with("sky.exr: 1 pixel has a component that is not finite; 0 is used"))
         << notes[1];
 }
 
@@ -107,8 +107,8 @@ TEST(Environment, WhatCannotBeOneIsNamed) {
     writeExr(in / "short.exr", {{{"R", "G", "B"}, &colour}});
     std::filesystem::resize_file(in / "short.exr", std::filesystem::file_size(in / "short.exr") / 2);
     const std::pair<const char*, const char*> cases[] = {{"grey.exr", "has no layer with R, G and B"},
-                                                         {"photo.png", "is a PNG of display colours"},
-                                                         {"text.hdr", "is no picture that is read"},
+                                                         {"photo.png", "is a PNG with display colours"},
+                                                         {"text.hdr", "is not a supported image"},
                                                          {"short.exr", ""},
                                                          {"none.exr", "no such file"}};
     for (const auto& [name, fault] : cases) {

@@ -159,7 +159,7 @@ TEST(LightsJson, EveryKeyBelongsToItsTypes) {
             const std::string error = lightsFault("{\"lights\": [" + light + "]}");
             EXPECT_EQ(error.empty(), types.contains(type)) << light << ": " << error;
             if (!types.empty() && !error.empty()) {
-                EXPECT_NE(error.find("belongs to"), error.npos) << error;
+                EXPECT_NE(error.find("applies only to"), error.npos) << error;
             }
         }
 }
@@ -167,12 +167,12 @@ TEST(LightsJson, EveryKeyBelongsToItsTypes) {
 TEST(LightsJson, ErrorsNameFileLightAndField) {
     const std::pair<const char*, const char*> cases[] = {
         {R"({"type": "area", "size": [2, 1]})",
-         "type: \"area\" is none of point, spot, directional, rect, disc, tube"},
+         "type: \"area\" is not one of point, spot, directional, rect, disc, tube"},
         {R"({"type": "laser"})", "type"},
-        {R"({"type": "point", "position": [0, 2e18, 0]})", "position: 2e+18 is beyond 1e+18"},
+        {R"({"type": "point", "position": [0, 2e18, 0]})", "position: 2e+18 is above 1e+18"},
         {R"({"type": "rect", "size": [0, 1]})", "size: 0 is below 1e-18"},
         {R"({"type": "rect", "size": [1, -1]})", "size: -1 is below 1e-18"},
-        {R"({"type": "rect", "size": [1, 1e19]})", "size: 1e+19 is beyond 1e+18"},
+        {R"({"type": "rect", "size": [1, 1e19]})", "size: 1e+19 is above 1e+18"},
         {R"({"type": "rect", "size": 2})", "size: is not two numbers"},
         {R"({"type": "rect", "size": [1, 1, 1]})", "size: is not two numbers"},
         {R"({"type": "rect", "size": [1, null]})", "size: is not two finite numbers"},
@@ -184,16 +184,16 @@ TEST(LightsJson, ErrorsNameFileLightAndField) {
         {R"({"type": "tube", "length": -2})", "length: -2 is below 1e-18"},
         {R"({"type": "tube", "axis": [1, 0]})", "axis: is not three numbers"},
         {R"({"type": "directional", "angle": -0.1})", "angle: -0.1 is below 0"},
-        {R"({"type": "directional", "angle": 3.15})", "angle: 3.15 is beyond pi"},
+        {R"({"type": "directional", "angle": 3.15})", "angle: 3.15 is above pi"},
         {R"({"type": "rect", "shadow": true})",
-         "shadow: belongs to point and spot lights, and this is a rect"},
+         "shadow: applies only to point and spot lights; this is a rect"},
         {R"({"type": "point", "shadow": 1})", "shadow: is not true or false"},
         {R"({"type": "point", "importance": "high"})",
-         "importance: \"high\" is none of auto, important, not_important"},
-        {R"({"type": "rect", "importance": "not important"})", "importance: \"not important\" is none of"},
-        {R"({"type": "spot", "importance": "Important"})", "importance: \"Important\" is none of"},
-        {R"({"type": "point", "importance": ""})", "importance: \"\" is none of"},
-        {R"({"type": "point", "importance": "a\nb"})", "importance: \"a?b\" is none of"},
+         "importance: \"high\" is not one of auto, important, not_important"},
+        {R"({"type": "rect", "importance": "not important"})", "importance: \"not important\" is not one of"},
+        {R"({"type": "spot", "importance": "Important"})", "importance: \"Important\" is not one of"},
+        {R"({"type": "point", "importance": ""})", "importance: \"\" is not one of"},
+        {R"({"type": "point", "importance": "a\nb"})", "importance: \"a?b\" is not one of"},
         {R"({"type": "point", "importance": true})", "importance: is not"},
         {R"({"type": "tube", "importance": 2})", "importance: is not"},
         {R"({"type": "point", "importance": null})", "importance: is not"},

@@ -230,7 +230,7 @@ TEST(Animation, OneIsChosenByIndexOrName) {
     EXPECT_EQ(at("1"), glm::dvec3(3, 10, 0)) << "it moves a node of another scene: this one is at rest";
     for (const char* choice : {"2", "jump"}) EXPECT_EQ(at(choice), glm::dvec3(4, 0, 4)) << choice;
     EXPECT_EQ(poseAt(scene, 1, "jump").animation, "jump");
-    EXPECT_TRUE(mentions(scene.notes, "2 animations: all play at once, later ones win"));
+    EXPECT_TRUE(mentions(scene.notes, "2 animations: all play at once, later ones override"));
     const auto error = [](const Scene& s, const std::string& choice) {
         try {
             poseAt(s, 0, choice);
@@ -242,7 +242,7 @@ TEST(Animation, OneIsChosenByIndexOrName) {
     EXPECT_EQ(error(scene, "walk"),
               "--animation \"walk\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
     EXPECT_EQ(error(scene, "3"), "--animation \"3\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
-    EXPECT_EQ(error(GltfFile::triangle().load(), "0"), "--animation \"0\": nothing of the scene is animated");
+    EXPECT_EQ(error(GltfFile::triangle().load(), "0"), "--animation \"0\": the scene has no animation");
 }
 
 // A camera that stands around the scene is placed by what plays, at 0 s.
