@@ -226,8 +226,8 @@ TEST(External, TheBackgroundIsNotCompared) {
         0);
     const Json fake = comparisonWith(reportOf(folder), "f");
     EXPECT_EQ(fake["channels"][0]["flip"], 0);
-    EXPECT_NE(reportOf(folder)["frames"].back()["notes"].dump().find("f shows something at " +
-                                                                     std::to_string(behind) + " pixel(s)"),
+    EXPECT_NE(reportOf(folder)["frames"].back()["notes"].dump().find("f is not black at " +
+                                                                     std::to_string(behind) + " pixel"),
               std::string::npos);
 }
 

@@ -391,7 +391,7 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     const Json report = jsonIn(folder / "out/report.json");
     EXPECT_GT(report["frames"][0]["uncertainty"].get<double>(), 0);
     for (const std::size_t row : {0u, 1u})
-        EXPECT_NE(report["comparisons"][row]["channels"].dump().find("what the reference itself is known to"),
+        EXPECT_NE(report["comparisons"][row]["channels"].dump().find("the reference's uncertainty"),
                   std::string::npos);
     const PictureFile exr = readExr(folder / "r.exr");
     EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &PictureLayer::name), 1);

@@ -86,7 +86,7 @@ TEST(Refusals, SamplesNeedATruthOfSamples) {
                   .code,
               0);
     EXPECT_TRUE(runTool(folder, "compare builtin:triangle --size 16x9 --runs 0 --msaa 4 --baseline r.exr")
-                    .failedOver("--msaa 4: the reference takes 1 of a pixel's samples; use --spp 64"));
+                    .failedOver("--msaa 4: the reference takes only 1 sample per pixel; use --spp 64"));
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
 }
 

@@ -259,13 +259,14 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     };
     EXPECT_EQ(without(1), "xxxx..xxxx..") << "both sides of the edge";
     EXPECT_EQ(without(2), "xxx...xxx...");
-    EXPECT_EQ(notes.back(), "6 of 12 pixels are compared, the others were left out by the command line");
-    EXPECT_EQ(faultOf([&] { without(9); }), "the mask, ids, crop and edges leave no pixel to compare");
+    EXPECT_EQ(notes.back(), "6 of 12 pixels are compared; options exclude the others");
+    EXPECT_EQ(faultOf([&] { without(9); }),
+              "--mask, --ids, --crop and --ignore-edges leave no pixel to compare");
     Coverage all = everyPixel(12);
     SelectionOptions options;
     options.ignore_edges = 1;
     EXPECT_EQ(faultOf([&] { applySelection(all, 6, 2, options, {}, notes); }),
-              "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
+              "--ignore-edges: needs material_id or Z to find edges, and neither image has one");
     Image depth(6, 2, 1, 10.0f);  // 5 % further away is another object
     depth.at(0, 0) = 10.6f;
     depth.at(5, 1) = 10.4f;
@@ -332,12 +333,12 @@ TEST(Selection, MaskIdsAndCrop) {
     options.crop = cropOf("1,0,2x2");
     EXPECT_EQ(by(options), ".xx.xx");
     options.crop = cropOf("2,0,2x2");
-    EXPECT_EQ(faultOf([&] { by(options); }), "--crop 2,0,2x2: is not inside a picture of 3x2");
+    EXPECT_EQ(faultOf([&] { by(options); }), "--crop 2,0,2x2: is not inside the image of 3x2");
     Coverage four = everyPixel(4);
     options = {};
     options.mask = (files / "mask.png").string();
     EXPECT_EQ(faultOf([&] { applySelection(four, 2, 2, options, {}, notes); }),
-              "--mask " + options.mask + ": is 3x2, the pictures are 2x2");
+              "--mask " + options.mask + ": is 3x2, but the images are 2x2");
 }
 
 // ---- what forgives ----

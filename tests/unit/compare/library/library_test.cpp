@@ -94,7 +94,7 @@ TEST(Library, WhatCannotBeComparedSaysWhy) {
     EXPECT_EQ(faultOf([&] {
                   compare({2, 2, four}, {3, 2, six});
               }),
-              "the reference is 2x2 and the test 3x2: only pictures of one size are compared");
+              "the reference is 2x2 and the test 3x2: images must have the same size");
     EXPECT_EQ(faultOf([&] {
                   compare({2, 3, four}, {2, 2, four});
               }),
