@@ -21,7 +21,7 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
     EXPECT_TRUE(ran.err.starts_with("diptych: bad.glb: is not JSON")) << ran.err;
     EXPECT_NE(ran.out.find("\nERROR bad.glb: is not JSON"), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all "), std::string::npos)
+    EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be rendered: bad.glb; pass: all "), std::string::npos)
         << ran.out;
     const Json report = Json::parse(contentsOf(folder / "out/report.json"));
     EXPECT_EQ(report["comparisons"].size(), 2u);

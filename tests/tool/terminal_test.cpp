@@ -203,7 +203,7 @@ TEST(ShardScripts, OnlyDataIsJoined) {
         std::ofstream(script, std::ios::binary) << text << "window.owned = true;\n";
         const Ran ran = runTool(folder, "merge shard -o joined");
         EXPECT_EQ(ran.code, 2);
-        EXPECT_NE(ran.err.find("is a script that holds more than data"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("is a script that contains more than data"), std::string::npos) << ran.err;
         EXPECT_FALSE(fs::exists(folder / "joined" / script.lexically_relative(folder / "shard")));
         std::ofstream(script, std::ios::binary) << text;
     }

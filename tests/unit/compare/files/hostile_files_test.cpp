@@ -109,9 +109,9 @@ TEST(HostileParts, AFileOfAnotherFolderIsRefusedByName) {
         for (const char* list : {"files", "sections"}) {
             std::ofstream(shards.part()) << sound;
             shards.change(shards.part(), [&](Json& json) { json[list][0] = name; });
-            EXPECT_NE(
-                shards.merged().find(std::string("part.json: ") + list + "[0]: \"" + name + "\" is no file"),
-                std::string::npos)
+            EXPECT_NE(shards.merged().find(std::string("part.json: ") + list + "[0]: \"" + name +
+                                           "\" is not a file"),
+                      std::string::npos)
                 << name;
             EXPECT_EQ(shards.outside(), before) << name;
         }
@@ -151,29 +151,29 @@ TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
          [](Json& json) {
              json["closer"] = {{0, 1, 2}};
          }},
-        {"closer_tables: has 0 elements, and there are 1 paths",
+        {"closer_tables: has 0 elements, but there are 1 paths",
          [](Json& json) {
              json["closer"] = {{0, 1, 1}};
          }},
-        {"sections: has 0 elements, and there are 1 comparisons",
+        {"sections: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["sections"] = Json::array(); }},
-        {"rows: has 2 elements, and there are 1 comparisons",
+        {"rows: has 2 elements, but there are 1 comparisons",
          [](Json& json) { json["rows"].push_back(json["rows"][0]); }},
-        {"tables: has 0 elements, and there are 1 comparisons",
+        {"tables: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["tables"] = Json::array(); }},
-        {"exposures: has 0 elements, and there are 1 comparisons",
+        {"exposures: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["exposures"] = Json::array(); }},
         {"frames: is no array",
          [](Json& json) {
              json["frames"] = {{"0", 1}};
          }},
         {"frames[1].notes[0]: is no string", [](Json& json) { json["frames"][1]["notes"] = {1}; }},
-        {"rows[0].worst: is no channel's number", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
-        {"comparisons[0].channels[0][1]: is no verdict",
+        {"rows[0].worst: is not a channel index", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
+        {"comparisons[0].channels[0][1]: is not a verdict",
          [](Json& json) { json["comparisons"][0]["channels"][0][1] = "perhaps"; }},
         {"junit[0]: is no whole number from 0 to", [](Json& json) { json["junit"][0] = -1; }},
-        {"stands twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
-        {"stands twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
+        {"is listed twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
+        {"is listed twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
         {"nests deeper than 128",
          [](Json& json) {
              for (int i = 0; i < 200; ++i) json["notes"] = Json::array({json["notes"]});
@@ -202,7 +202,8 @@ TEST(HostileParts, ABadTextIsNamedBeforeAnythingIsWritten) {
     const std::string section = json["sections"][0];
     fs::remove(shards.shard / section);
     std::ofstream(shards.shard / section) << "alert(1, 2, 3)";
-    EXPECT_NE(shards.merged().find(section + ": is a script that holds more than data"), std::string::npos);
+    EXPECT_NE(shards.merged().find(section + ": is a script that contains more than data"),
+              std::string::npos);
 }
 
 TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {

@@ -138,7 +138,7 @@ TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
               "FAIL: 2 of 3 comparisons failed: a.glb, c.glb (metallic beyond tolerance)");
     EXPECT_NE(reportTable(report).find("  FAIL a.glb, metallic: max 0.5 exceeds"), std::string::npos);
     report.errors = {{"d.glb", "d.glb: is cut short"}};
-    EXPECT_TRUE(verdictLine(report).starts_with("ERROR: 1 scene could not be drawn: d.glb; FAIL: 2 of 3"));
+    EXPECT_TRUE(verdictLine(report).starts_with("ERROR: 1 scene could not be rendered: d.glb; FAIL: 2 of 3"));
     EXPECT_NE(reportTable(report).find("\nERROR d.glb: is cut short\n"), std::string::npos);
     const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
     EXPECT_EQ(countOf(junit, "<error type=\"scene\" message=\"d.glb: is cut short\"/>"), 1u) << junit;
@@ -226,7 +226,7 @@ TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     frames[4].notes = {"the same", "another"};
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 3 scenes: the same\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, a.glb, b.glb, each with numbers of its own: it took 1.5 s\n"), table.npos)
+    EXPECT_NE(table.find("\nnote, a.glb, b.glb, with different numbers: it took 1.5 s\n"), table.npos)
         << table;
     EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
 }
@@ -242,8 +242,7 @@ TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 2 scenes: material 2: roughness 3\n"), table.npos) << table;
     EXPECT_NE(table.find("\nnote, a.glb: material 3: roughness 4\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, 2 scenes, each with numbers of its own: material 1: roughness 2\n"),
-              table.npos)
+    EXPECT_NE(table.find("\nnote, 2 scenes, with different numbers: material 1: roughness 2\n"), table.npos)
         << table;
     EXPECT_EQ(countOf(table, "\nnote"), 3u) << table;
 }
