@@ -269,7 +269,7 @@ TEST(HostileShards, OneBadShardIsNamedAndTheOthersAreJoined) {
     EXPECT_EQ(report["errors"].size(), 1u);
     for (const char* text : {"", "[", "{}", "5"}) {
         std::ofstream(shards.shard / "shard.json") << text;
-        EXPECT_NE(shards.merged({shards.shard, other}).find("shard-1: is no report of a shard"),
+        EXPECT_NE(shards.merged({shards.shard, other}).find("shard-1: is not the report of a shard"),
                   std::string::npos);
     }
 }
@@ -281,10 +281,10 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
         {"shard.count: is no whole number", [](Json& json) { json["shard"]["count"] = -1; }},
         {"shard.index: is no whole number from 1 to 1", [](Json& json) { json["shard"]["index"] = 2; }},
         {"items[0][2]: is no whole number from 1 to 1", [](Json& json) { json["items"][0][2] = 0; }},
-        {"items[0][1]: \"../\" is no folder", [](Json& json) { json["items"][0][1] = "../"; }},
-        {"items[0][1]: \"/etc/\" is no folder", [](Json& json) { json["items"][0][1] = "/etc/"; }},
-        {"items[0][1]: \"box-1\" is no folder", [](Json& json) { json["items"][0][1] = "box-1"; }},
-        {"items[1]: has the folder of another scene",
+        {"items[0][1]: \"../\" is not a folder name", [](Json& json) { json["items"][0][1] = "../"; }},
+        {"items[0][1]: \"/etc/\" is not a folder name", [](Json& json) { json["items"][0][1] = "/etc/"; }},
+        {"items[0][1]: \"box-1\" is not a folder name", [](Json& json) { json["items"][0][1] = "box-1"; }},
+        {"items[1]: uses the folder of another scene",
          [](Json& json) { json["items"].push_back(json["items"][0]); }},
         {"items[0]: is no array", [](Json& json) { json["items"] = {1}; }},
         {"errors[0][1]: is no string",
@@ -293,7 +293,7 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
          }},
         {"has no \"plan\"", [](Json& json) { json.erase("plan"); }},
         {"software: is no string", [](Json& json) { json["software"] = 3; }},
-        {"is not ours", [](Json& json) { json["schema"] = 2; }},
+        {"is not from diptych", [](Json& json) { json["schema"] = 2; }},
     };
     const Shards shards;
     const std::string sound = contentsOf(shards.shard / "shard.json");
@@ -557,7 +557,7 @@ TEST(HostileFolders, AKeptFolderThatIsALinkIsRefused) {
         KeptFolder kept(root / "out", "scenes", key);
         ADD_FAILURE() << "was taken";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find(".out.scenes: is a link"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find(".out.scenes: is a symbolic link"), std::string::npos)
             << error.what();
     }
     EXPECT_EQ(contentsOf(root / "elsewhere/mine.txt"), "mine");
