@@ -162,7 +162,7 @@ TEST(Terminal, WhatSbatchSaysPassesAFilter) {
     EXPECT_TRUE(isPlain(ran));
     for (const std::string out : {"a\x1b[1m", "a\u009b", "a\u202e", "a\nb", "a\"b", "a\xff"})
         EXPECT_TRUE(runTool(folder, "submit slurm --dry-run -- compare builtin:triangle -o '" + out + "'")
-                        .failedOver("line breaks and other controls"));
+                        .failedOver("line breaks and control characters"));
 }
 
 // What is opened first would get the number of a closed descriptor, and with it the messages. sbatch looks at
