@@ -8,6 +8,7 @@
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -300,9 +301,9 @@ private:
 
 Tolerance footprintTolerance(const Footprints& footprints) {
     std::string because = fmt::format(
-        "{} pixels have smooth surroundings in both images; the bound of each is the reference's change "
-        "within two pixels, 8-bit texel filtering, G-buffer quantization and 1e-4",
-        footprints.smooth);
+        "{} with smooth surroundings in both images; the bound of each is the reference's change within two "
+        "pixels, 8-bit texel filtering, G-buffer quantization and 1e-4",
+        counted(footprints.smooth, "pixel"));
     if (footprints.detailed > 0)
         because += fmt::format("; the other {} may have a mean FLIP of {} and have {:.3g}",
                                footprints.detailed, detailFlip, footprints.flip);
