@@ -98,12 +98,12 @@ TEST_F(FreeMemoryOf, ARefusalIsOneLineWithBothNumbers) {
     const FreeMemory free{2'000'000'000, "ulimit -v"};
     EXPECT_NO_THROW(checkMemory("diff", 2'000'000'000, "take less", free));
     try {
-        checkMemory("diff of a.png and b.png, 16384x16384", 3'100'000'000, "compare smaller images", free);
+        checkMemory("diff of a.png and b.png, 16384x16384", 3'100'000'000, "compare smaller pictures", free);
         ADD_FAILURE();
     } catch (const std::runtime_error& e) {
         EXPECT_STREQ(e.what(),
                      "diff of a.png and b.png, 16384x16384: needs about 3.1 GB, 2.0 GB are free here "
-                     "(ulimit -v); compare smaller images");
+                     "(ulimit -v); compare smaller pictures");
     }
 }
 
