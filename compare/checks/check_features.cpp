@@ -2,6 +2,7 @@
 #include "compare/checks/check_features.h"
 
 #include "shared/scene/model/material_slots.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -79,9 +80,9 @@ std::string transformOf(const TextureSlot& slot) {
     const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
     if (differ(slot.u.z, 0) || differ(slot.v.z, 0))
         add(fmt::format("offset {:.4g} {:.4g}", slot.u.z, slot.v.z));
-    if (differ(angle, 0)) add(fmt::format("turned {:.4g}\u00b0", glm::degrees(angle)));
+    if (differ(angle, 0)) add(fmt::format("rotated {:.4g}\u00b0", glm::degrees(angle)));
     if (differ(sx, 1) || differ(sy, 1)) add(fmt::format("scaled {:.4g} \u00d7 {:.4g}", sx, sy));
-    return out.empty() ? "all but untransformed" : out;
+    return out.empty() ? "almost untransformed" : out;
 }
 
 // ---- samplers ----------------------------------------------------------------------------------------
@@ -103,8 +104,8 @@ bool isWrapped(Wrap wrap, double low, double high) {
     return wrap != Wrap::repeat && low <= high && (low < -1e-4 || high > 1 + 1e-4);
 }
 std::string wrapWords(Wrap wrap, const char* axes) {
-    return fmt::format("beyond its edge {} along {}",
-                       wrap == Wrap::mirrored_repeat ? "mirrored copies" : "stripes of its last texels",
+    return fmt::format("{} beyond its edge along {}",
+                       wrap == Wrap::mirrored_repeat ? "mirrored copies" : "stripes of its edge texels",
                        axes);
 }
 
@@ -208,10 +209,10 @@ float CheckSentences::leastAlpha(const Primitive& primitive) {
 std::string CheckSentences::ofMask(const Primitive& primitive) {
     const float cutoff = materialOf(materials_, primitive).alpha_cutoff;
     return leastAlpha(primitive) >= cutoff
-               ? fmt::format("Masked at {:.3g}, but its alpha is nowhere below: nothing is cut out.", cutoff)
+               ? fmt::format("Masked at {:.3g}, but its alpha is nowhere lower: nothing is cut out.", cutoff)
                : fmt::format(
-                     "The cut-out follows the outline of what is pictured (alpha {:.3g}); what is "
-                     "behind shows through.",
+                     "The cut-out follows the outline in the texture (alpha {:.3g}); the background shows "
+                     "through.",
                      cutoff);
 }
 
@@ -221,13 +222,13 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
     switch (feature) {
         case CheckFeature::texture_transform:
             return bySlot(m, transformOf) +
-                   ". What is pictured there (arrows, frames, seams) falls into place.";
+                   ". Arrows, frames and seams in the texture are in the right place.";
         case CheckFeature::second_texcoord:
             return bySlot(m,
                           [&](const TextureSlot& slot) -> std::string {
                               if (slot.texcoord != 1) return {};
                               return primitive.texcoords[1].empty()
-                                         ? "one texel all over, as TEXCOORD_1 is missing"
+                                         ? "one texel everywhere, because TEXCOORD_1 is missing"
                                          : "laid out by TEXCOORD_1";
                           }) +
                    ". It fits the surface, neither stretched nor torn.";
@@ -236,38 +237,37 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
                    ".";
         case CheckFeature::normal_map:
             return fmt::format(
-                "Bumps rise out of the surface, lit from the side of the lights as flat parts beside "
-                "them are ({}).",
+                "Bumps rise out of the surface and are lit from the same side as the flat parts beside them "
+                "({}).",
                 primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
         case CheckFeature::vertex_colors:
-            return "The vertices' colours tint it: gradients are smooth, and ticks, not crosses, stand out.";
+            return "Vertex colours tint it: gradients are smooth; ticks stand out, crosses do not.";
         case CheckFeature::alpha_mask:
             return ofMask(primitive);
         case CheckFeature::blend:
-            return "See-through in the file, drawn opaque here: its whole shape is filled.";
+            return "Transparent in the file, drawn opaque here: its whole shape is filled.";
         case CheckFeature::double_sided:
-            return "Seen from behind it is there too, and lit by the lights on that side.";
+            return "It is also visible from behind, lit by the lights on that side.";
         case CheckFeature::mirrored:
-            return "Mirrored by its node: its outside is seen, not its inside, and bumps and light agree "
-                   "with its "
-                   "neighbours'.";
+            return "Mirrored by its node: its outside is visible, not its inside; bumps and light match its "
+                   "neighbours.";
         case CheckFeature::unlit:
-            return "Flat colour, without shading or highlight, whatever the lights do.";
+            return "Flat colour without shading or highlights, independent of the lights.";
         case CheckFeature::deep_image:
             return bySlot(m,
                           [&](const TextureSlot& slot) -> std::string {
-                              return isDeep(scene_, slot) ? "over 8 bits a component" : "";
+                              return isDeep(scene_, slot) ? "more than 8 bits per component" : "";
                           }) +
                    ". Gradients run without steps.";
         case CheckFeature::skin:
-            return "Stands in bind pose, whole: no vertex strays.";
+            return "In bind pose and complete: no vertex is out of place.";
         case CheckFeature::morph:
-            return fmt::format("Drawn without its {} morph target{}: the mesh as modelled.",
-                               primitive.targets.size(), primitive.targets.size() == 1 ? "" : "s");
+            return fmt::format("Drawn without its {}: the mesh as modelled.",
+                               counted(primitive.targets.size(), "morph target"));
         case CheckFeature::flat:
             return "The mesh has no normals: its triangles are flat, with hard edges between them.";
         case CheckFeature::orientation:
-            return "What is pictured stands upright and is not mirrored: letters can be read.";
+            return "The texture is upright and not mirrored: letters are readable.";
     }
     return {};
 }

@@ -15,21 +15,21 @@
 namespace diptych {
 
 //  name              heading of the report
-#define CHECK_FEATURES(X)                      \
-    X(texture_transform, "texture transforms") \
-    X(second_texcoord, "second UV set")        \
-    X(sampler, "samplers")                     \
-    X(normal_map, "normal maps")               \
-    X(vertex_colors, "vertex colours")         \
-    X(alpha_mask, "alpha masks")               \
-    X(blend, "blending")                       \
-    X(double_sided, "double-sided surfaces")   \
-    X(mirrored, "mirrored instances")          \
-    X(unlit, "unlit materials")                \
-    X(deep_image, "images of over 8 bits")     \
-    X(skin, "skins")                           \
-    X(morph, "morph targets")                  \
-    X(flat, "flat normals")                    \
+#define CHECK_FEATURES(X)                         \
+    X(texture_transform, "texture transforms")    \
+    X(second_texcoord, "second UV set")           \
+    X(sampler, "samplers")                        \
+    X(normal_map, "normal maps")                  \
+    X(vertex_colors, "vertex colours")            \
+    X(alpha_mask, "alpha masks")                  \
+    X(blend, "blending")                          \
+    X(double_sided, "double-sided surfaces")      \
+    X(mirrored, "mirrored instances")             \
+    X(unlit, "unlit materials")                   \
+    X(deep_image, "images with more than 8 bits") \
+    X(skin, "skins")                              \
+    X(morph, "morph targets")                     \
+    X(flat, "flat normals")                       \
     X(orientation, "orientation")
 
 enum class CheckFeature {

@@ -13,11 +13,12 @@ namespace diptych {
 namespace {
 
 constexpr std::array knownConventions{
-    Convention{"base-layer", "component", "a base that loses each component of what its layer reflects"},
-    Convention{"spot-cone", "smoothstep", "spots that fade to their edge by smoothstep"},
-    Convention{"range-window", "squared", "lights that end at their range by the window's square"},
-    Convention{"multiscatter", "energy", "light between microfacets, as a gain of the lobe"},
-    Convention{"multiscatter", "fdez", "light between microfacets, as a lobe of its own"},
+    Convention{"base-layer", "component",
+               "a base layer that loses, per component, what its coating reflects"},
+    Convention{"spot-cone", "smoothstep", "spot lights with a smoothstep falloff at the cone edge"},
+    Convention{"range-window", "squared", "lights with a squared range window"},
+    Convention{"multiscatter", "energy", "multiple scattering between microfacets, as a gain of the lobe"},
+    Convention{"multiscatter", "fdez", "multiple scattering between microfacets, as a separate lobe"},
 };
 // The same as of other Settings that are not said (unsaid_settings.h).
 constexpr double worthHaving = 0.5;

@@ -6,6 +6,7 @@
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -40,8 +41,8 @@ std::string measured(const AcrossDevices& across) {
         decoding =
             std::max(decoding, std::abs(double{a->srgb[code]} - double{b->srgb[code]}) / exactSrgb(code));
     return fmt::format(
-        "; measured: they decode sRGB up to {:.2g} % apart, and round filtered texels of 8 bits by "
-        "up to {:.2g} and {:.2g} of a code",
+        "; measured: sRGB decoding differs by up to {:.2g} %, filters round by up to {:.2g} and {:.2g} of an "
+        "8-bit step",
         100 * decoding, 255 * a->linear_filter.rounding, 255 * b->linear_filter.rounding);
 }
 
@@ -78,18 +79,18 @@ std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Fram
     add("", explanation.unexplained_map);
     std::vector<DeviceShare> shares{
         {"edges",
-         fmt::format("{} pixels show another triangle, and {} another shadow beside its edge",
-                     surfaces.triangles.count + surfaces.tied, surfaces.shadows.count),
+         fmt::format("another triangle at {}, another shadow beside its boundary at {}",
+                     counted(surfaces.triangles.count + surfaces.tied, "pixel"),
+                     counted(surfaces.shadows.count, "pixel")),
          sums[edges]},
         {"textures", "decoding and filtering" + measured(across), sums[textures]},
         {"vertices",
-         fmt::format("placed to 1/{} and 1/{} of a pixel", 1u << across.devices[0].sub_pixel_bits,
+         fmt::format("snapped to 1/{} and 1/{} of a pixel", 1u << across.devices[0].sub_pixel_bits,
                      1u << across.devices[1].sub_pixel_bits),
          sums[vertices]},
-        {"shadow maps", "what is seen of the lights that cast", sums[shadows]},
-        {"light lists", "other lights are evaluated", sums[lists]},
-        {"rounding", "lighting of the same surfaces, what is blended over them, and all else",
-         sums[rounding]}};
+        {"shadow maps", "visibility of shadow-casting lights", sums[shadows]},
+        {"light lists", "different lights are evaluated", sums[lists]},
+        {"rounding", "shading of the same surfaces, blending and everything else", sums[rounding]}};
     std::ranges::stable_sort(shares, std::ranges::greater(), &DeviceShare::share);
     return shares;
 }

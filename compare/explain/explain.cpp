@@ -39,17 +39,16 @@ void checkExplained(const Frame& baseline, const Frame& test) {
         for (const int mode : explainedChannels()) {
             const Image& image = channelOf(*frame, mode);
             if (image.width != lit.width || image.height != lit.height)
-                throw std::runtime_error(
-                    fmt::format("{}: {} is {}x{}, and lit of {} {}x{}: an explanation is "
-                                "of two pictures of one size",
-                                frame->name, debugMode(mode).name, image.width, image.height, baseline.name,
-                                lit.width, lit.height));
+                throw std::runtime_error(fmt::format(
+                    "{}: {} is {}x{}, but lit of {} is {}x{}; an explanation needs images of the same size",
+                    frame->name, debugMode(mode).name, image.width, image.height, baseline.name, lit.width,
+                    lit.height));
         }
     for (const std::string_view option :
          {"camera", "time", "animation", "env", "scene-lights", "lights", "seed"})
         if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
             throw std::runtime_error(
-                fmt::format("--{} {} and {}: an explanation is of two pictures of one view of one scene",
+                fmt::format("--{} {} and {}: an explanation needs two images of the same view and scene",
                             option, baseline.settings.valueOf(option), test.settings.valueOf(option)));
 }
 

@@ -29,12 +29,13 @@ Explained explainedOf(const Explanation& explanation, const ExplainedPictures& o
 }
 
 Explained notExplained(const std::string& because) {
-    return {"why lit differs is not known: " + because,
+    return {"the cause of the difference in lit is unknown: " + because,
             jsonText(nlohmann::json{{"not_explained", because}}, -1),
             {},
             [because](const std::string&) {
-                return fmt::format("<p class=\"soft\">Why lit differs is not known: {}</p>\n",
-                                   page::markup(because));
+                return fmt::format(
+                    "<p class=\"soft\">The cause of the difference in lit is unknown: {}</p>\n",
+                    page::markup(because));
             }};
 }
 

@@ -45,7 +45,7 @@ std::string legend(const Explanation& e) {
                            markup(e.causes[i].name), percentOf(e, e.causes[i].share),
                            markup(e.causes[i].shows), bar(e, e.causes[i].share, cssColor(causeColor(i))));
     out += fmt::format(
-        "<li><b>unexplained</b> {} <span class=\"soft\">left where all of them are swapped</span>{}</li>",
+        "<li><b>unexplained</b> {} <span class=\"soft\">remains with all causes swapped</span>{}</li>",
         percentOf(e, e.unexplained), bar(e, e.unexplained, "var(--soft)"));
     if (e.causes.size() > ownColors + 1)
         out += "<li class=\"soft\">pale grey: any of the causes with that colour</li>";
@@ -76,7 +76,7 @@ std::string table(const Explanation& e) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"stack\"><thead><tr><th>cause</th><th "
         "class=\"n\">share</th>{}<th class=\"n\">of FLIP</th><th class=\"n\">alone</th><th "
-        "class=\"n\">last</th><th class=\"n\">counts most at</th><th class=\"n\">worst pixel</th><th "
+        "class=\"n\">last</th><th class=\"n\">largest at</th><th class=\"n\">worst pixel</th><th "
         "class=\"n\">there</th><th>materials</th>{}</tr></thead>\n<tbody>",
         sampled ? "<th class=\"n\">95 % interval</th>" : "", lights ? "<th>lights</th>" : "");
     for (std::size_t i = 0; i < e.causes.size(); ++i) {
@@ -97,13 +97,14 @@ std::string table(const Explanation& e) {
                 fmt::format("<td class=\"whole\">{}</td>", markup(partsOf(cause, cause.lights, lightName)));
         out += "</tr>\n";
     }
-    return out + fmt::format(
-                     "</tbody></table><p class=\"soft small\">Shares are Shapley values: the part of the "
-                     "mean lit difference that swapping the cause removes, averaged over all orders of "
-                     "swapping. They and what is unexplained add up to 100 %. Of FLIP: the same of the mean "
-                     "of HDR-FLIP. Alone: swapped by itself; last: when all others are. Counts most at: of "
-                     "the pixels where some cause counts, those where it is the largest. There: its share at "
-                     "its worst pixel, W/(sr m^2).</p></div>\n");
+    return out +
+           fmt::format(
+               "</tbody></table><p class=\"soft small\">Shares are Shapley values: the part of the "
+               "mean lit difference that swapping the cause removes, averaged over all orders of "
+               "swapping. Shares and the unexplained part add up to 100 %. Of FLIP: the same for the mean of "
+               "HDR-FLIP. Alone: only this cause is swapped; last: it is swapped after all others. Largest "
+               "at: share of the affected pixels where this cause is the largest. There: its share at "
+               "its worst pixel, W/(sr m^2).</p></div>\n");
 }
 
 std::string remarks(const Explanation& e, const ExplainedPictures& of) {
@@ -111,19 +112,19 @@ std::string remarks(const Explanation& e, const ExplainedPictures& of) {
     for (const CausePair& pair : e.pairs) lines.push_back(pairLine(e, pair));
     if (e.shareOf(e.unexplained) > worthUnexplained)
         lines.emplace_back(
-            "With every cause swapped lit still differs: something else does it that no channel and no "
-            "Setting says");
+            "With every cause swapped, lit still differs: the rest comes from something that no channel and "
+            "no Setting describes");
     if (!e.inert.empty())
-        lines.push_back(fmt::format("Differs and changes no pixel: {}", fmt::join(e.inert, ", ")));
+        lines.push_back(fmt::format("Differs without an effect on any pixel: {}", fmt::join(e.inert, ", ")));
     if (const std::string line = reproductionLine(e, of); !line.empty()) lines.push_back(line);
     if (const std::string line = lightsLine(e); !line.empty()) lines.push_back(line);
     if (e.nonfinite > 0)
-        lines.push_back(fmt::format("left out: {} with a NaN or infinity in one of the pictures",
+        lines.push_back(fmt::format("excluded: {} with NaN or infinity in one of the pictures",
                                     counted(e.nonfinite, "pixel")));
     lines.push_back(fmt::format("FLIP is {} on average, {} with all causes swapped; {} shaded from {}",
                                 number(e.flip), number(e.flip_unexplained),
                                 counted(static_cast<std::uint64_t>(e.subsets), "picture"),
-                                counted(static_cast<std::uint64_t>(e.frames), "drawn frame")));
+                                counted(static_cast<std::uint64_t>(e.frames), "rendered frame")));
     std::string out = "<div class=\"box says\"><ul>";
     for (const std::string& line : lines) out += "<li>" + markup(line) + "</li>";
     return out + "</ul></div>\n";
@@ -136,7 +137,7 @@ std::string shareMaps(const Explanation& e, const PictureSource& source) {
                       fmt::format("<span>{}{}</span><span>{}</span>", swatch(i), markup(e.causes[i].name),
                                   percentOf(e, e.causes[i].share)));
     if (!out.empty() && e.unexplained > 0)
-        out += figure(source(unexplainedFile), "what is unexplained",
+        out += figure(source(unexplainedFile), "the unexplained part",
                       fmt::format("<span>unexplained</span><span>{}</span>", percentOf(e, e.unexplained)));
     if (out.empty()) return {};
     return fmt::format(
@@ -168,11 +169,11 @@ std::string explanationSection(const Explanation& e, const ExplainedPictures& of
         fmt::format("<h2>Why lit differs</h2>\n<p class=\"soft\">lit of {} differs from that of {} by {}</p>",
                     markup(of.test), markup(of.baseline), difference(e));
     if (e.causes.empty())
-        return out + "<p class=\"equal\">no cause: nothing that differs makes lit</p>" + remarks(e, of) +
+        return out + "<p class=\"equal\">no cause: no difference has an effect on lit</p>" + remarks(e, of) +
                "</section>\n";
     const std::string map = figure(
-        source(dominantFile), "the cause that counts most at each pixel",
-        "The cause that counts most at each pixel; dark: the picture itself, where none brings lit nearer");
+        source(dominantFile), "the largest cause at each pixel",
+        "The largest cause at each pixel; dark: the picture itself, where no cause reduces the difference");
     out += map.empty() ? "<div class=\"box\">" + legend(e) + "</div>"
                        : "<div class=\"box pictures\">" + map + legend(e) + "</div>";
     return out + table(e) + remarks(e, of) + shareMaps(e, source) + "</section>\n";

@@ -214,10 +214,10 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
     share("shadow_visibility", "direct light that changes with the visibility of the sun",
           gpu::DEBUG_shadow_visibility, shadowPart);
     isOfLights("shadow_visibility", LightChange::seen);
-    share("local_visibility", "direct light that changes with the visibility of points and spots",
+    share("local_visibility", "direct light that changes with the visibility of point and spot lights",
           gpu::DEBUG_local_visibility, shadowPart);
     isOfLights("local_visibility", LightChange::seen);
-    share("light_count", "direct light where another number of lights is evaluated", gpu::DEBUG_light_count,
+    share("light_count", "direct light where the number of evaluated lights differs", gpu::DEBUG_light_count,
           [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
     isOfLights("light_count", LightChange::whole);
     const auto term = [&](std::string name, std::string shows, std::size_t t) {
@@ -225,15 +225,15 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
         adds.at(t) = std::move(change.at(t));
         add(std::move(name), std::move(shows), std::move(adds));
     };
-    term("direct diffuse", "light of lights that the diffuse lobe reflects", diffuseTerm);
+    term("direct diffuse", "direct light reflected by the diffuse lobe", diffuseTerm);
     isOfLights("direct diffuse", LightChange::factor);
-    term("direct specular", "light of lights that the specular lobe reflects", specularTerm);
+    term("direct specular", "direct light reflected by the specular lobe", specularTerm);
     isOfLights("direct specular", LightChange::factor);
-    term("ambient light", "reflected ambient light and that of an environment", ambientTerm);
+    term("ambient light", "reflected ambient and environment light", ambientTerm);
     std::array<Image, 6> air;
     air.at(hazeTerm) = std::move(change.at(hazeTerm));
     air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
-    add("haze in the air", "what haze lets through and adds", std::move(air));
+    add("haze in the air", "transmittance and scattered light of the haze", std::move(air));
     std::array<Image, 6> behind, over, emitted, order;
     for (std::array<Image, 6>* const stage : {&behind, &over, &emitted, &order})
         stage->at(wholeTerm) = blank();
@@ -249,13 +249,11 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
                                                                         : order;
         stage.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
     }
-    add("background", "what is seen where there is no surface and nothing is blended", std::move(behind));
-    add("transparency", "what is blended over surfaces, and over what lies behind them", std::move(over));
-    add("sum with emission",
-        "what lit has otherwise than the sum of its terms where surfaces emit, and there alone",
+    add("background", "pixels without a surface and without blending", std::move(behind));
+    add("transparency", "fragments blended over surfaces and background", std::move(over));
+    add("sum with emission", "difference between lit and the sum of its terms, only where surfaces emit",
         std::move(emitted));
-    add("sum of terms",
-        "what lit has beyond the sum of its terms: another order, or a term that is none of them",
+    add("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
         std::move(order));
     rest_ = std::move(rest[1]);
 }

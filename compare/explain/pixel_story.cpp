@@ -169,7 +169,7 @@ private:
             const std::optional<double> most = boundOn(rule->fail, "max");
             return {most.value_or(std::numeric_limits<double>::infinity()),
                     most ? rule->because
-                         : rule->origin + " bounds no single pixel: " + conditionText(rule->fail)};
+                         : rule->origin + " sets no limit for a single pixel: " + conditionText(rule->fail)};
         }
         if (isInformative(mode, pair_)) return informativeTolerance(pair_);
         Tolerance tolerance = derivedTolerance(mode, pair_);
@@ -177,7 +177,7 @@ private:
             allowed && question_.baseline.gbuffer != GBufferEncoding::full) {
             // Where nothing is lit anywhere, nothing is allowed either.
             tolerance.max = std::isfinite(allowed->in_metric) ? allowed->in_metric : 0;
-            tolerance.because = "this pixel's own: " + tolerance.because;
+            tolerance.because = "this pixel's own bound: " + tolerance.because;
         }
         return tolerance;
     }
@@ -194,7 +194,7 @@ private:
             const Path lacking = frames_.at(images[0] ? 1 : 0).settings.path;
             step.tolerance.because = notMadeBecause(frames_.at(images[0] ? 1 : 0).settings, mode);
             if (step.tolerance.because.empty())
-                step.tolerance.because = std::string(nameOf(lacking)) + " does not make it";
+                step.tolerance.because = std::string(nameOf(lacking)) + " does not have it";
             story_.steps.push_back(std::move(step));
             return;
         }
@@ -306,7 +306,7 @@ private:
         for (std::size_t i = 0; i < story_.drawn_alone; ++i) {
             question_.progress.at(
                 0.65 + 0.35 * static_cast<double>(i) / static_cast<double>(story_.drawn_alone),
-                "one light alone");
+                "render one light");
             take(PixelTerm::Kind::light, {order[i]});
         }
         if (story_.drawn_alone < order.size()) {

@@ -3,6 +3,7 @@
 
 #include "compare/files/frame_json.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -92,11 +93,10 @@ std::vector<std::string> stepRow(const PixelStep& step) {
     std::string because = step.tolerance.because;
     if (step.explained == false)
         because = fmt::format(
-            "FAIL is not what the encoding explains: forward+ shades other light from the decoded surface; "
-            "{}",
+            "FAIL: the encoding does not explain it: forward+ shades the decoded surface differently; {}",
             step.tolerance.because);
     else if (step.beyond)
-        because = fmt::format("FAIL beyond it: {}", step.tolerance.because);
+        because = fmt::format("FAIL: beyond tolerance: {}", step.tolerance.because);
     return {std::string(step.mode->name),
             digits(values[0]),
             digits(values[1]),
@@ -117,9 +117,8 @@ std::string titleOf(const PixelStory& story, const PixelTerm& term) {
         case PixelTerm::Kind::light:
             return lightTitle(story, term.lights.front());
         case PixelTerm::Kind::other_lights:
-            return fmt::format("{}{} light{}", term.lights.size(),
-                               term.lights.size() == story.lights.size() ? "" : " other",
-                               term.lights.size() == 1 ? "" : "s");
+            return counted(term.lights.size(),
+                           term.lights.size() == story.lights.size() ? "light" : "other light");
         case PixelTerm::Kind::environment:
             return "environment";
         case PixelTerm::Kind::ambient:
@@ -131,13 +130,13 @@ std::string titleOf(const PixelStory& story, const PixelTerm& term) {
         case PixelTerm::Kind::haze:
             return "haze";
         case PixelTerm::Kind::blended:
-            return "what is blended over";
+            return "blended fragments";
         case PixelTerm::Kind::sum:
             return "sum of the terms";
         case PixelTerm::Kind::lit:
             return "lit";
         case PixelTerm::Kind::residual:
-            return "lit less the sum";
+            return "lit minus the sum";
     }
     return {};
 }
@@ -157,7 +156,7 @@ std::string lightWords(const PixelStory& story, const PixelTerm& term) {
     };
     if (std::isfinite(facts.distance))
         say(fmt::format("{:.4g} m away{}", facts.distance,
-                        std::isfinite(facts.range) ? fmt::format(" of {:.4g}", facts.range) : ""));
+                        std::isfinite(facts.range) ? fmt::format(" (range {:.4g} m)", facts.range) : ""));
     if (facts.casts) say("casts a shadow");
     for (std::size_t side = 0; side < 2; ++side)
         if (story.lists_known.at(side) && !facts.listed.at(side))
@@ -174,7 +173,7 @@ std::vector<std::string> termRow(const PixelStory& story, const PixelTerm& term)
     std::string words = term.kind == PixelTerm::Kind::light ? lightWords(story, term) : "";
     if (term.uncertainty > 0)
         words +=
-            fmt::format("{}the reference is known to {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
+            fmt::format("{}uncertainty of the reference {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
     return {titleOf(story, term),
             digits(values[0]),
             digits(values[1]),
@@ -198,18 +197,17 @@ std::string listWords(const PixelStory& story) {
     for (std::size_t side = 0; side < (same ? 1u : 2u); ++side) {
         const Settings& settings = story.settings.at(side);
         if (known.at(side))
-            text += fmt::format("{} {} of {} lights (--assign {}){}{}\n",
+            text += fmt::format("{} {} of {} (--assign {}){}{}\n",
                                 same ? "both paths evaluate" : story.names.at(side) + " evaluates",
-                                lists.at(side).size(), story.lights.size(), nameOf(settings.assign),
-                                lists.at(side).empty() ? "" : ": ", fmt::join(lists.at(side), ", "));
+                                lists.at(side).size(), counted(story.lights.size(), "light"),
+                                nameOf(settings.assign), lists.at(side).empty() ? "" : ": ",
+                                fmt::join(lists.at(side), ", "));
         else if (settings.assign == Assignment::per_object)
-            text += fmt::format("{}: its lights are those of the object (--assign per_object)\n",
-                                story.names.at(side));
+            text +=
+                fmt::format("{} evaluates the object's lights (--assign per_object)\n", story.names.at(side));
         else
-            text += fmt::format(
-                "{}: which lights its list holds is not told: what was read is not as long as light_count "
-                "says\n",
-                story.names.at(side));
+            text += fmt::format("{}: its light list is unknown: the length read differs from light_count\n",
+                                story.names.at(side));
     }
     return text;
 }
@@ -227,8 +225,8 @@ std::string termsText(const PixelStory& story) {
     std::string text = columns.text(0, columns.size());
     if (!dark.empty()) {
         std::ranges::sort(dark);
-        text += fmt::format("{} light{} drawn alone add{} nothing in all three: {}\n", dark.size(),
-                            dark.size() == 1 ? "" : "s", dark.size() == 1 ? "s" : "", fmt::join(dark, ", "));
+        text += fmt::format("no contribution in any of the three by {} rendered alone: {}\n",
+                            counted(dark.size(), "light"), fmt::join(dark, ", "));
     }
     return text;
 }
@@ -240,41 +238,40 @@ double worstOf(const std::array<double, 3>& v) {
 // Why lit is not the sum, of a path (0, 1) or the reference (2).
 std::string residualReason(const PixelStory& story, std::size_t side, const PixelTerm& residual) {
     const double left = worstOf(side < 2 ? residual.values.at(side) : residual.reference.value());
-    if (left == 0) return "nothing is left";
+    if (left == 0) return "0";
     if (left <= story.residual_rounding.at(side))
-        return fmt::format("{:.2g} is left, {} ({:.2g} at most)", left,
-                           side < 2 ? "the rounding of float32 sums" : "what it is known to",
+        return fmt::format("{:.2g}, within {} ({:.2g} at most)", left,
+                           side < 2 ? "the rounding of float32 sums" : "its uncertainty",
                            story.residual_rounding.at(side));
     if (side < 2 && story.settings.at(side).msaa > 1)
-        return fmt::format("{:.2g} is left: lit is the mean of {} samples, the terms are of the first", left,
+        return fmt::format("{:.2g}: lit is the mean of {} samples, the terms are of the first", left,
                            story.settings.at(side).msaa);
     if (side == 2 && story.mode == ReferenceMode::scene)
-        return fmt::format("{:.2g} is left: lit is the mean over the pixel, the terms are of its middle",
-                           left);
-    return fmt::format("{:.2g} is left, over the {:.2g} that rounding explains", left,
+        return fmt::format("{:.2g}: lit is the mean over the pixel, the terms are of its centre", left);
+    return fmt::format("{:.2g}, more than the {:.2g} that rounding explains", left,
                        story.residual_rounding.at(side));
 }
 
 std::string residualText(const PixelStory& story) {
     const PixelTerm& residual = story.terms.back();
-    return fmt::format("lit less the sum: {}: {}; {}: {}; reference: {}\n", story.names[0],
+    return fmt::format("lit minus the sum: {}: {}; {}: {}; reference: {}\n", story.names[0],
                        residualReason(story, 0, residual), story.names[1], residualReason(story, 1, residual),
                        residualReason(story, 2, residual));
 }
 
 std::string howTermsWereMade(const PixelStory& story) {
     const std::size_t all = story.lights.size(), alone = story.drawn_alone;
-    if (all == 0) return "there are no lights\n";
+    if (all == 0) return "no lights\n";
     for (const Settings& settings : story.settings)
         if (settings.assign == Assignment::per_object)
-            return "lights by object are in harmonics, too, which are made of all of them: they are one "
+            return "--assign per_object: spherical harmonics combine all lights, so the lights are one "
                    "term\n";
-    std::string text = fmt::format("{} of {} lights drawn alone by both paths", alone, all);
-    if (alone > 0) text += ", all others black in the same lists and shadow maps";
+    std::string text = fmt::format("{} of {} rendered alone by both paths", alone, counted(all, "light"));
+    if (alone > 0) text += ", the others black in the same lists and shadow maps";
     if (alone == lightsDrawnAlone)
-        text += fmt::format(": the {} that send most by the reference", lightsDrawnAlone);
+        text += fmt::format(": the {} brightest here by the reference", lightsDrawnAlone);
     else if (alone < all)
-        text += ": those that are evaluated here";
+        text += ": those evaluated here";
     return text + (alone < all ? fmt::format("; the other {} together\n", all - alone) : "\n");
 }
 
@@ -289,15 +286,12 @@ std::string headline(const PixelStory& story) {
                                    story.camera.empty() ? "" : ", ", story.camera, story.x, story.y,
                                    story.size.width, story.size.height, story.names[1], story.names[0]);
     if (!story.shown)
-        return text +
-               (story.blended
-                    ? "background: no opaque surface is drawn there, something blended lies before it\n"
-                    : "background: no surface is drawn there\n");
+        return text + (story.blended ? "background: no opaque surface, only blended fragments\n"
+                                     : "background: no surface\n");
     const PixelStep* const ids = stepOf(story, gpu::DEBUG_material_id);
     text += fmt::format("material {}{}", story.material,
                         story.material_name.empty() ? "" : fmt::format(", \"{}\"", story.material_name));
-    if (ids && ids->differs)
-        text += fmt::format(" (in one path alone, or another one in {})", story.names[1]);
+    if (ids && ids->differs) text += fmt::format(" (missing or different in {})", story.names[1]);
     const auto& p = story.position;
     return text + fmt::format("; at {:.6g}, {:.6g}, {:.6g} m\n", p[0], p[1], p[2]);
 }
@@ -317,8 +311,7 @@ std::string verdictLine(const PixelStory& story) {
         if (step.isCompared() && step.beyond) beyond.emplace_back(step.mode->name);
     }
     return beyond.empty()
-               ? fmt::format("pass: at this pixel all {} channels that both have are within tolerance\n",
-                             compared)
+               ? fmt::format("pass: at this pixel all {} shared channels are within tolerance\n", compared)
                : fmt::format("FAIL: at this pixel beyond tolerance: {}\n", fmt::join(beyond, ", "));
 }
 
@@ -334,8 +327,8 @@ std::string firstDifference(const PixelStory& story) {
             nameOf(step->mode->metric), toleranceText(*step), step->tolerance.because);
     if (term)
         return fmt::format(
-            "the first step that differs by more than rounding: {} ({} W/(sr m^2), {:.3g} of it; "
-            "the surfaces are the same)",
+            "the first step that differs by more than rounding: {} ({} W/(sr m^2), relative difference "
+            "{:.3g}; the surfaces are the same)",
             titleOf(story, *term), against(term->values[0], term->values[1]), term->difference);
     return "no step differs by more than rounding";
 }

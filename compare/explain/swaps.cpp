@@ -44,8 +44,8 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
     findChannels();
     const std::string rest = sides.restName();
     if (!rest.empty() && sides.restsDiffer())
-        causes_.push_back(
-            {Swap::Kind::rest, 0, rest, "what the lighting of a side's own channels leaves of its lit"});
+        causes_.push_back({Swap::Kind::rest, 0, rest,
+                           "the part of lit that lighting a side's own channels does not reproduce"});
     if (rest.empty() && sides.restsDiffer() && sides.haveTerms()) findStages(scene);
     if (sides.exposure() != 1)
         causes_.push_back({Swap::Kind::exposure, 0, "exposure",
@@ -55,8 +55,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
                       std::back_inserter(causes_));
     if (causes_.size() > static_cast<std::size_t>(mostCauses))
         throw std::runtime_error(
-            fmt::format("{} causes are more than the {} that can be told apart: give the "
-                        "two pictures Settings that are more alike",
+            fmt::format("{} causes exceed the limit of {}: explain two images with more similar Settings",
                         causes_.size(), mostCauses));
 }
 
@@ -68,7 +67,7 @@ std::string Swaps::shownBy(const DebugMode& mode) const {
                            nameOf(sides_.settings(1).spec_aa_kernel));
     const SkinNormals normals = sides_.settings(1).skin_normals;
     if (normals != sides_.settings(0).skin_normals && mode.name == "normals")
-        return fmt::format("{}, of skins turned as by --skin-normals {}", mode.shows, nameOf(normals));
+        return fmt::format("{}, of skins as by --skin-normals {}", mode.shows, nameOf(normals));
     return std::string(mode.shows);
 }
 

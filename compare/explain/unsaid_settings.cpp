@@ -89,11 +89,10 @@ private:
             if (lit_around)
                 tryIt("env-rotation",
                       fmt::format(
-                          "an environment that is turned by {} degrees more than the test's Settings say",
-                          turn),
+                          "an environment rotated by {} degrees more than the test's Settings declare", turn),
                       false, [&](Settings& s) { s.env_rotation += turn; });
         const auto multiple = [](const char* what, double factor) {
-            return fmt::format("{} that is {:.4g} times what the test's Settings say", what, factor);
+            return fmt::format("{} of {:.4g} times the value in the test's Settings", what, factor);
         };
         const TermFactors factors = factorsOfTerms();
         const auto brighter = [&](std::string_view option, const char* what, std::optional<double> known,
@@ -114,7 +113,7 @@ private:
             brighter("ibl-intensity", "light of the environment", {},
                      [](Settings& s, float by) { s.ibl_intensity *= by; });
         if (said_.haze && (!factors.known || factors.no_haze))
-            tryIt("haze", "no haze, although the test's Settings say so", !factors.known,
+            tryIt("haze", "no haze, although the test's Settings enable it", !factors.known,
                   [](Settings& s) { s.haze = false; });
         if (said_.haze && factors.haze)
             tryIt("haze-density", multiple("density", *factors.haze), false,

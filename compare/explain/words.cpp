@@ -31,10 +31,10 @@ std::string causeLine(const Explanation& all, std::size_t place) {
     const Cause& cause = all.causes[place];
     std::string line = fmt::format("{:>8.2f} %", 100 * all.shareOf(cause.share));
     if (cause.interval > 0) line += fmt::format(" +- {:.2f}", 100 * all.shareOf(cause.interval));
-    line +=
-        fmt::format("  {:<18}  {}; of FLIP {:.2f} %; most at {},{}; the largest at {:.0f} % of the pixels\n",
-                    cause.name, cause.shows, 100 * all.shareOfFlip(cause.flip), cause.worst_x, cause.worst_y,
-                    100 * dominatedShare(all, place));
+    line += fmt::format(
+        "  {:<18}  {}; {:.2f} % of FLIP; worst at {},{}; the largest cause at {:.0f} % of the pixels\n",
+        cause.name, cause.shows, 100 * all.shareOfFlip(cause.flip), cause.worst_x, cause.worst_y,
+        100 * dominatedShare(all, place));
     return line + partsLine(cause, cause.materials, "on", materialName) +
            partsLine(cause, cause.lights, "of", lightName);
 }
@@ -53,8 +53,8 @@ std::string lightName(const LightShare& light) {
 
 std::string lightsLine(const Explanation& e) {
     if (e.lights_left_out == 0) return {};
-    return fmt::format("by light: the {} that send most were drawn alone, {} others were not", e.lights_drawn,
-                       e.lights_left_out);
+    return fmt::format("by light: the {} brightest were rendered alone, the other {} were not",
+                       e.lights_drawn, e.lights_left_out);
 }
 
 double dominatedShare(const Explanation& explanation, std::size_t cause) {
@@ -66,17 +66,14 @@ double dominatedShare(const Explanation& explanation, std::size_t cause) {
 
 std::string pairLine(const Explanation& all, const CausePair& pair) {
     return fmt::format(
-        "{} and {}: {} ({:+.1f} % together beyond each alone)", all.causes[pair.first].name,
-        all.causes[pair.second].name,
-        pair.interaction < 0 ? "either does what the other does" : "each hides what the other does",
-        100 * all.shareOf(pair.interaction));
+        "{} and {} {} (interaction {:+.1f} %)", all.causes[pair.first].name, all.causes[pair.second].name,
+        pair.interaction < 0 ? "are redundant" : "hide each other", 100 * all.shareOf(pair.interaction));
 }
 
 std::string reproductionLine(const Explanation& e, const ExplainedPictures& of) {
     if (std::max(e.reproduction[0], e.reproduction[1]) == 0) return {};
-    return fmt::format(
-        "the lighting of its own channels is off lit by {:.2g} % of it in {}, by {:.2g} % in {}",
-        100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
+    return fmt::format("lighting its own channels misses lit by {:.2g} % in {} and by {:.2g} % in {}",
+                       100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
 }
 
 std::string inShort(const Explanation& e) {
@@ -87,10 +84,10 @@ std::string inShort(const Explanation& e) {
                               100 * e.shareOf(cause.share));
     std::string devices;
     for (const DeviceShare& part : e.devices)
-        devices += fmt::format("{} {} {:.1f} %", devices.empty() ? "; on two devices by" : ",", part.name,
+        devices += fmt::format("{} {} {:.1f} %", devices.empty() ? "; across devices by" : ",", part.name,
                                100 * e.shareOf(part.share));
     return fmt::format("lit differs{}; unexplained {:.1f} %{}",
-                       causes.empty() ? " by nothing that is known" : causes, 100 * e.shareOf(e.unexplained),
+                       causes.empty() ? " for an unknown reason" : causes, 100 * e.shareOf(e.unexplained),
                        devices);
 }
 
@@ -99,14 +96,14 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
         fmt::format("{}: lit of {} differs from lit of {} by {:.4g} W/(sr m^2) on average, FLIP {:.4g}\n",
                     of.scene, of.test, of.baseline, e.distance, e.flip);
     if (e.nonfinite > 0)
-        text += fmt::format("left out: {} with a NaN or infinity in one of them\n",
-                            counted(e.nonfinite, "pixel"));
+        text +=
+            fmt::format("excluded: {} with NaN or infinity in one of them\n", counted(e.nonfinite, "pixel"));
     if (e.distance == 0) return text + "no cause: lit is the same\n";
-    if (e.causes.empty()) text += "no cause: nothing that differs has an effect on lit\n";
-    if (!e.devices.empty()) text += "between two devices it comes from\n";
+    if (e.causes.empty()) text += "no cause: no difference has an effect on lit\n";
+    if (!e.devices.empty()) text += "across devices, by origin:\n";
     for (const DeviceShare& part : e.devices)
         text += fmt::format("{:>8.2f} %  {:<18}  {}\n", 100 * e.shareOf(part.share), part.name, part.shows);
-    if (!e.devices.empty()) text += "and by channel\n";
+    if (!e.devices.empty()) text += "by channel:\n";
     for (std::size_t i = 0; i < e.causes.size(); ++i) text += causeLine(e, i);
     const double left = e.shareOf(e.unexplained);
     text += fmt::format("{:>8.2f} %  {}\n", 100 * left,
@@ -121,7 +118,7 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
     if (const std::string line = lightsLine(e); !line.empty()) text += line + "\n";
     return text + fmt::format("{} shaded from {}\n",
                               counted(static_cast<std::uint64_t>(e.subsets), "picture"),
-                              counted(static_cast<std::uint64_t>(e.frames), "drawn frame"));
+                              counted(static_cast<std::uint64_t>(e.frames), "rendered frame"));
 }
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {

@@ -127,9 +127,8 @@ private:
         const std::optional<Placement> found = findPlacement(shown.truth.ids, marks, shown.picture);
         if (!found) {
             say("unrecognised",
-                "the marks of the charts are not found: nothing is drawn, or from elsewhere, or what emits "
-                "stays "
-                "dark");
+                "the marks of the charts are not found: the renderer draws nothing, uses another view or "
+                "ignores emission");
             return false;
         }
         placement_ = *found;
@@ -140,7 +139,7 @@ private:
         const double offset = glm::degrees(fov - told_fov);
         if (std::abs(offset) > named_fov)
             say("fov",
-                fmt::format("the field of view is {:.2f} degrees {} than it is told", std::abs(offset),
+                fmt::format("the field of view is {:.2f} degrees {} than requested", std::abs(offset),
                             offset > 0 ? "wider" : "narrower"),
                 {{"fov_offset", std::round(-100 * offset) / 100}});
         const double aspect = found->scale.x / found->scale.y;
@@ -179,22 +178,24 @@ private:
         response_->measurePrimaries(columns, 0.5);
         if (response_->kind() == CurveKind::srgb)
             say("srgb_output",
-                fmt::format("pixels are encoded as sRGB{}, and should be linear",
-                            response_->cutOffAt() ? " of what is 1 at most" : ""),
+                fmt::format("pixels are encoded as sRGB{}; they should be linear",
+                            response_->cutOffAt() ? " and clipped at 1" : ""),
                 {{"transfer", "srgb"}});
         if (response_->kind() == CurveKind::tone)
-            say("tone_curve", "pixels are radiance by a tone curve, and should be linear");
+            say("tone_curve", "pixels have a tone curve; they should be linear");
         if (std::abs(std::log(response_->exposure())) > named_factor && response_->kind() != CurveKind::tone)
             say("exposure",
                 fmt::format("all radiance is multiplied by {}", inWords(namedFactor(response_->exposure()))));
         if (response_->cutOffAt() && response_->kind() == CurveKind::linear)
-            say("cut_off", fmt::format("radiance ends at {:.3g}", *response_->cutOffAt()));
+            say("cut_off", fmt::format("radiance is clipped at {:.3g}", *response_->cutOffAt()));
         if (!response_->primaries())
-            say("primaries", "red, green and blue are those of other primaries, none that is known");
+            say("primaries", "red, green and blue have unknown primaries");
         else if (*response_->primaries() == Primaries::display_p3)
-            say("primaries", "red, green and blue are those of Display P3", {{"primaries", "display_p3"}});
+            say("primaries", "red, green and blue have the primaries of Display P3",
+                {{"primaries", "display_p3"}});
         else if (*response_->primaries() == Primaries::rec2020)
-            say("primaries", "red, green and blue are those of Rec.2020", {{"primaries", "rec2020"}});
+            say("primaries", "red, green and blue have the primaries of Rec.2020",
+                {{"primaries", "rec2020"}});
     }
 
     void findTextures() {
@@ -202,9 +203,8 @@ private:
             const double code = 128.0 / 255;
             const std::array candidates{linearFromSrgb(code), code, linearFromSrgb(linearFromSrgb(code))};
             const std::size_t best = nearest(luminous(*shown), candidates);
-            if (best == 1)
-                say("colour_textures_linear", "textures of colours are taken as linear, and are sRGB");
-            if (best == 2) say("colour_textures_twice", "textures of colours are decoded from sRGB twice");
+            if (best == 1) say("colour_textures_linear", "colour textures are read as linear; they are sRGB");
+            if (best == 2) say("colour_textures_twice", "colour textures are decoded from sRGB twice");
         }
         // Under whichever lamp lights the face beside it.
         for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot}) {
@@ -218,7 +218,7 @@ private:
             // Of lamps near by, both faces get what the truth says.
             const std::array candidates{as_told, 1 - other + other * metal};
             if (nearest(luminous(*data) / luminous(*white), candidates) == 1)
-                say("data_textures_srgb", "textures of numbers are decoded from sRGB, and are linear");
+                say("data_textures_srgb", "data textures are decoded from sRGB; they are linear");
             break;
         }
     }
@@ -269,7 +269,7 @@ private:
     void sayFactor(const std::string& name, const std::string& what, double factor) {
         if (!(std::abs(std::log(factor)) > named_factor)) return;
         const NamedFactor named = namedFactor(factor);
-        say(name + "_factor", fmt::format("{} are {} times as bright as they are told", what, inWords(named)),
+        say(name + "_factor", fmt::format("{} are {} times as bright as requested", what, inWords(named)),
             {{name + "_factor", 1 / named.value}});
     }
 
@@ -286,7 +286,7 @@ private:
         }
         const Shown& shown = *pictures_.at(lamp);
         if (faces.empty() || shown_all < named_dark * told_all)
-            return say("no_environment", fmt::format("the environment lights nothing{}",
+            return say("no_environment", fmt::format("the environment gives no light{}",
                                                      shown.problem.empty() ? "" : ": " + shown.problem));
         const SkyMeaning sky = skyMeaning(charts_.environment->radiance, faces);
         if (sky.mirrored)
@@ -294,9 +294,9 @@ private:
                 {{"environment_mirrored", true}});
         if (sky.turned != 0)
             say("environment_rotation",
-                fmt::format("the environment is turned by {:g} degrees more than it is told", sky.turned),
+                fmt::format("the environment is rotated by {:g} degrees more than requested", sky.turned),
                 {{"environment_rotation", -sky.turned}});
-        if (sky.cut_off) say("ldr_environment", "the environment's radiance ends at 1");
+        if (sky.cut_off) say("ldr_environment", "the environment's radiance is clipped at 1");
         sayFactor("environment", "environments", sky.factor);
     }
 

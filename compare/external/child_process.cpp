@@ -286,7 +286,7 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
 }
 
 std::string howItEnded(const Ended& ended, double seconds) {
-    if (ended.timed_out) return fmt::format("was killed after {:g} s, which is its timeout", seconds);
+    if (ended.timed_out) return fmt::format("was killed after its timeout of {:g} s", seconds);
     if (ended.signal != 0)
         return fmt::format("was ended by signal {} ({})", ended.signal, ::strsignal(ended.signal));
     return ended.code == 0 ? std::string() : fmt::format("exited with {}", ended.code);

@@ -9,6 +9,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/image/srgb.h"
 #include "shared/image/temporary.h"
+#include "shared/text/counted.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -103,18 +104,19 @@ void checkFinite(const Frame& frame) {
         };
         while (finite(first)) ++first;
         const auto width = static_cast<std::size_t>(image.width);
-        throw std::runtime_error(fmt::format("{} is NaN or infinite at {} pixel(s), the first at {},{}",
-                                             debugMode(mode).name, count, first % width, first / width));
+        throw std::runtime_error(fmt::format("{} is NaN or infinite at {}, the first at {},{}",
+                                             debugMode(mode).name, counted(count, "pixel"), first % width,
+                                             first / width));
     }
 }
 
 timespec writtenAt(const fs::path& file) {
     struct stat status {};
     if (::lstat(file.c_str(), &status) != 0)
-        throw std::runtime_error(errno == ENOENT ? std::string("wrote no picture where output.file says")
+        throw std::runtime_error(errno == ENOENT ? std::string("wrote no picture to output.file")
                                                  : fmt::format("its picture: {}", std::strerror(errno)));
     // A link leads to what was there before.
-    if (!S_ISREG(status.st_mode)) throw std::runtime_error("its picture is no regular file");
+    if (!S_ISREG(status.st_mode)) throw std::runtime_error("its picture is not a regular file");
     return status.st_mtim;
 }
 
@@ -129,7 +131,7 @@ std::string problemOf(const std::string& how, const Ended& ended) {
 Frame readPicture(const fs::path& file, const fs::path& after, const Granted& granted, const Size& size) {
     const timespec then = writtenAt(after), now = writtenAt(file);
     if (std::pair(now.tv_sec, now.tv_nsec) < std::pair(then.tv_sec, then.tv_nsec))
-        throw std::runtime_error("its picture is older than its job: it was there before");
+        throw std::runtime_error("its picture is older than its job");
     Frame frame = [&] {
         try {
             return frameFromExr(file);
@@ -141,7 +143,7 @@ Frame readPicture(const fs::path& file, const fs::path& after, const Granted& gr
         }
     }();
     if (frame.settings.size != size)
-        throw std::runtime_error(fmt::format("its picture is {}x{}, and {}x{} was asked for",
+        throw std::runtime_error(fmt::format("its picture is {}x{}, but {}x{} was requested",
                                              frame.settings.size.width, frame.settings.size.height,
                                              size.width, size.height));
     checkFinite(frame);
@@ -154,8 +156,8 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
     const fs::path root = fs::temp_directory_path();
     Temporary folder(root, root / "diptych-job");
     if (!folder.createFolder(true))
-        throw std::runtime_error(fmt::format("{}: {}; TMPDIR says where another one is",
-                                             oneLine(root.string()), std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}: {}; set TMPDIR to another folder", oneLine(root.string()),
+                                             std::strerror(errno)));
     const Job job = writeJob(fs::absolute(folder.path()), scene, view, settings, renderer);
     Attempt attempt;
     Ended ended;
@@ -176,7 +178,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         frame.origin.granted = inWords(renderer.granted);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.granted)
-            frame.notes.push_back(fmt::format("{} is granted {}", renderer.name, line));
+            frame.notes.push_back(fmt::format("{}: correction {}", renderer.name, line));
         for (const std::string& line : job.notes)
             if (std::ranges::count(frame.notes, line) == 0) frame.notes.push_back(line);
         const std::vector<std::string> lines = linesOf(ended.warned);

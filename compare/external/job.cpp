@@ -188,7 +188,7 @@ private:
         writeFile(folder_ / name, written.glb);
         for (const std::string& line : written.notes) {
             // Of a copy the rig says the same once more.
-            const std::string note = fmt::format("{}: left out of {}: {}", renderer_.name, who, line);
+            const std::string note = fmt::format("{}: omitted from {}: {}", renderer_.name, who, line);
             notes.push_back(note);
         }
     }

@@ -42,18 +42,20 @@ struct NumberGrant {
 constexpr double largest_factor = 1e6;
 constexpr NumberGrant numbers[] = {
     {"point_factor", &Granted::point_factor, 1, 0, largest_factor,
-     "it is told point lights {} times as bright"},
-    {"spot_factor", &Granted::spot_factor, 1, 0, largest_factor, "it is told spot lights {} times as bright"},
+     "it receives point lights {} times as bright"},
+    {"spot_factor", &Granted::spot_factor, 1, 0, largest_factor,
+     "it receives spot lights {} times as bright"},
     {"directional_factor", &Granted::directional_factor, 1, 0, largest_factor,
-     "it is told directional lights {} times as bright"},
-    {"area_factor", &Granted::area_factor, 1, 0, largest_factor, "it is told area lights {} times as bright"},
+     "it receives directional lights {} times as bright"},
+    {"area_factor", &Granted::area_factor, 1, 0, largest_factor,
+     "it receives area lights {} times as bright"},
     {"environment_factor", &Granted::environment_factor, 1, 0, largest_factor,
-     "it is told an environment {} times as bright"},
+     "it receives an environment {} times as bright"},
     {"environment_rotation", &Granted::environment_rotation, 0, -360, 360,
-     "it is told an environment turned by {} degrees more"},
-    {"fov_offset", &Granted::fov_offset, 0, -90, 90, "it is told a field of view {} degrees wider"},
-    {"shift_x", &Granted::shift_x, 0, -1e3, 1e3, "it is told a projection {} pixels further right"},
-    {"shift_y", &Granted::shift_y, 0, -1e3, 1e3, "it is told a projection {} pixels further down"}};
+     "it receives an environment rotated by {} degrees more"},
+    {"fov_offset", &Granted::fov_offset, 0, -90, 90, "it receives a field of view {} degrees wider"},
+    {"shift_x", &Granted::shift_x, 0, -1e3, 1e3, "it receives a projection {} pixels further right"},
+    {"shift_y", &Granted::shift_y, 0, -1e3, 1e3, "it receives a projection {} pixels further down"}};
 
 struct FlagGrant {
     std::string_view name;
@@ -61,7 +63,8 @@ struct FlagGrant {
     std::string_view words;
 };
 constexpr FlagGrant flags[] = {
-    {"environment_mirrored", &Granted::environment_mirrored, "it is told the environment left for right"},
+    {"environment_mirrored", &Granted::environment_mirrored,
+     "it receives the environment mirrored, left for right"},
     {"upside_down", &Granted::upside_down, "its picture is read from the bottom up"},
     {"mirrored", &Granted::mirrored, "its picture is read from right to left"}};
 
@@ -75,12 +78,12 @@ E oneOf(const JsonFields& fields, std::string_view key, const std::pair<std::str
         if (name == word) return value;
         all.push_back(name);
     }
-    fields.fail(key, fmt::format("\"{}\" is none of {}", oneLine(word), fmt::join(all, ", ")));
+    fields.fail(key, fmt::format("\"{}\" is not one of {}", oneLine(word), fmt::join(all, ", ")));
 }
 
 Granted grantedIn(const nlohmann::json& object, const std::string& who) {
     const JsonFields fields(object, who);
-    fields.knownOnly(grantNames(), "what is granted");
+    fields.knownOnly(grantNames(), "granted");
     Granted granted;
     const double all = fields.number(light_factor, 1, 0, largest_factor);
     for (const NumberGrant& row : numbers) {
@@ -103,8 +106,9 @@ std::vector<std::string> commandIn(const JsonFields& fields) {
         sound = sound && words.back().find('\0') == std::string::npos;
     }
     if (!sound || words.front().empty())
-        fields.fail("command",
-                    "is the program and its arguments, as [\"node\", \"three.mjs\"]; no shell reads them");
+        fields.fail(
+            "command",
+            "must be the program and its arguments, e.g. [\"node\", \"three.mjs\"]; no shell is used");
     return words;
 }
 
@@ -115,11 +119,14 @@ void checkName(const std::string& name, const std::string& words) {
     };
     if (name.empty() || name.size() > 64 || name.front() == '.' || !std::ranges::all_of(name, fits))
         fail("--renderer " + oneLine(words),
-             "its name has letters, digits, \"-\", \"_\" and dots, 64 at most, as three=three.json");
+             "its name may have up to 64 letters, digits, \"-\", \"_\" and dots, e.g. three=three.json");
     for (const auto& [path, taken] : enumNames<Path>())
         if (name == taken)
-            fail("--renderer " + oneLine(words), fmt::format("{} is a path of diptych's", name));
-    if (name == "baseline") fail("--renderer " + oneLine(words), "the file of --baseline is called so");
+            fail("--renderer " + oneLine(words),
+                 fmt::format("{} is the name of a path of diptych; choose another", name));
+    if (name == "baseline")
+        fail("--renderer " + oneLine(words),
+             "this name is reserved for the file of --baseline; choose another");
 }
 
 }  // namespace
@@ -131,7 +138,7 @@ std::vector<std::string> inWords(const Granted& granted) {
                        g.point_factor == g.area_factor;
     if (alike && g.point_factor != 1)
         lines.push_back(
-            fmt::format("{0} {1}: it is told all lights {1} times as bright", light_factor, g.point_factor));
+            fmt::format("{0} {1}: it receives all lights {1} times as bright", light_factor, g.point_factor));
     for (const NumberGrant& row : numbers) {
         const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
         if (granted.*row.value != row.neutral && !(alike && ofLights))
@@ -141,7 +148,7 @@ std::vector<std::string> inWords(const Granted& granted) {
     for (const FlagGrant& row : flags)
         if (granted.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.words));
     if (granted.transfer != Transfer::linear)
-        lines.push_back(fmt::format("transfer {}: its pixels are decoded from that",
+        lines.push_back(fmt::format("transfer {}: its pixels are decoded from this curve",
                                     wordOf(transfers, granted.transfer)));
     if (granted.primaries != Primaries::rec709)
         lines.push_back(fmt::format("primaries {}: its pixels are converted from these",
@@ -166,14 +173,14 @@ Renderer readRendererFile(const std::filesystem::path& file) {
                                                         "timeout", "scene",  "granted"};
         fields.knownOnly(known, "a renderer");
         if (fields.number("schema", 1, 0, 1e6) != 1)
-            fields.fail("schema", "is not 1, which is what this diptych reads");
+            fields.fail("schema", "must be 1, the only version that this diptych reads");
         Renderer renderer;
         renderer.file = file;
         renderer.folder = std::filesystem::absolute(file).parent_path();
         renderer.name = file.stem().string();
         renderer.command = commandIn(fields);
         renderer.timeout = fields.number("timeout", renderer.timeout, 0, 86400);
-        if (!(renderer.timeout > 0)) fields.fail("timeout", "is above 0, seconds");
+        if (!(renderer.timeout > 0)) fields.fail("timeout", "must be above 0 s");
         constexpr std::pair<std::string_view, bool> scenes[] = {{"file", false}, {"copy", true}};
         renderer.posed = oneOf(fields, "scene", scenes);
         if (const nlohmann::json* granted = fields.find("granted"))
@@ -185,7 +192,7 @@ Renderer readRendererFile(const std::filesystem::path& file) {
 Renderer readRenderer(const std::string& words) {
     const std::size_t at = words.find('=');
     if (at == std::string::npos || at + 1 == words.size())
-        fail("--renderer " + oneLine(words), "is NAME=FILE.json, as three=three.json");
+        fail("--renderer " + oneLine(words), "give NAME=FILE.json, e.g. three=three.json");
     const std::string name = words.substr(0, at);
     checkName(name, words);
     Renderer renderer = readRendererFile(words.substr(at + 1));

@@ -7,6 +7,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/posed.h"
+#include "shared/text/counted.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -28,15 +29,15 @@ constexpr int float_component = 5126, index_component = 5125;
 // A line for every kind of thing that is left out, however many there are.
 class LeftOut {
 public:
-    void add(const std::string& what) { ++counts_[what]; }
+    void add(const std::string& what, const std::string& why) { ++counts_[{what, why}]; }
     std::vector<std::string> lines() const {
         std::vector<std::string> lines;
-        for (const auto& [what, count] : counts_) lines.push_back(fmt::format("{} {}", count, what));
+        for (const auto& [what, count] : counts_) lines.push_back(counted(count, what.first) + what.second);
         return lines;
     }
 
 private:
-    std::map<std::string, std::size_t> counts_;
+    std::map<std::pair<std::string, std::string>, std::size_t> counts_;  // a noun, and the reason
 };
 
 std::vector<glm::vec3> inFloat(const std::vector<glm::dvec3>& values) {
@@ -66,7 +67,7 @@ public:
         Json written = Json::array();
         for (const Light& light : lights) {
             if (isArea(light.kind)) {
-                left_out_.add(fmt::format("{} light(s): glTF knows none", nameOf(light.kind)));
+                left_out_.add(fmt::format("{} light", nameOf(light.kind)), ": glTF has no such lights");
                 continue;
             }
             Json one{{"type", nameOf(light.kind)},
@@ -189,8 +190,7 @@ private:
         put(written["extensions"]["KHR_materials_specular"], "specularTexture", gpu::SLOT_specular);
         put(written["extensions"]["KHR_materials_specular"], "specularColorTexture",
             gpu::SLOT_specular_color);
-        if (readsSlot(material, gpu::SLOT_lightmap))
-            left_out_.add("material(s) with a lightmap, which glTF does not know");
+        if (readsSlot(material, gpu::SLOT_lightmap)) left_out_.add("lightmap", ": glTF has no lightmaps");
         file_.json["materials"].push_back(std::move(written));
     }
 
@@ -199,7 +199,7 @@ private:
         const Texture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
         const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
         if (!image.rgba32.empty()) {
-            left_out_.add("texture(s) of floats, which glTF does not know");
+            left_out_.add("float texture", ": glTF has no float textures");
             return {};
         }
         Json reference{{"index", textureIndex(texture, image)}, {"texCoord", slot.texcoord}};
@@ -241,7 +241,7 @@ private:
     std::size_t addImage(const TextureImage& image) {
         Image8 png{image.width, image.height, 4, image.rgba};
         if (png.data.empty()) {
-            left_out_.add("texture(s) of 16 bits, of which 8 are written");
+            left_out_.add("16-bit texture", ": written with 8 bits");
             for (const std::uint16_t value : image.rgba16)
                 png.data.push_back(static_cast<std::uint8_t>((value * 255u + 32767u) / 65535u));
         }

@@ -116,9 +116,8 @@ FileMoves readMoves(const OpenFolder& begun) {
         }
     }();
     if (!json.is_object() || !json.contains("files"))
-        throw std::runtime_error(
-            (begun.path() / listName).string() +
-            ": left by a program that was killed, and cannot be read; remove its folder");
+        throw std::runtime_error((begun.path() / listName).string() +
+                                 ": left by an interrupted run and unreadable; remove its folder");
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 

@@ -26,9 +26,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
         if (Clock::now() > end) {
             ::close(file_);
             throw std::runtime_error(
-                fmt::format("{}: another program has been writing there for {} s; wait until it ends, or "
-                            "write to another "
-                            "place with -o",
+                fmt::format("{}: another program has been writing there for {} s; wait for it, or choose "
+                            "another folder with -o",
                             folder.string(), patience.count()));
         }
         std::this_thread::sleep_for(pause);

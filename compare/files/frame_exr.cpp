@@ -57,7 +57,7 @@ void readUncertainty(PictureFile& file, Frame& frame) {
     const auto read = std::from_chars(relative.data(), end, frame.relative_uncertainty);
     if (read.ec != std::errc{} || read.ptr != end)
         throw std::runtime_error(
-            fmt::format("its attribute relative_uncertainty, \"{}\", is no number", relative));
+            fmt::format("attribute relative_uncertainty \"{}\" is not a number", relative));
     frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
 }
 
@@ -104,7 +104,7 @@ Frame frameFromExr(const std::filesystem::path& path) {
                 frame.origin.left_out.push_back(oneLine(channel.name));
         }
         if (frame.channels.empty())
-            throw std::runtime_error("holds no channel that is called as one of ours");
+            throw std::runtime_error("has no channel that diptych knows; --list-channels shows them");
         return frame;
     });
 }

@@ -48,15 +48,14 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
     : folder_(made(besideOutput(out, what))) {
     if (!folder_.lock())
         throw std::runtime_error(fmt::format(
-            "{}: another diptych is at work for the same -o; wait for it, or write to another place",
-            path().string()));
+            "{}: another diptych writes to the same -o; wait for it, or choose another -o", path().string()));
     folder_.removeLinks();  // nobody writes parts through what was planted, nor reads them
     const Json there = readJson(path() / keyFile);
     if (there == key) return;
     const bool holdsOthers = std::ranges::any_of(
         folder_.names(), [](const std::string& name) { return !isTemporaryOf(keyFile, name); });
     if (holdsOthers && !isOurManifest(path() / keyFile))
-        throw std::runtime_error(path().string() + ": is there and was not written by diptych; move it away");
+        throw std::runtime_error(path().string() + ": exists and was not written by diptych; move it away");
     renewed_ = holdsOthers;
     clear();
     writeFile(path() / keyFile, pageOfJson(key));

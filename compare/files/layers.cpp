@@ -168,7 +168,7 @@ Renaming renamingOf(const std::string& words) {
     std::istringstream list(equals == words.npos ? "" : words.substr(equals + 1));
     for (std::string channel; std::getline(list, channel, ',');) renaming.channels.push_back(channel);
     if (equals == 0 || renaming.channels.empty() || std::ranges::count(renaming.channels, "") > 0)
-        fail(fmt::format("--map {}: is NAME=CHANNEL,CHANNEL,..., e.g. albedo=diffuse.R,diffuse.G,diffuse.B",
+        fail(fmt::format("--map {}: give NAME=CHANNEL,CHANNEL,..., e.g. albedo=diffuse.R,diffuse.G,diffuse.B",
                          words));
     renaming.name = words.substr(0, equals);
     return renaming;
@@ -299,11 +299,11 @@ std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChann
 std::string pairColours(std::vector<PictureChannel>& reference, std::vector<PictureChannel>& test) {
     const auto [a, b] = onlyColours(reference, test);
     if (!a) return {};
-    const std::string note = fmt::format(
-                          "{} of the reference is compared with {} of the test: each is the only "
-                          "colour there",
-                          a->name, oneLine(b->name, 60)),
-                      alpha = alphaOf(b->name);
+    const std::string
+        note = fmt::format(
+            "{} of the reference is compared with {} of the test: each is the only colour of its image",
+            a->name, oneLine(b->name, 60)),
+        alpha = alphaOf(b->name);
     for (PictureChannel& channel : test)
         if (channel.name == alpha) channel.name = alphaOf(a->name);
     b->name = a->name;
@@ -317,7 +317,7 @@ std::string mapText(const std::vector<PictureChannel>& reference, const std::vec
             if (a.components() == b.components() && a.channels.size() == b.channels.size())
                 return fmt::format("--map '{}={}' compares these two", oneLine(a.name, 60),
                                    oneLine(fmt::format("{}", fmt::join(b.channels, ",")), 200));
-    return "--map gives them one name";
+    return "--map can match them";
 }
 
 Metric metricOf(const std::string& name, const PictureChannel& channel) {
@@ -367,8 +367,9 @@ void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std
         const Renaming renaming = renamingOf(words);
         if (!renamed(reference, spelledOut(reference, renaming)[0]) &&
             !renamed(test, spelledOut(test, renaming)[0]))
-            fail(fmt::format("--map {}: neither file has these channels; the reference has {}, the test {}",
-                             words, channelsIn(reference), channelsIn(test)));
+            fail(fmt::format(
+                "--map {}: neither file has these channels; the reference has {}, the test has {}", words,
+                channelsIn(reference), channelsIn(test)));
     }
 }
 
@@ -383,7 +384,7 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         matched.notes.push_back(std::move(note));
     for (const bool lacking : {false, true})
         for (const std::string& name : lacking ? addOpaque(reference, test) : addOpaque(test, reference))
-            matched.notes.push_back(fmt::format("{}: {} has none and is opaque: 1 everywhere", name,
+            matched.notes.push_back(fmt::format("{}: {} has none, so it counts as opaque: 1 everywhere", name,
                                                 lacking ? "the test" : "the reference"));
     std::vector<std::string> inBoth;
     for (const PictureChannel& a : reference)
@@ -396,12 +397,12 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             continue;
         }
         if (a.components() != b->components())
-            fail(fmt::format("{}: {} in the reference and {} in the test; --map says what belongs together",
-                             a.name, fmt::join(a.channels, ","), fmt::join(b->channels, ",")));
+            fail(fmt::format("{}: {} in the reference and {} in the test; match them with --map", a.name,
+                             fmt::join(a.channels, ","), fmt::join(b->channels, ",")));
         const bool grey[2] = {a.channels == Names{"Y"}, b->channels == Names{"Y"}};
         if (grey[0] != grey[1] && a.components() == 3)
             matched.notes.push_back(
-                fmt::format("{}: the one component of {} is compared with each of the three of {}", a.name,
+                fmt::format("{}: the single component of {} is compared with all three of {}", a.name,
                             grey[0] ? "the reference" : "the test", grey[0] ? "the test" : "the reference"));
         if (a.type != b->type)
             matched.notes.push_back(
@@ -420,14 +421,14 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             matched.one_sided.push_back({b.name, "the test"});
     const auto both = inReference == inTest
                           ? "both have " + inTest
-                          : fmt::format("the reference has {}, the test {}", inReference, inTest);
+                          : fmt::format("the reference has {}, the test has {}", inReference, inTest);
     for (const std::string& w : wanted)
         if (std::ranges::none_of(inBoth, [&](const std::string& name) { return matches(w, name); })) {
             const std::string meant = didYouMean(w, inBoth);
-            fail(fmt::format("--channels {}: not in both{}", w, meant.empty() ? "; " + both : meant));
+            fail(fmt::format("--channels {}: not in both images{}", w, meant.empty() ? "; " + both : meant));
         }
     if (matched.channels.empty())
-        fail(fmt::format("no layer is in both: {}; {}", both, mapText(reference, test)));
+        fail(fmt::format("the images share no layer: {}; {}", both, mapText(reference, test)));
     return matched;
 }
 

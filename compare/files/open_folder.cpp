@@ -34,9 +34,10 @@ int checked(int folder, const char* name, const fs::path& path) {
     const int error = errno;
     struct stat status {};
     if (::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
-        throw std::runtime_error(fmt::format(
-            "{}: is a link, which diptych does not follow there; move it away, or write to another place",
-            path.string()));
+        throw std::runtime_error(
+            fmt::format("{}: is a symbolic link, which diptych does not follow here; move it away, or choose "
+                        "another folder",
+                        path.string()));
     throw std::runtime_error(writingFailed(path, error));
 }
 
@@ -149,8 +150,8 @@ std::string OpenFolder::read(const fs::path& name, std::size_t most) const {
     if (fits) text.resize(static_cast<std::size_t>(status.st_size));
     const bool whole = fits && std::fread(text.data(), 1, text.size(), stream) == text.size();
     std::fclose(stream);
-    if (!fits) fail(fmt::format("is no regular file of at most {} bytes", most));
-    if (!whole) fail("cannot be read to its end");
+    if (!fits) fail(fmt::format("is not a regular file of at most {} bytes", most));
+    if (!whole) fail("cannot be read completely");
     return text;
 }
 

@@ -39,7 +39,7 @@ Output outputOf(const fs::path& out, bool folders_alone) {
     if (ending == ".png") return {OutputKind::png, linkedFile(out)};
     if (folders_alone) return {OutputKind::folder, out};
     throw std::runtime_error(
-        fmt::format("-o {}: {} cannot be written; use .exr, .png, or a name without ending for a folder",
+        fmt::format("-o {}: cannot write {} files; use .exr, .png, or a name without extension for a folder",
                     out.string(), out.extension().string()));
 }
 
@@ -66,7 +66,7 @@ void checkReplaceable(const Output& output, const std::string& manifest, bool fo
             : fs::is_regular_file(there) && isOurPicture(output.path);
     if (!ours)
         throw std::runtime_error(fmt::format(
-            "-o {}: is there and was not written by diptych; --force replaces it", output.path.string()));
+            "-o {}: exists and was not written by diptych; --force replaces it", output.path.string()));
 }
 
 }  // namespace diptych

@@ -52,7 +52,7 @@ PictureFolders pictureFolders(const fs::path& reference, const fs::path& test) {
     std::ranges::set_difference(left, right, std::back_inserter(result.reference_alone));
     std::ranges::set_difference(right, left, std::back_inserter(result.test_alone));
     if (result.both.empty())
-        throw std::runtime_error(fmt::format("{} and {} have no picture of one name ({} and {} pictures)",
+        throw std::runtime_error(fmt::format("{} and {} share no picture name ({} and {} pictures)",
                                              reference.string(), test.string(), left.size(), right.size()));
     return result;
 }

@@ -120,7 +120,7 @@ public:
             addList(word.substr(1));
         else if (fs::is_directory(word, ignored))
             addAll(sceneFilesIn(word), word,
-                   "holds no .gltf or .glb file; name a folder that does, or a scene");
+                   "contains no .gltf or .glb file; give a folder that does, or a scene");
         else if (isPattern(word))
             addAll(matchesOf(word), word, "matches no .gltf or .glb file");
         else
@@ -167,8 +167,8 @@ private:
         bool any = false;
         for (std::string line; std::getline(stream, line);) {
             if (line.size() > longest_line)
-                throw std::runtime_error(fmt::format("@{}: has a line of {} bytes: at most {}", oneLine(name),
-                                                     line.size(), longest_line));
+                throw std::runtime_error(fmt::format("@{}: has a line of {} bytes; the limit is {}",
+                                                     oneLine(name), line.size(), longest_line));
             if (const std::string word = wordOf(line, fs::path(name).parent_path()); !word.empty()) {
                 add(word);
                 any = true;
@@ -176,7 +176,7 @@ private:
         }
         open_.erase(identity);
         if (!any && scenes.size() == before)
-            throw std::runtime_error(fmt::format("@{}: names no scene; a line each", oneLine(name)));
+            throw std::runtime_error(fmt::format("@{}: lists no scene; give one per line", oneLine(name)));
     }
 
     std::set<std::string> seen_, open_;

@@ -16,8 +16,8 @@ Image imageOf(const Picture& picture, const char* which) {
     if (picture.width < 1 || picture.height < 1 ||
         picture.rgb.size() !=
             3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
-        throw std::runtime_error(fmt::format("the {} is {}x{} and has {} numbers; it takes 3 for each pixel",
-                                             which, picture.width, picture.height, picture.rgb.size()));
+        throw std::runtime_error(fmt::format("the {} is {}x{} and has {} values; give 3 per pixel", which,
+                                             picture.width, picture.height, picture.rgb.size()));
     Image image(picture.width, picture.height, 3);
     std::ranges::copy(picture.rgb, image.data.begin());
     return image;
@@ -28,7 +28,8 @@ Coverage coverageOf(const Options& options, std::size_t pixels) {
     if (options.covered.empty()) return coverage;
     if (options.covered.size() != pixels)
         throw std::runtime_error(
-            fmt::format("Options::covered has {} numbers for {} pixels", options.covered.size(), pixels));
+            fmt::format("Options::covered has {} values for {} pixels; give one per pixel",
+                        options.covered.size(), pixels));
     for (std::size_t i = 0; i < pixels; ++i) coverage.covered[i] = options.covered[i] != 0;
     coverage.count =
         static_cast<std::size_t>(std::ranges::count_if(coverage.covered, [](auto c) { return c; }));
@@ -41,7 +42,7 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     const Image a = imageOf(reference, "reference"), b = imageOf(test, "test");
     if (a.width != b.width || a.height != b.height)
         throw std::runtime_error(
-            fmt::format("the reference is {}x{} and the test {}x{}: only pictures of one size are compared",
+            fmt::format("the reference is {}x{} and the test is {}x{}: images must have the same size",
                         a.width, a.height, b.width, b.height));
     const Coverage coverage = coverageOf(options, a.pixels());
     if (coverage.count == 0) throw std::runtime_error("no pixel counts: Options::covered is 0 everywhere");
@@ -60,7 +61,8 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     for (const Limit& limit : options.limits) {
         const Figure* const figure = findFigure(limit.figure);
         if (!figure)
-            throw std::runtime_error(fmt::format("{}: no such figure; figureNames() has them", limit.figure));
+            throw std::runtime_error(
+                fmt::format("{}: unknown metric; figureNames() lists them", limit.figure));
         const auto measured = result.figures.find(limit.figure);
         if (measured == result.figures.end())
             throw std::runtime_error(fmt::format("{}: is not defined for colours", limit.figure));

@@ -238,8 +238,7 @@ PixelError::PixelError(Metric metric, ChannelKind kind, const PictureRows& basel
     : metric_(metric), components_(baseline.components) {
     if (metric == Metric::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
     if (metric == Metric::angular && components_ != 3)
-        throw std::runtime_error(
-            fmt::format("angles are between vectors of 3 components, not {}", components_));
+        throw std::runtime_error(fmt::format("angles need vectors of 3 components, not {}", components_));
 }
 
 double PixelError::operator()(const float* test, const float* baseline) const {

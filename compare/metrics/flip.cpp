@@ -39,18 +39,17 @@ bool within(const float* p, float least, float most) {
 void checkPair(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
     if (reference.components != 3 || test.components != 3 || reference.width != test.width ||
         reference.height != test.height || reference.pixels() == 0)
-        throw std::runtime_error(
-            fmt::format("FLIP compares two colour pictures of one size, not {}x{} of {} components and {}x{} "
-                        "of {}; crop or resize one",
-                        reference.width, reference.height, reference.components, test.width, test.height,
-                        test.components));
+        throw std::runtime_error(fmt::format(
+            "FLIP compares two colour images of the same size, not {}x{} of {} components and {}x{} "
+            "of {}; crop or resize one",
+            reference.width, reference.height, reference.components, test.width, test.height,
+            test.components));
     if (!options.covered.empty() && options.covered.size() != reference.pixels())
-        throw std::runtime_error(
-            fmt::format("FLIP of {}x{} pixels has coverage of {}; give one value per pixel", reference.width,
-                        reference.height, options.covered.size()));
+        throw std::runtime_error(fmt::format("FLIP of {}x{} pixels: {} coverage values; give one per pixel",
+                                             reference.width, reference.height, options.covered.size()));
     if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000))
-        throw std::runtime_error(fmt::format("FLIP of {} pixels per degree: no viewer's; give 1 to 1000",
-                                             options.pixels_per_degree));
+        throw std::runtime_error(
+            fmt::format("FLIP with {} pixels per degree: give 1 to 1000", options.pixels_per_degree));
 }
 
 // Counts and holes; finite values outside [least, most] are counted as limited.
@@ -117,7 +116,7 @@ void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResul
 
 double checkedExposure(double stops) {
     if (!(std::abs(stops) <= mostStops))
-        throw std::runtime_error(fmt::format("exposure {}: a float holds 2^{} to 2^{}; give stops in between",
+        throw std::runtime_error(fmt::format("exposure {}: float32 has 2^{} to 2^{}; give stops in between",
                                              stops, -mostStops, mostStops));
     return stops;
 }
@@ -130,11 +129,12 @@ void chooseExposures(const PictureRows& reference, const HdrFlipOptions& options
     result.stop_exposure = checkedExposure(options.stop_exposure.value_or(range.stop));
     const double stops = result.stop_exposure - result.start_exposure;
     if (stops < 0)
-        throw std::runtime_error(fmt::format("exposures from {} to {}: the first is the darkest; swap them",
-                                             result.start_exposure, result.stop_exposure));
+        throw std::runtime_error(
+            fmt::format("exposures from {} to {}: the first must be the lower one; swap them",
+                        result.start_exposure, result.stop_exposure));
     result.exposures = options.exposures.value_or(std::max(2, static_cast<int>(std::ceil(stops))));
     if (result.exposures < 1)
-        throw std::runtime_error(fmt::format("{} exposures show nothing; give 1 or more", result.exposures));
+        throw std::runtime_error(fmt::format("{} exposures: give 1 or more", result.exposures));
 }
 
 // Linear luminances (Rec.709) of the finite pixels, negative components as 0; `lit`: of those that have one.

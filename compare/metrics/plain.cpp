@@ -169,8 +169,8 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Cove
         reference.components != test.components || reference.components < 1 || reference.components > 4 ||
         coverage.covered.size() != reference.pixels())
         throw std::runtime_error(
-            fmt::format("pictures of {}x{}x{} and {}x{}x{} cannot be compared; give two of one size, of 1 to "
-                        "4 components",
+            fmt::format("images of {}x{}x{} and {}x{}x{} cannot be compared; give two of the same size with "
+                        "1 to 4 components",
                         reference.width, reference.height, reference.components, test.width, test.height,
                         test.components));
 }

@@ -124,9 +124,8 @@ private:
 std::optional<double> ssim(int width, int height, const PlaneRow& reference, const PlaneRow& test,
                            std::span<const std::uint8_t> covered) {
     if (size(width) * size(height) != covered.size())
-        throw std::runtime_error(
-            fmt::format("SSIM of {}x{} pixels has coverage of {}; give one value per pixel", width, height,
-                        covered.size()));
+        throw std::runtime_error(fmt::format("SSIM of {}x{} pixels: {} coverage values; give one per pixel",
+                                             width, height, covered.size()));
     const int first = radius, last = height - radius;  // rows of middles
     if (first >= last || width <= 2 * radius) return {};
     std::vector<Sum> bands(size((last - first + bandHeight - 1) / bandHeight));

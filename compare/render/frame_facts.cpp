@@ -2,6 +2,7 @@
 #include "compare/render/frame_facts.h"
 
 #include "shared/frame/debug_modes.h"
+#include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
@@ -43,13 +44,13 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
         frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
     if (!view.default_view.empty())
-        frame.notes.push_back(
-            fmt::format("the scene has no camera: seen {}; --camera chooses another", view.default_view));
+        frame.notes.push_back(fmt::format("the scene has no camera: viewed {}; --camera chooses another view",
+                                          view.default_view));
     if (view.view.wider_frame > 0)
-        frame.notes.push_back(fmt::format(
-            "the camera frames {:.3g}:1, and the picture is {:.3g}:1: more is seen above and below, so that "
-            "nothing is cropped",
-            view.view.wider_frame, static_cast<double>(view.view.width) / view.view.height));
+        frame.notes.push_back(
+            fmt::format("the camera's aspect ratio is {:.3g}:1, the picture's {:.3g}:1: more is visible "
+                        "above and below, and nothing is cropped",
+                        view.view.wider_frame, static_cast<double>(view.view.width) / view.view.height));
     if (view.sun && settings.ibl_intensity > 0)
         frame.notes.push_back("environment: " +
                               (view.sun->found
@@ -98,8 +99,8 @@ std::optional<std::string> overflowInWords(const Image& lit, LitFormat format) {
         count += p[0] >= most[0] || p[1] >= most[1] || p[2] >= most[2];
     }
     if (count == 0) return {};
-    return fmt::format("lit: {} pixel(s) are as large as {} holds, or larger, and cut; use --lit-format fp32",
-                       count, nameOf(format));
+    return fmt::format("lit: clamped to the range of {} at {}; use --lit-format fp32", nameOf(format),
+                       counted(count, "pixel"));
 }
 
 std::vector<std::uint32_t> repairNonfinite(Image& image) {
@@ -121,9 +122,10 @@ std::vector<std::string> repairedInWords(const Frame& frame) {
     const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
     for (const auto& [mode, pixels] : frame.repaired)
         lines.push_back(
-            fmt::format("{} had {} pixel(s) that were NaN or infinite, the first at {},{}: taken as 0 or the "
-                        "largest number, magenta in pictures",
-                        debugMode(mode).name, pixels.size(), pixels.front() % width, pixels.front() / width));
+            fmt::format("{} was NaN or infinite at {}, the first at {},{}: replaced by 0 or the largest "
+                        "number, magenta in pictures",
+                        debugMode(mode).name, counted(pixels.size(), "pixel"), pixels.front() % width,
+                        pixels.front() / width));
     return lines;
 }
 

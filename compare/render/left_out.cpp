@@ -2,6 +2,7 @@
 #include "compare/render/left_out.h"
 
 #include "shared/scene/lights/casters.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,12 +24,10 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     std::vector<std::string> notes;
     if (path == Path::reference) return notes;
     const auto note = [&](const std::string& what, bool one) {
-        notes.push_back(fmt::format("{}: not drawn by {} yet: the reference has {}", what, nameOf(path),
+        notes.push_back(fmt::format("{}: not rendered by {} yet; the reference has {}", what, nameOf(path),
                                     one ? "it" : "them"));
     };
-    if (needs.sun_discs > 0)
-        note(needs.sun_discs == 1 ? "1 sun's disc" : fmt::format("{} suns' discs", needs.sun_discs),
-             needs.sun_discs == 1);
+    if (needs.sun_discs > 0) note(counted(needs.sun_discs, "sun disc"), needs.sun_discs == 1);
     return notes;
 }
 
@@ -39,7 +38,7 @@ std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const 
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (i != *sun && lights[i].kind == LightKind::directional) others.push_back(nameOf(lights[i], i));
     if (others.empty()) return {};
-    return {fmt::format("of {} directional lights the brightest, {}, casts a shadow; without one: {}",
+    return {fmt::format("only the brightest of {} directional lights, {}, casts a shadow; these do not: {}",
                         others.size() + 1, nameOf(lights[*sun], *sun), fmt::join(others, ", "))};
 }
 

@@ -30,13 +30,12 @@ Requirements::Line shadowLine(const SceneView& view, const Settings& settings) {
     const bool sun = brightestSun(view.lights).has_value();
     const std::size_t local = localCasting(view.lights, settings.shadow_lights).lights.size();
     if (!sun && local == 0)
-        return {false, what, "no light casts: there is no sun, and no point or spot that is asked to"};
+        return {false, what,
+                "no light casts a shadow: no sun, and --shadow-lights enables no point or spot light"};
     std::string casting = sun ? "the brightest sun" : "";
-    if (local > 0)
-        casting += fmt::format("{}{} point{} or spot{}", sun ? " and " : "", local, local == 1 ? "" : "s",
-                               local == 1 ? "" : "s");
+    if (local > 0) casting += fmt::format("{}{}", sun ? " and " : "", counted(local, "point or spot light"));
     return {true, what,
-            fmt::format("{} cast{}: --shadows {}", casting, (sun ? 1 : 0) + local == 1 ? "s" : "",
+            fmt::format("{} cast{} shadows: --shadows {}", casting, (sun ? 1 : 0) + local == 1 ? "s" : "",
                         nameOf(settings.shadows))};
 }
 
@@ -48,13 +47,14 @@ std::vector<Requirements::Line> planLines(const SceneView& view, const Settings&
         if (view.default_sun && line.what == "directional lights")
             line.why = "the default sun, added because the scene has no light";
         if (line.modelled && line.what == "skins and morph targets")
-            line.why += settings.skinning == Skinning::compute ? ", posed once a frame by kernels"
-                                                               : ", posed by the vertex shader of every draw";
+            line.why += settings.skinning == Skinning::compute
+                            ? ", deformed once per frame by compute shaders"
+                            : ", deformed by the vertex shader of every draw";
     }
     lines.push_back(shadowLine(view, settings));
     lines.push_back({settings.haze, "haze",
-                     settings.haze ? "--haze on: air scatters light between the viewer and all that is seen"
-                                   : "--haze off: there is no air"});
+                     settings.haze ? "--haze on: air scatters light between the camera and every surface"
+                                   : "--haze off: air scatters no light"});
     return lines;
 }
 

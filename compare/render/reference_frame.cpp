@@ -95,8 +95,8 @@ std::optional<Frame::HiddenLight> hiddenLight(const Image& surroundings) {
 
 std::string hiddenLightNote(const Frame::HiddenLight& hidden) {
     return fmt::format(
-        "geometry would hide {:.3g} % of the light of environment and ambient that lit has, as neither path "
-        "models that: over 10 % at {:.3g} % of the pixels, 99th percentile {:.3g} %",
+        "geometry would block {:.3g} % of the environment and ambient light in lit, which neither path "
+        "models: over 10 % at {:.3g} % of the pixels, 99th percentile {:.3g} %",
         100 * hidden.mean, 100 * hidden.pixels, 100 * hidden.p99);
 }
 
@@ -183,7 +183,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (picture.kept_share > 0)
         frame.notes.push_back(fmt::format(
-            "the reference went on from {:.0f} % that a command that did not end had drawn in {}; the rest "
+            "the reference resumed at {:.0f} %, which an interrupted command had rendered in {}; the rest "
             "took {}",
             std::floor(100 * picture.kept_share), clockText(picture.kept_seconds), clockText(now)));
     frame.made_in_ms = 1000 * (now + picture.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
@@ -223,7 +223,7 @@ reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t float
     if (is_folder_ && stem_.has_parent_path()) fs::create_directories(stem_.parent_path(), ignored);
     checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
     sayWhenInterrupted(
-        fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
+        fmt::format("the finished part of the reference is kept in {}: the same command resumes there",
                     checkpoints_.back()->file().string()));
     return *checkpoints_.back();
 }
@@ -238,9 +238,8 @@ std::string KeptReferences::leftByOthers() const {
     for (const fs::path& file : reference::abandonedCheckpoints(stem_)) files.push_back(file.string());
     if (files.empty()) return {};
     return fmt::format(
-        "kept of other references, whose commands did not end: {}; such a command goes on from its file when "
-        "it "
-        "is given again, and whoever does not want that may remove the file",
+        "kept from other interrupted references: {}; the same command resumes from its file; remove files "
+        "that you do not need",
         fmt::join(files, ", "));
 }
 

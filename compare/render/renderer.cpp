@@ -176,8 +176,8 @@ private:
         }
         bounds_.clear();
         if (options_.twice != Twice::none) {
-            announce("once more");
-            step("draw once more", 1);
+            announce("second run");
+            step("second run", 1);
             passes.run(0, first);
             for (const auto& [buffer, hash] : passes.kernelResults(0, first))
                 if (hash != kernels_.at(buffer)) frame_.changed_buffers.push_back(buffer);
@@ -186,7 +186,7 @@ private:
             addNoise(lit, again);
         }
         if (options_.twice == Twice::all) {
-            step("capture once more", captureFrames);
+            step("second capture", captureFrames);
             // What the encoding makes comes last, and is drawn once.
             std::erase_if(captured, [](const CapturedImage& read) { return read.surface.has_value(); });
             readCaptured(first, captured,

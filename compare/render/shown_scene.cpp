@@ -25,10 +25,10 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
     Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
     if (own && !scene.environment)
         throw std::runtime_error(
-            fmt::format("--env scene: {} has no EXT_lights_image_based that is read", oneLine(where)));
+            fmt::format("--env scene: {} has no readable EXT_lights_image_based", oneLine(where)));
     if (environment) {
         if (scene.environment)
-            notes.push_back(oneLine(scene.environment->name) + ": left out, --env is given");
+            notes.push_back(oneLine(scene.environment->name) + ": ignored because --env is given");
         scene.environment = std::move(environment);
     }
     std::ranges::move(notes, std::back_inserter(scene.notes));

@@ -41,8 +41,8 @@ std::string exposureLine(const std::vector<Exposure>& all) {
     const auto [least, most] = std::ranges::minmax(all, {}, &Exposure::factor);
     if (least.factor == most.factor) return all.front().because;
     return fmt::format(
-        "exposures from {:.4g} to {:.4g}, automatic; --exposure or --match-exposure FILE gives all "
-        "pictures the same",
+        "exposures from {:.4g} to {:.4g}, automatic; --exposure or --match-exposure FILE sets one for all "
+        "pictures",
         least.factor, most.factor);
 }
 

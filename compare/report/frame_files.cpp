@@ -22,9 +22,9 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
                   const PictureChoice& choice) {
     if (!frame.channels.contains(shown.number))
         throw std::runtime_error(
-            fmt::format("--debug {}: the {} path does not make it{}", shown.name, frame.name,
-                        shown.maker == MadeBy::forward_only    ? "; forward_plus does"
-                        : shown.maker == MadeBy::deferred_only ? "; deferred does, with several samples"
+            fmt::format("--debug {}: the {} path does not have this channel{}", shown.name, frame.name,
+                        shown.maker == MadeBy::forward_only    ? "; forward_plus has it"
+                        : shown.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
                                                                : ""));
     const auto lit = frame.channels.find(gpu::DEBUG_lit);
     const Exposure exposure =

@@ -95,13 +95,13 @@ std::string firstOf(const std::vector<std::string>& items, const char* elsewhere
 std::string firstNotes(const Report& report) {
     std::vector<std::string> items;
     for (const std::string& line : report.first_notes) items.push_back(markup(line));
-    return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
+    return listBox("notes", "Read first", firstOf(items, "report.json has all of them"));
 }
 
 // What another renderer said before it failed, to be opened.
 std::string saidBefore(const SceneError& error) {
     if (error.output.empty()) return {};
-    return fmt::format("<details><summary>what {} said</summary><pre>{}</pre></details>",
+    return fmt::format("<details><summary>output of {}</summary><pre>{}</pre></details>",
                        isolated(error.renderer), isolated(error.output));
 }
 
@@ -122,7 +122,7 @@ std::string failures(const Report& report, const ReportLayout& layout) {
                                             markup(channel.reason)));
     }
     return listBox("failures", "Failures",
-                   firstOf(items, "the comparisons below begin with those that fail"));
+                   firstOf(items, "the comparisons below start with the failed ones"));
 }
 
 // The warnings of all rules.
@@ -149,8 +149,8 @@ std::string notes(const Report& report, const ReportLayout& layout) {
         const std::string about =
             all.size() == 1 ? ""
             : names.size() == all.size()
-                ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", other numbers each" : "")
-                : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", other numbers each" : "");
+                ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", numbers differ" : "")
+                : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", numbers differ" : "");
         items.push_back(fmt::format("<b>{}</b>{}", isolated(about), isolated(note.text)));
     }
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
@@ -168,7 +168,8 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
                                     whereOf(report, layout, comparison), layout.ids[i],
                                     markup(line.substr(0, colon)), markup(line.substr(colon))));
     }
-    return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
+    return listBox("notes", "Both paths may be wrong in the same way",
+                   firstOf(items, "each comparison lists its own"));
 }
 
 // What has changed since an earlier report.
@@ -183,13 +184,13 @@ std::string sinceBox(const Report& report, const ReportTexts& texts) {
 // The keys and gestures that compare/page/gestures.js handles.
 constexpr const char* legend =
     "<details class=\"keys box\"><summary>Keys and gestures</summary><dl><dt><kbd>1</kbd> "
-    "<kbd>2</kbd></dt><dd>left, right picture alone</dd><dt><kbd>w</kbd> <kbd>s</kbd> "
+    "<kbd>2</kbd></dt><dd>only the left, right picture</dd><dt><kbd>w</kbd> <kbd>s</kbd> "
     "<kbd>f</kbd></dt><dd>wipe, side by side, flicker (again or Esc: stop)</dd><dt><kbd>+</kbd> <kbd>-</kbd> "
-    "<kbd>0</kbd></dt><dd>zoom in, out, fit</dd><dt>arrows</dt><dd>move the wipe, or the picture where it is "
-    "zoomed; with Shift further</dd><dt><kbd>n</kbd> <kbd>p</kbd></dt><dd>next, previous of the worst "
-    "pixels</dd><dt>drag</dt><dd>moves the wipe, or the picture where it is zoomed</dd><dt>wheel, "
-    "pinch</dt><dd>zoom; the wheel after a click into the picture, or with Ctrl</dd></dl><p "
-    "class=\"soft\">Keys act on the card that was pointed at last, arrows after a click into the "
+    "<kbd>0</kbd></dt><dd>zoom in, out, fit</dd><dt>arrows</dt><dd>move the wipe, or a zoomed picture; with "
+    "Shift in larger steps</dd><dt><kbd>n</kbd> <kbd>p</kbd></dt><dd>next, previous worst "
+    "pixel</dd><dt>drag</dt><dd>moves the wipe, or a zoomed picture</dd><dt>wheel, "
+    "pinch</dt><dd>zoom; the wheel needs a click in the picture or Ctrl</dd></dl><p "
+    "class=\"soft\">Keys act on the card last under the pointer; arrows need a click in the "
     "picture.</p></details>\n";
 
 std::string usedText(const ChannelDiff& channel) {
@@ -256,11 +257,11 @@ std::string overview(const Comparison& comparison, const std::string& id) {
                            nameOf(channel->verdict), beyondText(*channel));
     }
     return out +
-           "</tbody></table><p class=\"soft small\">Measured and limit are of the figure under judged by. "
-           "max: the largest error. p99.9: the error that 999 of 1000 pixels stay below. Excess: the error "
-           "less what the reference leaves open and the G-buffer's bits allow. Pixels unexplained: pixels "
-           "whose difference the G-buffer's encoding does not explain; none may be. Used: measured as a "
-           "share of the limit; for pixels unexplained, the largest error as a share of its pixel's "
+           "</tbody></table><p class=\"soft small\">Measured and limit belong to the metric in the column "
+           "judged by. max: the largest error. p99.9: the 99.9th percentile of the error. Excess: the error "
+           "minus the reference's uncertainty and the G-buffer's quantization bound. Pixels unexplained: "
+           "pixels whose difference the G-buffer's encoding does not explain; the limit is 0. Used: measured "
+           "divided by the limit; for pixels unexplained, the largest error divided by its pixel's "
            "bound.</p></div>\n";
 }
 
@@ -270,8 +271,8 @@ std::string footer(const Report& report, const ReportLayout& layout, const Repor
     return fmt::format(
         "<footer><p><a href=\"report.json\">report.json</a><a "
         "href=\"junit.xml\">junit.xml</a>{}</p><p>compared in {:.0f} ms, pictures, values and EXRs encoded "
-        "in {:.0f} ms. Statistics are computed on linear float32 channels, before any colour map. They leave "
-        "out background pixels. Percentiles are nearest-rank.</p></footer>\n",
+        "in {:.0f} ms. Statistics are computed on linear float32 channels, before any colour map. They "
+        "exclude background pixels. Percentiles are nearest-rank.</p></footer>\n",
         several, total(texts, &DrawnOn::compare_ms), total(texts, &DrawnOn::encode_ms));
 }
 

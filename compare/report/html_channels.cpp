@@ -56,7 +56,7 @@ public:
         const std::string commands = again();
         return out +
                fmt::format("<details class=\"more\"><summary>Numbers, worst pixels{}</summary>",
-                           commands.empty() ? "" : ", commands that draw it again") +
+                           commands.empty() ? "" : ", commands to reproduce it") +
                commands + numbers() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
                "</details></div></details>\n";
     }
@@ -89,7 +89,7 @@ private:
         return fmt::format("<p class=\"equal\">{}</p>\n",
                            layout_.keep == Keep::none
                                ? "--keep none: no pictures are kept"
-                               : "--keep failing: no pictures are kept of channels that pass");
+                               : "--keep failing: pictures of passing channels are not kept");
     }
 
     // A picture that can be moved and zoomed, without a name that of the left side; `over` is drawn on top of
@@ -118,7 +118,7 @@ private:
         std::string stops;
         for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
         return fmt::format(
-            "<div class=\"legend\"><span class=\"title\">lights that each pixel evaluates</span><div "
+            "<div class=\"legend\"><span class=\"title\">lights evaluated per pixel</span><div "
             "class=\"ramp\" style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{:g}</span><span>{:g} lights</span></div></div>",
             stops, pictures_.scale.high / 2, pictures_.scale.high);
@@ -135,8 +135,8 @@ private:
         if (pictures_.values.empty())
             return fmt::format("<p class=\"readout\">{}</p>",
                                layout_.single_file
-                                   ? "a single file leaves out the values under the cursor"
-                                   : "the values of a picture of this size are in the EXRs alone");
+                                   ? "a single-file report has no values under the cursor"
+                                   : "pictures of this size have values only in the EXR files");
         nlohmann::json names = nlohmann::json::array();
         if (!pictures_.baseline.empty()) names.push_back(left_.name);
         if (!pictures_.test.empty()) names.push_back(right_.name);
@@ -157,7 +157,7 @@ private:
                 fmt::format("<tr><td>{}</td><td class=\"n mono\">{}</td><td class=\"soft wide\">{}</td></tr>",
                             name, number(value), figure ? markup(figure->meaning) : "");
         }
-        return "<details class=\"figures\"><summary>All figures</summary><div class=\"scroll\"><table>" +
+        return "<details class=\"figures\"><summary>All metrics</summary><div class=\"scroll\"><table>" +
                rows + "</table></div></details>\n";
     }
 
@@ -186,7 +186,7 @@ private:
                 "<code>{}</code><button data-do=\"copy\">copy</button></p>\n",
                 what, markup(shellLine(words)));
         };
-        std::string text = line("draw it again", withOption(command_, "--channels", name));
+        std::string text = line("reproduce it", withOption(command_, "--channels", name));
         std::vector<std::string> view = withOption(command_, "--debug", name);
         if (view.front() != "compare") return text;
         view.front() = "view";
@@ -231,7 +231,7 @@ private:
                                   hex(color), word);
         };
         if (toLimit && !pictures_.worst.empty() && pictures_.worst.front().error > *pictures_.error_limit)
-            swatch(beyondColor, fmt::format("beyond {}, paler up to white at {:g} times it",
+            swatch(beyondColor, fmt::format("beyond {}, fading to white at {:g} times that",
                                             channel_.rule.empty() ? "tolerance" : "the limit", farBeyond));
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
         return fmt::format(
@@ -251,16 +251,17 @@ private:
     // What the colours of the error map mean, and in which unit.
     std::string errorTitle() const {
         if (channel_.certain_p999 && channel_.shown_error)
-            return "excess: relative error less what the reference leaves open and the G-buffer's bits allow";
+            return "excess: relative error minus the reference's uncertainty and the G-buffer's quantization "
+                   "bound";
         if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
             return markup(channel_.shown_error_name);
         switch (channel_.shown_error ? Metric::relative : channel_.mode->metric) {
             case Metric::relative:
                 return "relative error, |a-b| / |b|";
             case Metric::angular:
-                return "angle between both, degrees";
+                return "angle between the two, degrees";
             case Metric::exact:
-                return "1 where both differ";
+                return "1 where the two differ";
             case Metric::absolute:
                 break;
         }
@@ -287,16 +288,16 @@ private:
             row("pixels unexplained by the encoding", fmt::format("{}", *channel_.unexplained_pixels));
         if (const auto& f = channel_.footprints) {
             row("pixels with smooth surroundings, each with a bound",
-                fmt::format("{} px, largest error {:.3g} of its bound", f->smooth, f->used));
+                fmt::format("{} px, largest error {:.3g} times its bound", f->smooth, f->used));
             if (f->detailed > 0)
                 row("pixels with detail, judged by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
             if (f->edges > 0) row("pixels at edges, not judged", fmt::format("{} px", f->edges));
         }
         if (const auto& use = channel_.encoding_use; use && use->x >= 0)
-            row("largest share of a pixel's bound",
+            row("largest error as a share of its pixel's bound",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (const auto& use = channel_.device_use; use && use->x >= 0)
-            row("largest share of both devices' precision",
+            row("largest error as a share of both devices' precision",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));

@@ -56,12 +56,13 @@ public:
         }
         return fmt::format(
             "<section class=\"checks\" id=\"eye-{}\"><h2>To check by eye</h2>\n"
-            "<p class=\"soft\">Here both paths can be wrong alike, and no comparison shows it.{}</p>\n{}<div "
+            "<p class=\"soft\">Here both paths can be wrong in the same way, and no comparison shows "
+            "it.{}</p>\n{}<div "
             "class=\"views\">{}</div>\n"
             "<div class=\"box scroll\"><table><tr><th>feature</th><th>right "
             "if</th><th>places</th></tr>\n{}</table>"
             "</div></section>\n",
-            id_, lit_ == npos ? "" : " Each place leads to its picture.", sources(), views, rows);
+            id_, lit_ == npos ? "" : " Each link leads to its picture.", sources(), views, rows);
     }
 
 private:

@@ -42,11 +42,10 @@ std::string figures(const Report& report, const CloserPath& closer) {
         out += row("relative RMSE", channel, [](const PathError& error) { return error.relative_rmse; });
         out += row("FLIP", channel, [](const PathError& error) { return error.flip.value_or(0); });
     }
-    return out +
-           fmt::format(
-               "</table></div><p class=\"soft\">Each path's from the {}; the closer one's in bold. Between "
-               "them: of {} from {}.</p>\n",
-               reference, name(1), name(0));
+    return out + fmt::format(
+                     "</table></div><p class=\"soft\">Each path's error against the {}; the smaller one in "
+                     "bold. Between them: {} against {}.</p>\n",
+                     reference, name(1), name(0));
 }
 
 std::string materials(const Report& report, const CloserPath& closer, const CloserPathChannel& channel) {
@@ -63,8 +62,8 @@ std::string materials(const Report& report, const CloserPath& closer, const Clos
             m.id, markup(m.name), m.pixels, cell(number(m.mean[0]), m.mean[0] < m.mean[1]),
             cell(number(m.mean[1]), m.mean[1] < m.mean[0]));
     return out +
-           "</table></div><p class=\"soft\">Mean errors; the materials first that add most to how far the "
-           "paths stand apart: mean times pixels.</p>\n";
+           "</table></div><p class=\"soft\">Mean errors. The materials that add most to the difference of "
+           "the paths (mean times pixels) come first.</p>\n";
 }
 
 std::string picture(const Report& report, const ReportLayout& layout, const CloserPath& closer,
@@ -76,7 +75,7 @@ std::string picture(const Report& report, const ReportLayout& layout, const Clos
         "pixel\">"
         "<figcaption><span><i class=\"swatch first\"></i>{} closer</span><span><i class=\"swatch "
         "second\"></i>{} "
-        "closer</span><span>{}: as bright as their errors are apart, full at "
+        "closer</span><span>{}: brightness is the difference of the errors, full at "
         "{}</span></figcaption></figure>\n",
         layout.source(file), markup(report.frames[closer.paths[0]].name),
         markup(report.frames[closer.paths[1]].name), closer.channels[channel].mode->name,

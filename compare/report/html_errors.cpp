@@ -2,6 +2,7 @@
 // How the errors of a channel are distributed: a histogram, and links to the worst pixels.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -52,8 +53,7 @@ private:
             const auto left = static_cast<double>(i),
                        cut = beyond_ ? std::clamp(line, left, left + 1) : left + 1;
             const std::string title = fmt::format(
-                "{} to {}: {} pixel{}{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
-                count == 1 ? "" : "s",
+                "{} to {}: {}{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), counted(count, "pixel"),
                 i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
             out += bar("", left, cut, height, title) + bar(" class=\"beyond\"", cut, left + 1, height, title);
         }
@@ -99,9 +99,9 @@ private:
         std::uint64_t all = errors_.equal + errors_.infinite;
         for (const std::uint64_t count : errors_.bins) all += count;
         std::string out =
-            fmt::format("pixels by {}, the height by the logarithm of their number; {} of {} are equal",
+            fmt::format("pixels by {}; bar height is the logarithm of their number; {} of {} are equal",
                         kind(), errors_.equal, all);
-        if (errors_.infinite > 0) out += fmt::format("; {} are infinitely far apart", errors_.infinite);
+        if (errors_.infinite > 0) out += fmt::format("; {} have an infinite error", errors_.infinite);
         if (drawn())
             out +=
                 fmt::format("; line: {} {}{}", channel_.rule.empty() ? "tolerance" : "limit", size(*limit_),
@@ -109,7 +109,7 @@ private:
                             : percent(*limit_) < 0 ? ", beyond the left edge"
                                                    : "");
         if (!limit_ && channel_.criterion)
-            out += fmt::format("; the limit is on {}, not on these errors", channel_.criterion->figure);
+            out += fmt::format("; the limit applies to {}, not to these errors", channel_.criterion->figure);
         return out;
     }
 

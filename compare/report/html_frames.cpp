@@ -34,7 +34,7 @@ std::string times(const Frame& a, const Frame& b) {
         top = std::max(top, frame->time.median);
         for (const PassTime& pass : frame->passes) top = std::max(top, pass.ms);
     }
-    if (!(top > 0)) return "<div class=\"box\"><h4>Time</h4><p class=\"soft\">nothing was timed</p></div>\n";
+    if (!(top > 0)) return "<div class=\"box\"><h4>Time</h4><p class=\"soft\">not timed</p></div>\n";
     std::string out = "<div class=\"box\"><h4>Time, ms</h4><div class=\"scroll\"><table>";
     for (const auto& [frame, which] : {std::pair{&a, 'a'}, {&b, 'b'}}) {
         const FrameTime& time = frame->time;
@@ -49,13 +49,13 @@ std::string times(const Frame& a, const Frame& b) {
                            time.runs == 1 ? "one run"
                                           : fmt::format("median of {} runs, {:.2f} to {:.2f}", time.runs,
                                                         time.min, time.max));
-        out += hostRow("recording its commands, host", time.record);
-        if (time.object_lists > 0) out += hostRow("choosing each object's lights, host", time.object_lists);
+        out += hostRow("command recording, host", time.record);
+        if (time.object_lists > 0) out += hostRow("light selection per object, host", time.object_lists);
     }
     return out +
-           "</table></div><p class=\"soft\">Whole frames are timed unsplit, both paths' in turn; passes are "
-           "medians of separate, profiled runs and need not add up. What the host does comes on "
-           "top.</p></div>\n";
+           "</table></div><p class=\"soft\">Whole frames are timed without profiling, both paths "
+           "interleaved. Passes are medians of separate, profiled runs and need not add up to a frame. Host "
+           "times are not included.</p></div>\n";
 }
 
 std::string costs(const Frame& a, const Frame& b) {
@@ -76,14 +76,14 @@ std::string costs(const Frame& a, const Frame& b) {
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
     if (a.counters.shadow_pages.requested + b.counters.shadow_pages.requested > 0)
-        row("shadow pages served by a coarser level", [](const Frame& f) {
+        row("shadow pages replaced by a coarser level", [](const Frame& f) {
             return fmt::format("{}, {}", f.counters.shadow_pages.requested, f.counters.shadow_pages.fallback);
         });
     if (a.counters.unsorted.fragments + b.counters.unsorted.fragments > 0)
-        row("blended fragments without room in a list, and their pixels", [](const Frame& f) {
+        row("blended fragments that did not fit in a list, and their pixels", [](const Frame& f) {
             return fmt::format("{}, {}", f.counters.unsorted.fragments, f.counters.unsorted.pixels);
         });
-    row("flux of lights without a range that the cutoff takes",
+    row("flux that the light cutoff removes from lights without a range",
         [](const Frame& f) { return fmt::format("{:.3g} %", 100 * f.counters.energy_cut); });
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);
     row("pixels that a second run changed", [](const Frame& f) {
@@ -99,8 +99,8 @@ std::string settings(const Frame& a, const Frame& b) {
     using Json = nlohmann::ordered_json;
     const Json left = parseOrderedJson(toJson(a.settings)), right = parseOrderedJson(toJson(b.settings));
     std::string out = fmt::format(
-        "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all of them; what "
-        "differs is coloured</span></summary><div "
+        "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all; differences are "
+        "coloured</span></summary><div "
         "class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
         markup(a.name), markup(b.name));
     for (const auto& [key, value] : left.items()) {
@@ -130,8 +130,8 @@ std::string camera(const Report& report, const Frame& frame) {
 // What another renderer is granted.
 std::string grantsOf(const FrameOrigin& origin) {
     return origin.granted.empty()
-               ? std::string("external renderer, nothing is granted")
-               : fmt::format("external renderer, granted {}", fmt::join(origin.granted, "; "));
+               ? std::string("external renderer, no corrections")
+               : fmt::format("external renderer, corrections: {}", fmt::join(origin.granted, "; "));
 }
 
 // The files of pictures that were not drawn by this program in this run, and the devices of two.

@@ -91,8 +91,8 @@ std::string line(const Report& report, const ReportLayout& layout, const ReportT
     if (texts.devices.size() > 1) cells += fmt::format("<td class=\"wide\">{}</td>", markup(row.device));
     if (!comparison.passed())
         cells += fmt::format(
-            "<td><button type=\"button\" data-do=\"accept\" data-scene=\"{}\" title=\"copies the "
-            "command that grants what differs here\">accept</button></td>",
+            "<td><button type=\"button\" data-do=\"accept\" data-scene=\"{}\" title=\"copies the command "
+            "that accepts this difference\">accept</button></td>",
             markup(left.scene));
     else
         cells += "<td></td>";

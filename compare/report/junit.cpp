@@ -129,7 +129,7 @@ private:
             channel.criterion
                 ? fmt::format("{} {}, limit {}", channel.criterion->figure,
                               number(channel.criterion->measured), number(channel.criterion->limit))
-                : "nothing bounded";
+                : "no limit";
         if (channel.verdict != Verdict::fail)
             return fmt::format("      <system-out>{}{}\n</system-out>\n", warning, markup(limit));
         const ChannelStats& s = channel.stats;
@@ -151,8 +151,8 @@ private:
             if (!picture->empty() && attached.insert(*picture).second)
                 lines += fmt::format("[[ATTACHMENT|{}]]\n", folder_ + markup(*picture));
         if (!comparison_.command.empty())
-            lines += markup("again: " + shellLine(withOption(comparison_.command, "--channels",
-                                                             std::string(channel.mode->name)))) +
+            lines += markup("reproduce: " + shellLine(withOption(comparison_.command, "--channels",
+                                                                 std::string(channel.mode->name)))) +
                      "\n";
         return "      <system-out>" + lines + "</system-out>\n";
     }

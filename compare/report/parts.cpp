@@ -97,7 +97,7 @@ Json summaryOf(const Comparison& comparison) {
 
 Verdict verdictFrom(const Place& json) {
     const auto found = std::ranges::find(verdicts, json.text(), [](Verdict v) { return nameOf(v); });
-    if (found == std::end(verdicts)) json.fail("is no verdict");
+    if (found == std::end(verdicts)) json.fail("is not a verdict");
     return *found;
 }
 
@@ -161,8 +161,8 @@ std::vector<std::string> namesFrom(const Place& json, const std::string& scene_f
         const std::string& name = place.text();
         if (!isOurName(name) || !name.starts_with(scene_folder))
             place.fail(
-                fmt::format("\"{}\" is no file of a report's folder \"{}\"", oneLine(name), scene_folder));
-        if (!taken.insert(name).second) place.fail(fmt::format("\"{}\" stands twice", name));
+                fmt::format("\"{}\" is not a file in the report folder \"{}\"", oneLine(name), scene_folder));
+        if (!taken.insert(name).second) place.fail(fmt::format("\"{}\" is listed twice", name));
     }
     return json.texts();
 }
@@ -171,7 +171,7 @@ std::vector<std::string> namesFrom(const Place& json, const std::string& scene_f
 template <class List>
 void checkCount(const Place& json, const char* key, const List& list, std::size_t count, const char* of) {
     if (list.size() != count)
-        json.at(key).fail(fmt::format("has {} elements, and there are {} {}", list.size(), count, of));
+        json.at(key).fail(fmt::format("has {} elements, but there are {} {}", list.size(), count, of));
 }
 
 // Everything that is an index or belongs to a comparison is checked here: what joins parts relies on it.
@@ -242,9 +242,9 @@ std::string sectionIn(const fs::path& root, const std::string& script) {
     return named((root / script).string(), [&]() -> std::string {
         const std::string text = textBelow(root, script, json_bytes);
         const std::size_t open = text.find('('), close = text.rfind(')');
-        if (open >= close || close == text.npos) fail("is no section of a report");
+        if (open >= close || close == text.npos) fail("is not a report section");
         const nlohmann::json words = parseJson("[" + text.substr(open + 1, close - open - 1) + "]");
-        if (words.size() != 2 || !words[1].is_string()) fail("is no section of a report");
+        if (words.size() != 2 || !words[1].is_string()) fail("is not a report section");
         return words[1];
     });
 }
@@ -257,7 +257,7 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
             named((root / name).string(), [&] {
                 // The joined page runs these, as data alone.
                 if (name.ends_with(".js") && !isDataScript(textBelow(root, name, json_bytes)))
-                    fail("is a script that holds more than data");
+                    fail("is a script that contains more than data");
                 return InputFile(root, name).size();
             });
     for (const std::string& name : part.sections) sectionIn(root, name);

@@ -4,6 +4,7 @@
 
 #include "compare/files/our_files.h"
 #include "compare/report/titles.h"
+#include "shared/text/counted.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -156,8 +157,8 @@ std::string pictureDiffTable(const PictureDiff& diff) {
     if (failed.empty() && !diff.failures.empty())
         return out + fmt::format("FAIL: {}{}\n", diff.failures.front(), emptiness);
     if (!failed.empty()) return out + "FAIL: " + failed + "\n";
-    return out + fmt::format("pass: {} channel{} within tolerance{}\n", diff.channels.size(),
-                             diff.channels.size() == 1 ? "" : "s", emptiness);
+    return out +
+           fmt::format("pass: {} within tolerance{}\n", counted(diff.channels.size(), "channel"), emptiness);
 }
 
 namespace {
@@ -202,7 +203,7 @@ std::vector<SceneError> FolderDiff::failures() const {
     std::vector<SceneError> all;
     for (const auto& [names, folder] :
          {std::pair{&reference_alone, &reference}, std::pair{&test_alone, &test}})
-        for (const std::string& name : *names) all.push_back({name, fmt::format("is in {} alone", *folder)});
+        for (const std::string& name : *names) all.push_back({name, fmt::format("is in {} only", *folder)});
     return all;
 }
 
@@ -217,17 +218,16 @@ std::string folderDiffTable(const FolderDiff& diff) {
     for (const SceneError& error : diff.errors) out += fmt::format("ERROR {}\n", errorText(error));
     const std::size_t alone = diff.reference_alone.size() + diff.test_alone.size(),
                       all = diff.pictures.size();
-    std::string line = diff.errors.empty()
-                           ? ""
-                           : fmt::format("ERROR: {} picture{} could not be compared; ", diff.errors.size(),
-                                         diff.errors.size() == 1 ? "" : "s");
+    std::string line = diff.errors.empty() ? ""
+                                           : fmt::format("ERROR: {} could not be compared; ",
+                                                         counted(diff.errors.size(), "picture"));
     if (diff.passed())
         return out + fmt::format("{}pass: {} within tolerance\n", line,
                                  all == 1 ? "the one picture is" : fmt::format("all {} pictures are", all));
     std::string why;
     if (!failed.empty()) why = fmt::format("{} of {} pictures: {}", failed.size(), all, listed(failed, 8));
     if (alone > 0)
-        why += fmt::format("{}{} in one folder alone", why.empty() ? "" : "; ",
+        why += fmt::format("{}{} in one folder only", why.empty() ? "" : "; ",
                            alone == 1 ? "1 picture is" : fmt::format("{} pictures are", alone));
     return out + fmt::format("{}FAIL: {}\n", line, why);
 }

@@ -47,7 +47,7 @@ std::string explainedLine(const ChannelDiff& channel) {
 std::string frameLine(const Frame& frame) {
     if (!frame.origin.file.empty()) return fmt::format("  {}: {}\n", frame.name, frame.origin.file);
     if (frame.settings.path == Path::reference)
-        return fmt::format("  {}: double precision, mode {}, made in {:.3g} s\n", frame.name,
+        return fmt::format("  {}: double precision, mode {}, rendered in {:.3g} s\n", frame.name,
                            nameOf(frame.settings.reference_mode), frame.made_in_ms / 1000);
     std::string line = "  " + frame.name;
     if (frame.time.runs > 0)
@@ -72,8 +72,7 @@ std::string notesText(const Report& report) {
                                   : note.scenes.size() == scenes.size()
                                       ? fmt::format(", {} scenes", scenes.size())
                                       : ", " + listed(note.scenes, 3);
-        out += fmt::format("note{}{}: {}\n", about, note.varies ? ", each with numbers of its own" : "",
-                           note.text);
+        out += fmt::format("note{}{}: {}\n", about, note.varies ? ", with different numbers" : "", note.text);
     }
     return out;
 }
@@ -103,7 +102,8 @@ std::string comparisonTable(const Report& report, const Comparison& comparison) 
     }
     for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
     for (const auto& [figure, meaning] :
-         {std::pair{"excess", "the error less what the reference leaves open and the G-buffer's bits allow"},
+         {std::pair{"excess",
+                    "the error minus the reference's uncertainty and the G-buffer's quantization bound"},
           {"pixels unexplained", "pixels whose difference the G-buffer's encoding does not explain"}})
         if (std::ranges::any_of(comparison.channels, [&, word = figure](const ChannelDiff& channel) {
                 return channel.criterion && channel.criterion->figure.find(word) != std::string::npos;

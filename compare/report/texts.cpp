@@ -91,7 +91,7 @@ Json jsonOf(const IndexRow& row) {
 
 const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& number) {
     const DebugMode* mode = findDebugMode(std::to_string(number.whole(0, 1 << 20)));
-    if (!mode) number.fail("is no channel's number");
+    if (!mode) number.fail("is not a channel index");
     return *mode;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/titles.h"
 
+#include "shared/text/counted.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -88,8 +90,7 @@ std::string checksLine(const Comparison& comparison) {
         features.push_back(fmt::format("{} {}", feature.feature, feature.found));
     }
     if (count == 0) return {};
-    return fmt::format("{} place{} to check by eye: {}", count, count == 1 ? "" : "s",
-                       fmt::join(features, ", "));
+    return fmt::format("{} to check by eye: {}", counted(count, "place"), fmt::join(features, ", "));
 }
 
 std::string placeOf(const Report& report, const Comparison& comparison) {
@@ -174,9 +175,9 @@ std::string errorsText(const Report& report) {
                                                 : fmt::format("{} of {}", error.scene, error.renderer));
     }
     const bool files = report.device.name.empty();  // diff draws nothing
-    return fmt::format("{} {}{} could not be {}: {}", scenes.size(), files || pictures ? "picture" : "scene",
-                       scenes.size() == 1 ? "" : "s", files ? "compared" : "drawn",
-                       listed(scenes, scenesNamed));
+    return fmt::format("{} could not be {}: {}",
+                       counted(scenes.size(), files || pictures ? "picture" : "scene"),
+                       files ? "compared" : "rendered", listed(scenes, scenesNamed));
 }
 
 // A place, and which of its pairs where it has several: "Box.glb b.exr/deferred".
@@ -227,9 +228,9 @@ std::string verdictLine(const Report& report) {
             "{}pass: {}{} within tolerance{}{}{}", errors,
             compared == 1 ? "the one compared channel" : fmt::format("all {} compared channels", compared),
             (all == 1 ? "" : fmt::format(" of {} comparisons", all)) + (compared == 1 ? " is" : " are"),
-            informative == 0
-                ? ""
-                : fmt::format(", and {} of light decide nothing: the paths' Settings differ", informative),
+            informative == 0 ? ""
+                             : fmt::format("; {} of light not counted: the paths' Settings differ",
+                                           counted(informative, "channel")),
             alone_on_a_side == 0 ? "" : fmt::format(" ({} more exist on one side only)", alone_on_a_side),
             hardlyAnything(report));
     // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.

@@ -90,7 +90,7 @@ EarlierReport readEarlier(const fs::path& where) {
             parseJson(textIn(file, json_bytes), [](int, const std::string& key) { return !isLeftOut(key); });
         const Place top(json);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
-            fail("is no report that compare wrote; give its folder or report.json");
+            fail("is not a report of compare; give its folder or report.json");
         EarlierReport report;
         const Place device = top.at("device");
         report.device = device.textOr("name", "") + ", " + device.textOr("driver", "");
@@ -194,10 +194,8 @@ Json jsonOf(const Trends& trends, const Report& report) {
 std::vector<std::string> trendLines(const Trends& trends, const Report& report) {
     std::vector<std::string> lines;
     if (!trends.device.empty())
-        lines.push_back(
-            fmt::format("the earlier report is of another device ({}): its figures may differ by how that "
-                        "rounds",
-                        trends.device));
+        lines.push_back(fmt::format(
+            "the earlier report is from another device ({}): numbers may differ by rounding", trends.device));
     for (const TrendKind kind :
          {TrendKind::fails_now, TrendKind::mended, TrendKind::moved, TrendKind::fresh}) {
         std::vector<std::string> places;
@@ -208,7 +206,7 @@ std::vector<std::string> trendLines(const Trends& trends, const Report& report) 
             if (!trend.moved.empty())
                 place += fmt::format(
                     " ({}{})", movedText(trend.moved.front()),
-                    trend.moved.size() == 1 ? "" : fmt::format(", {} figures more", trend.moved.size() - 1));
+                    trend.moved.size() == 1 ? "" : fmt::format(", {} more metrics", trend.moved.size() - 1));
             places.push_back(std::move(place));
         }
         if (!places.empty())

@@ -31,7 +31,7 @@ constexpr std::uint64_t most_program_bytes = std::uint64_t(4) << 30;
 std::string folderFrom(const JsonAt<Json>& json) {
     const std::string& folder = json.text();
     if (!folder.empty() && (!folder.ends_with('/') || !isOurName(folder + "part.json")))
-        json.fail(fmt::format("\"{}\" is no folder as diptych names them", oneLine(folder)));
+        json.fail(fmt::format("\"{}\" is not a folder name of diptych", oneLine(folder)));
     return folder;
 }
 
@@ -46,7 +46,7 @@ Manifest manifestFrom(const JsonAt<Json>& json) {
     for (const auto& item : json.at("items").each()) {
         manifest.items.push_back({item[0].text(), folderFrom(item[1]), item[2].whole(1, count)});
         if (!folders.insert(manifest.items.back().folder).second)
-            item.fail("has the folder of another scene");
+            item.fail("uses the folder of another scene");
     }
     for (const auto& error : json.at("errors").each())
         manifest.errors.push_back({error[0].text(), error[1].text()});
@@ -104,13 +104,15 @@ Manifest readManifest(const fs::path& folder, const char* file) {
         try {
             json = parseOrderedJson(textBelow(folder, file, json_bytes));
         } catch (const std::runtime_error& error) {
-            fail(fmt::format("is no report of a shard ({} {}); give the folders that --shard I/N wrote", file,
-                             error.what()));
+            fail(fmt::format("is not the report of a shard ({} {}); give the folders that --shard I/N wrote",
+                             file, error.what()));
         }
         const JsonAt top(json, file);
         if (top.textOr("software", "") != softwareName || top.numberOr("schema", 0) != 1)
-            fail(fmt::format(
-                "is no report of a shard ({} is not ours); give the folders that --shard I/N wrote", file));
+            fail(
+                fmt::format("is not the report of a shard ({} is not from diptych); give the folders that "
+                            "--shard I/N wrote",
+                            file));
         return manifestFrom(top);
     });
 }

@@ -33,11 +33,11 @@ std::string shortened(std::string text) {
 // What makes one manifest's command another than the other's, in words.
 std::string differenceOf(const Manifest& other, const Manifest& ours) {
     if (other.build != ours.build)
-        return fmt::format("is of another build ({}; the others are of {})", other.build, ours.build);
+        return fmt::format("is from another build ({}; the others are from {})", other.build, ours.build);
     if (other.command != ours.command)
-        return fmt::format("is of {}, the others are of {}", other.command, ours.command);
+        return fmt::format("is from {}, the others are from {}", other.command, ours.command);
     if (other.shard.count != ours.shard.count)
-        return fmt::format("is one of {} shards, the others are of {}", other.shard.count, ours.shard.count);
+        return fmt::format("is one of {} shards, the others of {}", other.shard.count, ours.shard.count);
     for (const auto& [key, value] : ours.plan.items()) {
         const Json there = other.plan.contains(key) ? other.plan[key] : Json();
         if (there == value) continue;
@@ -46,22 +46,22 @@ std::string differenceOf(const Manifest& other, const Manifest& ours) {
             for (const Item& item : ours.items) mine.insert(item.scene);
             for (const Item& item : other.items) theirs.insert(item.scene);
             for (const std::string& scene : theirs)
-                if (!mine.contains(scene)) return fmt::format("is of other scenes: {}", scene);
+                if (!mine.contains(scene)) return fmt::format("has another scene: {}", scene);
             for (const std::string& scene : mine)
-                if (!theirs.contains(scene)) return fmt::format("is of other scenes, without {}", scene);
-            return "is of scenes whose files have other sizes";
+                if (!theirs.contains(scene)) return fmt::format("lacks the scene {}", scene);
+            return "has scene files of other sizes";
         }
         // Of Settings the first that differs.
         if (value.is_object() && there.is_object())
             for (const auto& [name, setting] : value.items())
                 if (!there.contains(name) || there[name] != setting)
-                    return fmt::format("was asked for another {}: {} (the others: {})", name,
+                    return fmt::format("has another {}: {} (the others: {})", name,
                                        shortened(there.value(name, Json()).dump()),
                                        shortened(setting.dump()));
-        return fmt::format("was asked for another {}: {} (the others: {})", key, shortened(there.dump()),
+        return fmt::format("has another {}: {} (the others: {})", key, shortened(there.dump()),
                            shortened(value.dump()));
     }
-    return "is of another command";
+    return "is from another command";
 }
 
 // Of the identities that there are the one that most folders are of; of as many, that of the first.
@@ -78,8 +78,8 @@ std::string chosenOf(const std::vector<Found>& all) {
 
 std::optional<SceneError> Chosen::errorOf(const Item& item) const {
     if (!folders.contains(item.shard))
-        return SceneError{
-            item.scene, fmt::format("is of shard {}/{}, which is missing", item.shard, manifest.shard.count)};
+        return SceneError{item.scene, fmt::format("belongs to shard {}/{}, which is missing", item.shard,
+                                                  manifest.shard.count)};
     const auto& all = errors.at(item.shard);
     const auto error = std::ranges::find(all, item.scene, &SceneError::scene);
     return error == all.end() ? std::nullopt : std::optional(*error);
@@ -113,19 +113,18 @@ Chosen choose(const std::vector<fs::path>& folders, const char* file) {
             chosen.errors[shard.index] = found.manifest.errors;
         else
             chosen.problems.push_back(
-                fmt::format("{}: shard {}/{} is there twice, in {} too; the first is taken",
+                fmt::format("{}: shard {}/{} exists twice, also in {}; the first is used",
                             found.folder.string(), shard.index, shard.count, at->second.string()));
     }
     for (const Found& found : all)
         if (found.identity != identity)
-            chosen.problems.push_back(fmt::format("{}: {}; it is left out", found.folder.string(),
+            chosen.problems.push_back(fmt::format("{}: {}; it is ignored", found.folder.string(),
                                                   differenceOf(found.manifest, chosen.manifest)));
     const int count = chosen.manifest.shard.count;
     for (int index = 1; index <= count; ++index)
         if (!chosen.folders.contains(index))
-            chosen.problems.push_back(
-                fmt::format("shard {}/{} is missing; give the folder that it wrote, or run --shard {}/{}",
-                            index, count, index, count));
+            chosen.problems.push_back(fmt::format(
+                "shard {}/{} is missing; give its folder, or run --shard {}/{}", index, count, index, count));
     chosen.manifest.errors.clear();
     return chosen;
 }

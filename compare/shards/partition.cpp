@@ -46,7 +46,7 @@ int variable(const Variables& environment, const char* name, const std::string& 
     if (!number)
         throw std::runtime_error(fmt::format(
             "--shard {}: {} {}; run it as a task of a Slurm array (sbatch --array=1-16), or give --shard I/N",
-            word, name, text ? "is no number: " + *text : "is not set"));
+            word, name, text ? "is not a number: " + *text : "is not set"));
     return *number;
 }
 
@@ -65,8 +65,7 @@ Shard shardOfArray(const std::string& word, const Variables& environment) {
     if (!regular)
         throw std::runtime_error(
             fmt::format("--shard {}: the array is irregular (task {} of {} to {} by {}), and Slurm does not "
-                        "tell its tasks which "
-                        "there are; give --shard slurm/N with tasks 1 to N",
+                        "list its tasks; give --shard slurm/N with tasks 1 to N",
                         word, task.id, task.first, task.last, task.step));
     return {(task.id - task.first) / task.step + 1, count};
 }
@@ -113,7 +112,7 @@ Shard shardOf(const std::string& word, const Variables& environment) {
         first == "slurm" && count ? variable(environment, "SLURM_ARRAY_TASK_ID", word) : numberIn(first);
     if (!count || !index)
         throw std::runtime_error(
-            fmt::format("--shard {}: is I/N, the I-th of N from 1, as 2/16; or slurm, or slurm/N", word));
+            fmt::format("--shard {}: give I/N, counted from 1, e.g. 2/16; or slurm, or slurm/N", word));
     if (*count > most_shards)
         throw std::runtime_error(fmt::format("--shard {}: at most {} shards", word, most_shards));
     if (*count < 1 || *index < 1 || *index > *count)
@@ -163,7 +162,7 @@ std::map<std::string, double> timingsOf(const fs::path& report) {
             for (const auto& frame : top.at("frames").each())
                 if (const double ms = frame.numberOr("made_in_ms", 0); ms > 0)
                     timings[frame.textOr("scene", "")] += ms;
-        if (timings.empty()) fail("is no report.json with frames that were drawn, nor a folder of one");
+        if (timings.empty()) fail("is not a report.json with rendered frames, nor a folder with one");
         return timings;
     });
 }

@@ -31,8 +31,8 @@ std::string directivePath(const fs::path& path) {
     const std::string name = path.string();
     if (name.find_first_of("\"\\") != name.npos || oneLine(name, name.size()) != name)
         throw std::runtime_error(
-            fmt::format("-o {}: Slurm's scripts cannot name a log in such a folder; use one without "
-                        "quotes, backslashes, line breaks and other controls",
+            fmt::format("-o {}: a Slurm script cannot write a log to such a folder; use a name without "
+                        "quotes, backslashes, line breaks and control characters",
                         name));
     std::string text;
     for (const char c : name) text += c == '%' ? "%%" : std::string(1, c);
@@ -109,7 +109,7 @@ std::string jobNumber(const std::vector<std::string>& words) {
     number = number.substr(0, number.find(';'));
     if (ran.code != 0 || number.empty() || number.find_first_not_of("0123456789") != number.npos)
         throw std::runtime_error(
-            fmt::format("sbatch: {}", ran.out.empty() ? "failed without a word" : ran.out));
+            fmt::format("sbatch: {}", ran.out.empty() ? "failed without a message" : ran.out));
     return number;
 }
 
@@ -133,9 +133,8 @@ std::string arrayScript(const SlurmJob& job) {
                 fmt::format("#SBATCH --array=1-{}{}\n#SBATCH --requeue\n#SBATCH --open-mode=append\n",
                             job.shards, limit)
                     .c_str()) +
-           "# Exit code 1 is a difference beyond tolerance, which the joined report tells: Slurm calls such "
-           "a task\n"
-           "# failed, too.\n" +
+           "# Exit code 1 is a difference beyond tolerance, which the merged report shows. Slurm calls such "
+           "a task\n# failed, too.\n" +
            beginning(job) + before + " " + shellWord((slurmFolder(job.out) / "shard-").string()) +
            "\"$SLURM_ARRAY_TASK_ID\"" + after + "\n";
 }

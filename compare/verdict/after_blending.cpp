@@ -4,6 +4,7 @@
 #include "compare/metrics/pixel.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -108,10 +109,11 @@ std::optional<AfterBlending> afterBlending(const FramePair& pair) {
 std::string faultOf(const AfterBlending& found) {
     if (found.passed()) return {};
     return fmt::format(
-        "after the transparent draw: {} pixel(s) of lit differ that did not before it, or not as much "
-        "(largest {:.3g} at {},{}); {} pixel(s) show what is blended, {} differed before it{}",
-        found.pixels, found.largest, found.x, found.y, found.covered, found.before,
-        found.allowed > 0 ? fmt::format(", {} may after it", found.allowed) : "");
+        "the transparent draw adds a difference in lit at {} (largest {:.3g} at {},{}); blended fragments "
+        "cover {}, and {} differed before the draw{}",
+        counted(found.pixels, "pixel"), found.largest, found.x, found.y, counted(found.covered, "pixel"),
+        found.before,
+        found.allowed > 0 ? fmt::format("; tolerance: {}", counted(found.allowed, "pixel")) : "");
 }
 
 }  // namespace diptych

@@ -7,6 +7,7 @@
 #include "compare/run/version.h"
 #include "compare/verdict/comparison.h"
 #include "shared/image/atomic_file.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ std::string textOf(const double (&place)[3]) {
 
 // Every member of the camera by its name, as the user is told it.
 std::vector<std::pair<const char*, std::string>> namedMembers(const FrameCamera& camera) {
-    return {{"camera", camera.name.empty() ? "without a name" : camera.name},
+    return {{"camera", camera.name.empty() ? "unnamed" : camera.name},
             {"camera eye", textOf(camera.eye)},
             {"camera target", textOf(camera.target)},
             {"camera up", textOf(camera.up)},
@@ -83,7 +84,7 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
     // Of what a path is drawn with, the reference depends on these alone.
     if (isReferenceFrame(baseline)) now = withReferenceOf(referenceSettings(now), baseline.settings);
     if (const std::string settings = differing(baseline.settings, now); !settings.empty())
-        lines.push_back(fmt::format("baseline: other Settings: {}", settings));
+        lines.push_back(fmt::format("baseline: different Settings: {}", settings));
     return lines;
 }
 
@@ -95,8 +96,8 @@ std::string samplesProblem(const Settings& reference, const Settings& path) {
             "--spp 64",
             path.msaa);
     if (reference.spp < path.msaa)
-        return fmt::format("--msaa {}: the reference takes {} of a pixel's samples; use --spp 64", path.msaa,
-                           reference.spp);
+        return fmt::format("--msaa {}: the reference takes only {} per pixel; use --spp 64", path.msaa,
+                           counted(static_cast<std::uint64_t>(reference.spp), "sample"));
     return {};
 }
 
@@ -122,7 +123,7 @@ std::string updateBaseline(const fs::path& file, const Frame& frame, const Repor
     }
     if (std::rename(made.c_str(), file.c_str()) != 0) failed(file, errno);
     return fresh ? fmt::format("baseline {} written from {}", file.string(), frame.name)
-                 : fmt::format("baseline {} written anew from {}; the old one is {}", file.string(),
+                 : fmt::format("baseline {} replaced from {}; the old one is now {}", file.string(),
                                frame.name, old.string());
 }
 

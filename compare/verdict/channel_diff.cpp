@@ -5,6 +5,7 @@
 #include "compare/verdict/domain.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -56,38 +57,38 @@ std::string faultOf(const ChannelDiff& channel) {
     const Criterion& c = *channel.criterion;
     const std::string share = percentText(c.share);
     if (channel.unexplained_pixels.value_or(0) > 0)
-        return fmt::format("{} pixel(s) ({}) differ from what the encoding explains",
-                           *channel.unexplained_pixels, share);
+        return fmt::format("the encoding does not explain the difference at {} ({})",
+                           counted(*channel.unexplained_pixels, "pixel"), share);
     if (channel.encoding_use && channel.encoding_use->beyond > 0)
         return fmt::format(
-            "explained by the surfaces that deferred decodes, but {:.3g} times the bound of its G-buffer's "
-            "bits at {},{}, and beyond that bound at {} pixel(s) ({})",
-            channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
-            channel.encoding_use->beyond, share);
+            "the encoding explains the difference, but it exceeds the G-buffer's quantization bound at {} "
+            "({}): {:.3g} times the bound at {},{}",
+            counted(channel.encoding_use->beyond, "pixel"), share, channel.encoding_use->used,
+            channel.encoding_use->x, channel.encoding_use->y);
     if (const auto& use = channel.device_use)
         return use->beyond == 0 ? std::string()
                                 : fmt::format(
-                                      "{} pixel(s) ({}) of the same surface are further apart than the two "
-                                      "devices' precision allows, {:.3g} times that at {},{}",
-                                      use->beyond, share, use->used, use->x, use->y);
+                                      "the two devices' precision does not explain the difference at {} ({}) "
+                                      "of the same surface: {:.3g} times the bound at {},{}",
+                                      counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
     if (const auto& f = channel.footprints) {
         if (!(f->used <= 1))
             return fmt::format(
-                "{} pixel(s) ({}) with smooth surroundings are beyond their bound: p99.9 is {:.3g} times it, "
-                "most at {},{}",
-                f->beyond, share, f->used, f->x, f->y);
+                "the error exceeds its bound at {} ({}) with smooth surroundings: p99.9 is {:.3g} times the "
+                "bound, the largest at {},{}",
+                counted(f->beyond, "pixel"), share, f->used, f->x, f->y);
         if (!(f->flip <= detailFlip))
-            return fmt::format("FLIP is {:.3g} over the {} pixels with detail, which exceeds {}", f->flip,
-                               f->detailed, detailFlip);
+            return fmt::format("mean FLIP {:.3g} over {} with detail exceeds {}", f->flip,
+                               counted(f->detailed, "pixel"), detailFlip);
         return {};
     }
     if (c.measured <= c.limit) return {};
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.most_pixels
-               ? fmt::format("{} of the pixels exceed {:.4g}, and 0.1 % may: {} is {:.4g}{}", share, c.limit,
-                             c.figure, c.measured,
-                             channel.certain_p999 ? "; excess: the error less what the reference leaves open "
-                                                    "and the G-buffer's bits allow"
+               ? fmt::format("{} of the pixels exceed {:.4g}, and at most 0.1 % may: {} is {:.4g}{}", share,
+                             c.limit, c.figure, c.measured,
+                             channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
+                                                    "and the G-buffer's quantization bound"
                                                   : "")
                : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
 }
@@ -98,15 +99,16 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
     const ChannelStats& s = channel.stats;
     if (channel.reason.empty() || s.infinite == 0) return;
     if (s.nonfinite_baseline + s.nonfinite_test == 0) {
-        channel.reason +=
-            fmt::format("; {} pixel(s) have an infinite error: the baseline is 0 everywhere", s.infinite);
+        channel.reason += fmt::format("; the error is infinite at {}: the baseline is 0 everywhere",
+                                      counted(s.infinite, "pixel"));
         return;
     }
     std::string who;
     for (const auto& [count, frame] :
          {std::pair{s.nonfinite_baseline, &pair.baseline}, {s.nonfinite_test, &pair.test}})
         if (count > 0)
-            who += fmt::format("{}{} pixel(s) of {}", who.empty() ? "" : " and ", count, frame->name);
+            who +=
+                fmt::format("{}{} of {}", who.empty() ? "" : " and ", counted(count, "pixel"), frame->name);
     channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
 }
 
@@ -149,7 +151,8 @@ void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     channel.tolerance = derivedTolerance(mode, pair);
     if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
         channel.tolerance.max += noise;
-        channel.tolerance.because += fmt::format("; and {:.3g} that two runs of one path differ by", noise);
+        channel.tolerance.because +=
+            fmt::format("; plus {:.3g}, the difference of two runs of one path", noise);
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
     channel.encoding_use = encodingUse(mode, pair);
@@ -221,8 +224,8 @@ bool isInformative(const DebugMode& mode, const FramePair& pair) {
 
 Tolerance informativeTolerance(const FramePair& pair) {
     return {std::numeric_limits<double>::infinity(),
-            fmt::format("the two sides are lit by other Settings ({}), so that it decides nothing; a rule of "
-                        "--tolerances judges it",
+            fmt::format("the Settings of the two sides change the light ({}), so this channel does not "
+                        "count; a rule in --tolerances makes it count",
                         pair.light_differs)};
 }
 

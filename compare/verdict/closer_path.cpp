@@ -144,11 +144,11 @@ std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& ch
         return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
     };
     const std::string times = std::isfinite(channel.by)             ? timesText(channel.by) + " times less"
-                              : channel.paths[near].stats.mean == 0 ? "none at all"
-                                                                    : "which is infinite";
+                              : channel.paths[near].stats.mean == 0 ? "no error"
+                                                                    : "infinite";
     return fmt::format(
-        "{}: {} is closer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
-        "pixels ({} at {:.1f} %, both alike at {:.1f} %)",
+        "{}: {} is closer to the {}: mean error {:.4g} against {:.4g} for {} ({}); it is closer at {:.1f} % "
+        "of the pixels ({} at {:.1f} %, equal at {:.1f} %)",
         channel.mode->name, frames[closer.paths[near]].name, reference, channel.paths[near].stats.mean,
         channel.paths[far].stats.mean, frames[closer.paths[far]].name, times,
         percent(channel.closer_pixels[near]), frames[closer.paths[far]].name,

@@ -9,6 +9,7 @@
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/made_channels.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,34 +49,32 @@ bool comparesLitAlone(const Frame& left, const Frame& right) {
 void readCounters(const Frame& frame, Comparison& comparison) {
     const FrameCounters& counters = frame.counters;
     if (counters.unreproduced_pixels > 0)
-        comparison.failures.push_back(fmt::format(
-            "{}: {} pixel(s) of the capture's lit are not the timed pipeline's, so its channels may belong "
-            "to another picture",
-            frame.name, counters.unreproduced_pixels));
+        comparison.failures.push_back(
+            fmt::format("{}: lit of the capture differs from the timed pipeline at {}, so its channels may "
+                        "belong to another image",
+                        frame.name, counted(counters.unreproduced_pixels, "pixel")));
     if (counters.overflowed_lists > 0)
-        comparison.notes.push_back(fmt::format(
-            "{}: {} light list(s) found no room, so every light was evaluated there: exact, but slow",
-            frame.name, counters.overflowed_lists));
+        comparison.notes.push_back(
+            fmt::format("{}: {} overflowed, so every light was evaluated there: exact, but slow", frame.name,
+                        counted(counters.overflowed_lists, "light list")));
     if (counters.shadow_pages.fallback > 0)
         comparison.notes.push_back(fmt::format(
-            "{}: {} of {} shadow page(s) found no room in --clipmap-pages {}: a coarser level serves there",
-            frame.name, counters.shadow_pages.fallback, counters.shadow_pages.requested,
+            "{}: {} of {} did not fit in --clipmap-pages {}; a coarser level replaces them", frame.name,
+            counters.shadow_pages.fallback, counted(counters.shadow_pages.requested, "shadow page"),
             frame.settings.clipmap_pages));
     if (counters.unsorted.fragments > 0)
-        comparison.notes.push_back(fmt::format(
-            "{}: {} blended fragment(s) of {} pixel(s) found no room in --transparency-layers {}: "
-            "their mean is blended as one layer behind the others",
-            frame.name, counters.unsorted.fragments, counters.unsorted.pixels,
-            frame.settings.transparency_layers));
-    if (counters.energy_cut > 0)
         comparison.notes.push_back(
-            fmt::format("{}: --light-cutoff {} takes away {:.3g} % of the flux that lights without a range "
-                        "send onto the scene's "
-                        "surfaces, unshadowed",
-                        frame.name, frame.settings.light_cutoff, 100 * counters.energy_cut));
+            fmt::format("{}: {} of {} did not fit in --transparency-layers {}; their mean is blended as one "
+                        "layer behind the others",
+                        frame.name, counted(counters.unsorted.fragments, "blended fragment"),
+                        counted(counters.unsorted.pixels, "pixel"), frame.settings.transparency_layers));
+    if (counters.energy_cut > 0)
+        comparison.notes.push_back(fmt::format(
+            "{}: --light-cutoff {} removes {:.3g} % of the unshadowed flux from lights without a range",
+            frame.name, frame.settings.light_cutoff, 100 * counters.energy_cut));
     if (counters.nonfinite_pixels > 0)
-        comparison.failures.push_back(
-            fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
+        comparison.failures.push_back(fmt::format("{}: lit is NaN or infinite at {}", frame.name,
+                                                  counted(counters.nonfinite_pixels, "pixel")));
     for (const std::string& line : repairedInWords(frame))
         comparison.failures.push_back(frame.name + ": " + line);
 }
@@ -84,12 +83,13 @@ void readCounters(const Frame& frame, Comparison& comparison) {
 // Compute kernels write the same on every device, whatever the scheduling.
 void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& comparison) {
     if (!frame.changed_buffers.empty())
-        comparison.failures.push_back(fmt::format("{}: compute kernels left other {} in a second run: a race",
-                                                  frame.name, fmt::join(frame.changed_buffers, ", ")));
+        comparison.failures.push_back(
+            fmt::format("{}: a second run of the compute shaders left other data in {}: a race", frame.name,
+                        fmt::join(frame.changed_buffers, ", ")));
     for (const auto& [mode, noise] : frame.noise) {
         if (noise.pixels == 0) continue;
-        const std::string line = fmt::format("{}: two runs differ in {} at {} pixel(s), by up to {:.3g}",
-                                             frame.name, debugMode(mode).name, noise.pixels, noise.max);
+        const std::string line = fmt::format("{}: two runs differ in {} at {}, by up to {:.3g}", frame.name,
+                                             debugMode(mode).name, counted(noise.pixels, "pixel"), noise.max);
         if (cpu)
             comparison.failures.push_back(line + ": a race");
         else
@@ -116,8 +116,8 @@ void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
         if (isReferenceFrame(*frame) || frame->origin.external || !frame->origin.file.empty()) return;
     comparison.differing = settingDifferences(left.settings, right.settings);
     if (!comparison.differing.empty())
-        comparison.notes.push_back(fmt::format("{} and {} have Settings of their own: {}", left.name,
-                                               right.name, inWords(comparison.differing)));
+        comparison.notes.push_back(fmt::format("{} and {} have different Settings: {}", left.name, right.name,
+                                               inWords(comparison.differing)));
 }
 
 // The forward+ Frame of this pair's scene and camera that tells what its encoding may do.
@@ -152,17 +152,17 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
 std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
     // Less, and the background decides every picture and hardly a pixel the verdict; or what is black does.
     constexpr double least = 0.01, least_lit = 0.05;
-    if (coverage.known && shown == 0) return "both pictures are empty: no surface is in view";
+    if (coverage.known && shown == 0) return "both images are empty: no surface is in view";
     if (coverage.known && shown < least)
-        return fmt::format("only {} of the picture shows the scene", percentText(shown));
+        return fmt::format("only {} of the image shows the scene", percentText(shown));
     const auto litOf = [&](const Frame& frame) {
         const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
         const bool asked = lit != frame.channels.end() && frame.isRequested(lit->first);
         return asked ? litShare(lit->second, coverage) : 1.0;
     };
     const double lit = std::max(litOf(left), litOf(right));
-    if (lit == 0) return "both pictures are black: no light reaches what is in view";
-    return lit < least_lit ? fmt::format("only {} of what is in view is lit", percentText(lit))
+    if (lit == 0) return "both images are black: no light reaches a visible surface";
+    return lit < least_lit ? fmt::format("light reaches only {} of the visible surfaces", percentText(lit))
                            : std::string();
 }
 
@@ -181,11 +181,9 @@ std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
         return fmt::format("{} of {} in {}", f.smooth, f.smooth + f.detailed + f.edges, channel.mode->name);
     };
     return fmt::format(
-        "mode scene: pixels whose surroundings are smooth in both pictures are held to a bound each, the "
-        "others "
-        "together to a mean FLIP of {}; smooth are from {} to {}, and each channel's section has its own "
-        "numbers",
-        detailFlip, of(*fewest), of(*most));
+        "--reference-mode scene: each pixel with smooth surroundings has its own bound (from {} to {}); the "
+        "others together may have a mean FLIP of {}; each channel's section has its numbers",
+        of(*fewest), of(*most), detailFlip);
 }
 
 // The channels of which a reference in mode scene judges next to no pixel by a bound of its own. Empty where
@@ -199,7 +197,7 @@ std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
                 f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));
     return words.empty()
                ? std::string()
-               : fmt::format("hardly a pixel is held to a bound of its own in {}", fmt::join(words, ", "));
+               : fmt::format("almost no pixel has a bound of its own in {}", fmt::join(words, ", "));
 }
 
 }  // namespace
@@ -226,10 +224,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     comparison.test = test;
     const Frame &left = report.baseline(comparison), &right = report.test(comparison);
     if (left.settings.size != right.settings.size)
-        throw std::runtime_error(
-            fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", left.name,
-                        left.settings.size.width, left.settings.size.height, right.name,
-                        right.settings.size.width, right.settings.size.height));
+        throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
+                                             left.name, left.settings.size.width, left.settings.size.height,
+                                             right.name, right.settings.size.width,
+                                             right.settings.size.height));
     // A picture of another device may have been rounded differently.
     const bool here = std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
         return frame->origin.file.empty() ||
@@ -261,9 +259,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     const bool lit_alone = comparesLitAlone(left, right);
     if (lit_alone)
         comparison.notes.push_back(
-            "lit alone is compared with the reference: a path's other channels are of one of a pixel's "
-            "samples, "
-            "the reference's of the pixel's middle");
+            "only lit is compared with the reference: with MSAA, a path's other channels show one sample, "
+            "the reference's the pixel centre");
     bool shared = false;
     std::vector<std::string> lacking_channels;  // of another renderer, which owes us none
     std::vector<std::string> names;             // of the channels that one side has at least
@@ -276,7 +273,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     for (const Frame* frame : {&left, &right})
         if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
             (options.strict ? comparison.failures : comparison.notes)
-                .push_back(fmt::format("{} of {}: none of our channels, not compared",
+                .push_back(fmt::format("{} of {}: not compared, Diptych has no such channel",
                                        fmt::join(frame->origin.left_out, ", "), frame->name));
     for (const DebugMode& mode : debugModes()) {
         const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
@@ -286,7 +283,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
             comparison.notes.push_back(
-                fmt::format("{} was not compared: --assign {} and {} evaluate other lights", mode.name,
+                fmt::format("{} was not compared: --assign {} and {} evaluate different lights", mode.name,
                             nameOf(left.settings.assign), nameOf(right.settings.assign)));
         } else if (onLeft && onRight) {
             shared = true;
@@ -307,8 +304,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                 channel.mode = &mode;
                 channel.tolerance = {
                     0, forward_only
-                           ? "the G-buffer does not carry it, so only forward+ shows it"
-                           : "forward+ shades each triangle as it is drawn, so only deferred shows it"};
+                           ? "the G-buffer does not store it, so only forward+ has it"
+                           : "forward+ shades each triangle as it is drawn, so only deferred has it"};
                 channel.verdict = forward_only ? Verdict::forward_only : Verdict::deferred_only;
             } else {
                 judgeOneSided({std::string(mode.name), one}, demands, comparison.failures, comparison.notes);
@@ -317,10 +314,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     }
     if (!shared)
         throw std::runtime_error(
-            fmt::format("{} and {} share no channel that was asked for; add one that both make to --channels",
+            fmt::format("{} and {} share no requested channel; add one that both support to --channels",
                         left.name, right.name));
     if (!lacking_channels.empty())
-        comparison.notes.push_back(fmt::format("{} has none of {}, which were not compared",
+        comparison.notes.push_back(fmt::format("{} does not have {}: not compared",
                                                (left.origin.external ? left : right).name,
                                                fmt::join(lacking_channels, ", ")));
     std::atomic<std::size_t> done{0};
@@ -345,20 +342,19 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     for (const Rule* rule : idleRules(options.rules, names))
         comparison.notes.push_back(idleText(*rule, names));
     if (!comparison.coverage.known)
-        comparison.notes.push_back(
-            "neither material_id nor depth is there: background pixels count in every mean");
+        comparison.notes.push_back("without material_id and depth, background pixels count in every mean");
     if (const std::string emptiness = emptinessOf(left, right, comparison.coverage, shown);
         !emptiness.empty()) {
         if (options.allow_empty)
             comparison.notes.push_back(emptiness);
         else if (options.strict)
-            comparison.failures.push_back(emptiness + "; --allow-empty grants that");
+            comparison.failures.push_back(emptiness + "; --allow-empty accepts that");
         else
             comparison.emptiness = emptiness;
     }
     if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) {
         if (options.strict)
-            comparison.failures.push_back(loose + ", and --strict asks for more");
+            comparison.failures.push_back(loose + "; --strict does not accept that");
         else
             comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + loose;
     }

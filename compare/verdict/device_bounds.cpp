@@ -223,44 +223,43 @@ double DeviceBounds::blendedApart(std::size_t i) const {
 std::string DeviceBounds::because() const {
     const auto& [a, b] = across_.devices;
     const std::string placed = fmt::format(
-        "vertices are placed to 1/{} and 1/{} of a pixel, so much of what changes to the next one",
+        "vertices snap to 1/{} and 1/{} of a pixel: the bound is that fraction of the change to the next "
+        "pixel",
         1u << a.sub_pixel_bits, 1u << b.sub_pixel_bits);
     switch (kind_) {
         case Kind::id:
-            return "an index is carried whole";
+            return "an index is stored exactly";
         case Kind::step:
-            return "an index, which may be its neighbour's where it changes";
+            return "an index; where it changes, a neighbour's value is allowed";
         case Kind::facet:
-            return "a triangle's normal, from places that are rounded to 2^-24 of their distance, and "
-                   "packed";
+            return "a triangle's normal, from positions rounded to 2^-24 of their distance, then packed";
         case Kind::place:
-            return placed + fmt::format("; and {:.2g} of it by rounding", relativeRounding());
+            return placed + fmt::format("; plus {:.2g} of the value for rounding", relativeRounding());
         case Kind::surface: {
             std::string words = placed;
             if (texels_)
-                words += "; filters mix texels of two levels with weights of " +
+                words += "; filter weights have " +
                          fmt::format("{} and {} bits", a.sub_texel_bits, b.sub_texel_bits) +
-                         ", and Vulkan leaves open the level of detail, so that either may be any mean of "
-                         "the texels that it may see" +
+                         "; Vulkan does not fix the level of detail, so each device may return any mean of "
+                         "the texels in reach" +
                          decoding();
-            if (bits_ > 0) words += fmt::format("; and both G-buffers' bits, {:.3g}", bits_);
+            if (bits_ > 0)
+                words += fmt::format("; plus the quantization bound of both G-buffers, {:.3g}", bits_);
             return words;
         }
         case Kind::light:
             return fmt::format(
-                "what {} makes of the surfaces that {} drew, both in float32: 1e-4 each{}, before anything "
-                "is "
-                "blended; and blended, no further apart than the next pixels",
+                "{} shades the surfaces that {} rendered, both in float32: 1e-4 each{} before blending; "
+                "after blending, no more than neighbouring pixels differ",
                 a.name, b.name,
                 rounded_as_ > error_.floor()
-                    ? " of no less than a tenth of the mean luminance, as integrals over area lights cancel"
+                    ? " (relative to at least a tenth of the mean luminance: area-light integrals cancel)"
                     : "");
         case Kind::seen:
-            return "float32 weights, 1e-4 each; at a shadow's edge texels of the map may show another "
+            return "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show another "
                    "triangle";
         case Kind::list:
-            return "each device's lists have cells of the size that costs it least; what they leave out "
-                   "shows "
+            return "each device uses the cell size that is cheapest on it; lights missing from a list show "
                    "in lit";
     }
     return {};
@@ -315,9 +314,9 @@ double DeviceBounds::textures(std::size_t i) const {
 
 std::string DeviceBounds::decoding() const {
     if (!isColor())
-        return "; their filters round by up to " +
-               fmt::format("{:.2g} of a code", 255 * filterRounding(across_, false));
-    return fmt::format("; they decode sRGB up to {:.2g} % apart", 100 * shares_[1]);
+        return "; filters round by up to " +
+               fmt::format("{:.2g} of an 8-bit step", 255 * filterRounding(across_, false));
+    return fmt::format("; their sRGB decoding differs by up to {:.2g} %", 100 * shares_[1]);
 }
 
 EncodingUse deviceUse(const DebugMode& mode, const FramePair& pair) {

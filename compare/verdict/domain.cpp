@@ -3,6 +3,7 @@
 
 #include "compare/metrics/pixel.h"
 #include "compare/verdict/encoding_bits.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -37,11 +38,11 @@ Outside outside(Domain domain, const float* p, int components) {
 const char* faultOf(Domain domain) {
     switch (domain) {
         case Domain::unit:
-            return "no unit vectors, length";
+            return "vectors are not of unit length";
         case Domain::share:
-            return "not between 0 and 1:";
+            return "values are not between 0 and 1";
         case Domain::positive:
-            return "negative:";
+            return "values are negative";
         case Domain::any:
             break;
     }
@@ -69,8 +70,8 @@ std::string outsideDomain(const DebugMode& mode, const Image& image, const Cover
     }
     if (count == 0) return {};
     const auto width = static_cast<std::size_t>(image.width);
-    return fmt::format("{} pixel(s) are {} {:.6g} at {},{}", count, faultOf(mode.domain), worst.value,
-                       place % width, place / width);
+    return fmt::format("{} at {}, the worst {:.6g} at {},{}", faultOf(mode.domain), counted(count, "pixel"),
+                       worst.value, place % width, place / width);
 }
 
 }  // namespace diptych

@@ -79,12 +79,12 @@ public:
     std::string beside() const {
         std::string words;
         if (step_ > 0)
-            words += fmt::format("; and {} steps of {}, each {:.3g} of lit", stepsOfPictures,
+            words += fmt::format("; plus {} steps of {}, each {:.3g} of lit", stepsOfPictures,
                                  nameOf(own_settings_->lit_format), step_);
         if (half_ > 0)
             words += fmt::format(
-                "; and {:.3g} of it, which roundings of {:.3g} by floats of 16 bits come to, "
-                "with normals turned by 12 of these more",
+                "; plus {:.3g} of lit for 16-bit float rounding (each {:.3g}) and normals rotated by 12 "
+                "roundings",
                 half_, halfRoundoff);
         return words;
     }

@@ -63,7 +63,7 @@ std::string EnvironmentCost::because(const DebugMode& mode) const {
                                 : fmt::format("{} samples of the lobe, their spread and {:.3g} %,",
                                               settings_->ibl_samples, 100 * sampledPart(*settings_));
     if (!isDiffuse(mode) && !isSpecular(mode) && !isAll(mode)) return {};
-    return fmt::format("; beyond what {} cost at each pixel, by the reference's own integrals",
+    return fmt::format("; plus the error of {} at each pixel, as the reference integrates it",
                        isDiffuse(mode)    ? diffuse
                        : isSpecular(mode) ? specular
                                           : diffuse + ", " + specular);

@@ -8,6 +8,7 @@
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -300,13 +301,13 @@ private:
 
 Tolerance footprintTolerance(const Footprints& footprints) {
     std::string because = fmt::format(
-        "{} pixels whose surroundings are smooth in both pictures are held to what changes within two pixels "
-        "of the reference, to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
-        footprints.smooth);
+        "{} with smooth surroundings in both images; the bound of each is the reference's change within two "
+        "pixels, 8-bit texel filtering, G-buffer quantization and 1e-4",
+        counted(footprints.smooth, "pixel"));
     if (footprints.detailed > 0)
-        because += fmt::format("; the other {} to a mean FLIP of {}, and have {:.3g}", footprints.detailed,
-                               detailFlip, footprints.flip);
-    if (footprints.edges > 0) because += fmt::format("; {} at edges to nothing", footprints.edges);
+        because += fmt::format("; the other {} may have a mean FLIP of {} and have {:.3g}",
+                               footprints.detailed, detailFlip, footprints.flip);
+    if (footprints.edges > 0) because += fmt::format("; {} at edges have no limit", footprints.edges);
     return {footprints.most, because, true};
 }
 

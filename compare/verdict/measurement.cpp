@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/measurement.h"
 
+#include "shared/text/counted.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,17 +62,20 @@ const std::array rows{
     Row{{"relative_max", false, "largest |t - r| / max(|r|, 1e-3 mean)"}, plain<&PlainMetrics::relative_max>},
     Row{{"relative_mean", false, "mean of |t - r| / max(|r|, 1e-3 mean)"},
         plain<&PlainMetrics::relative_mean>},
-    Row{{"relative_p99", false, "its 99th percentile"}, plain<&PlainMetrics::relative_p99>},
-    Row{{"relative_p999", false, "its 99.9th percentile"}, plain<&PlainMetrics::relative_p999>},
-    Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, of linear values the reference's largest"},
+    Row{{"relative_p99", false, "99th percentile of |t - r| / max(|r|, 1e-3 mean)"},
+        plain<&PlainMetrics::relative_p99>},
+    Row{{"relative_p999", false, "99.9th percentile of |t - r| / max(|r|, 1e-3 mean)"},
+        plain<&PlainMetrics::relative_p999>},
+    Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, or the reference's largest linear value"},
         plain<&PlainMetrics::psnr>},
     Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"},
         [](const Measurement& m) { return m.plain().ssim; }},
-    Row{{"ulp_max", false, "most float32 values between t and r"}, plain<&PlainMetrics::ulp_max>},
+    Row{{"ulp_max", false, "largest number of float32 values between t and r"},
+        plain<&PlainMetrics::ulp_max>},
     Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
     Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&PlainMetrics::angle_mean>},
-    Row{{"length_max", false, "largest difference of vectors' lengths"}, angle<&PlainMetrics::length_max>},
+    Row{{"length_max", false, "largest difference of vector lengths"}, angle<&PlainMetrics::length_max>},
 };
 
 }  // namespace
@@ -209,7 +214,7 @@ Decision decide(const Rule& rule, const Measurement& measurement) {
     const std::uint64_t different = measurement.plain().nonfinite_different;
     if (different == 0 || boundsFigure(rule.fail, FAILING)) return decision;
     const std::string nonfinite =
-        fmt::format("{} pixel(s) are NaN or infinite against something else", different);
+        fmt::format("NaN or infinite values differ at {}", counted(different, "pixel"));
     decision.reason =
         decision.level == Level::fail ? fmt::format("{}; {}", nonfinite, decision.reason) : nonfinite;
     decision.level = Level::fail;

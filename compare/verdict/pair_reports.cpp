@@ -9,6 +9,7 @@
 #include "compare/verdict/surface_pixels.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -216,10 +217,10 @@ void showOurBackground(Frame& external, const Frame& ours) {
         if (const auto found = ours.channels.find(static_cast<int>(mode)); found != ours.channels.end())
             external.channels.try_emplace(static_cast<int>(mode), found->second);
     if (shown > 0)
-        external.notes.push_back(fmt::format(
-            "{} shows something at {} pixel(s) where {} shows no surface: its background, or edges "
-            "that are elsewhere; they are not compared",
-            external.name, shown, ours.name));
+        external.notes.push_back(
+            fmt::format("{} is not black at {} where {} shows no surface: a background or shifted edges; "
+                        "these pixels are not compared",
+                        external.name, counted(shown, "pixel"), ours.name));
 }
 
 void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,

@@ -6,6 +6,7 @@
 #include "shared/image/file_bytes.h"
 #include "shared/image/free_memory.h"
 #include "shared/image/picture_file.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -126,7 +127,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
     checkMemory(fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height),
                 static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options) + rows),
-                "compare smaller pictures, or parts of them");
+                "compare smaller images, or parts of them");
     // If neither file can be read, the error names the reference, whichever thread was faster.
     PictureFile pictures[2];
     std::exception_ptr failures[2];
@@ -146,19 +147,18 @@ PicturePair readPair(const std::string& reference, const std::string& test,
 
 void bringTogether(PictureFile& a, PictureFile& b, bool strict, PictureDiff& diff) {
     if (a.width != b.width || a.height != b.height)
-        throw std::runtime_error(
-            fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", diff.reference,
-                        a.width, a.height, diff.test, b.width, b.height));
+        throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
+                                             diff.reference, a.width, a.height, diff.test, b.width,
+                                             b.height));
     if (a.display_referred != b.display_referred) {
-        diff.notes.push_back(fmt::format("{} is {} and was made linear, by the sRGB curve, as the other is",
+        diff.notes.push_back(fmt::format("{} is {}; it was decoded from sRGB to linear to match the other",
                                          a.display_referred ? diff.reference : diff.test,
                                          a.display_referred ? a.format : b.format));
         makeLinear(a.display_referred ? a : b);
     }
     if (a.straight_alpha != b.straight_alpha && hasAlpha(a) && hasAlpha(b)) {
-        diff.notes.push_back(
-            fmt::format("{}: its colours were multiplied by its alpha, as those of the other are",
-                        a.straight_alpha ? diff.reference : diff.test));
+        diff.notes.push_back(fmt::format("{}: colours were multiplied by alpha to match the other",
+                                         a.straight_alpha ? diff.reference : diff.test));
         associate(a.straight_alpha ? a : b);
     }
     for (const PictureFile* file : {&a, &b}) {
@@ -203,7 +203,7 @@ Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel
         options.metric_given || options.tolerance_given || options.failing ? commandLine : byDefault;
     Quantity quantity{options.metric, 0};
     if (!options.failing && !(*channel.measurement)(quantity)) {
-        rule.because = fmt::format("{} is not defined for it", quantity.figure);
+        rule.because = fmt::format("{} is not defined for this channel", quantity.figure);
         if (options.metric_given) return rule;
         quantity.figure = "max";
     }
@@ -237,7 +237,8 @@ void sayHidden(const PictureDiff& diff, PictureChannelDiff& color) {
             if ((alpha_a[x] != 0 || alpha_b[x] != 0) && !std::equal(a + 3 * x, a + 3 * x + 3, b + 3 * x))
                 return;
     }
-    color.decision.reason += fmt::format("; {} is 0 in both wherever they differ, which hides that", name);
+    color.decision.reason +=
+        fmt::format("; {} is 0 in both wherever they differ, so the difference is invisible", name);
 }
 
 void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
@@ -257,9 +258,9 @@ void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
     for (const auto& channel : diff.channels) {
         const ChannelStats& s = channel->measurement->stats();
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
-            diff.notes.push_back(
-                fmt::format("{}: {} pixel(s) of the reference and {} of the test are NaN or infinite",
-                            channel->pair.name, s.nonfinite_baseline, s.nonfinite_test));
+            diff.notes.push_back(fmt::format("{}: {} of the reference and {} of the test are NaN or infinite",
+                                             channel->pair.name, counted(s.nonfinite_baseline, "pixel"),
+                                             s.nonfinite_test));
         if (!channel->rule.because.empty() && isOwnRule(channel->rule)) without.push_back(channel->pair.name);
     }
     if (!without.empty())
@@ -288,7 +289,7 @@ std::string figureOfMetric(const std::string& name) {
     std::string all;
     for (const Figure& figure : figures()) all += fmt::format(", {}", figure.name);
     throw std::runtime_error(
-        fmt::format("--metric {}: no such figure; there are relative, angular, ulp{}", name, all));
+        fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp{}", name, all));
 }
 
 DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel) {
@@ -374,7 +375,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
             return (*channel->measurement)({options.metric, 0}).has_value();
         }))
         throw std::runtime_error(
-            fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
+            fmt::format("--metric {}: not defined for any channel of these images", options.metric));
     for (auto& channel : diff.channels) sayHidden(diff, *channel);
     addNotes(diff, options);
     judgeIdleRules(diff, options.rules, names);
@@ -382,10 +383,10 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         return isBlack(channel->pair.reference.rows(), *diff.coverage) &&
                isBlack(channel->pair.test.rows(), *diff.coverage);
     });
-    constexpr const char* blackness = "both pictures are black: every value compared is 0";
+    constexpr const char* blackness = "both images are black: every compared value is 0";
     if (black && !options.allow_empty) {
         if (options.strict)
-            diff.failures.push_back(fmt::format("{}; --allow-empty grants that", blackness));
+            diff.failures.push_back(fmt::format("{}; --allow-empty accepts that", blackness));
         else
             diff.emptiness = blackness;
     }

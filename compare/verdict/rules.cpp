@@ -36,17 +36,17 @@ double numberOf(const Json& value, const std::string& what) {
 
 Condition bound(const std::string& figure, const Json& value) {
     const double limit = numberOf(value, figure);
-    if (!(limit >= 0)) fail(fmt::format("{} {} is negative: no error is", figure, limit));
+    if (!(limit >= 0)) fail(fmt::format("{} {} is negative; give 0 or more", figure, limit));
     return {Condition::Kind::bound, {figure, 0}, limit, {}};
 }
 
 // { "above": error, "share": of the pixels }
 Condition share(const Json& value) {
     if (!value.is_object() || value.size() != 2 || !value.contains("above") || !value.contains("share"))
-        fail("failing is { \"above\": ERROR, \"share\": 0 to 1 }");
+        fail("failing must be { \"above\": ERROR, \"share\": 0 to 1 }");
     const double above = numberOf(value["above"], "above"), most = numberOf(value["share"], "share");
-    if (!(above >= 0)) fail(fmt::format("failing: above {} is negative: no error is", above));
-    if (!(most >= 0 && most <= 1)) fail(fmt::format("failing: share {} is not from 0 to 1", most));
+    if (!(above >= 0)) fail(fmt::format("failing: above {} is negative; give 0 or more", above));
+    if (!(most >= 0 && most <= 1)) fail(fmt::format("failing: share {} is not between 0 and 1", most));
     return {Condition::Kind::bound, {FAILING, above}, most, {}};
 }
 
@@ -56,7 +56,8 @@ public:
 
     // A condition from all members of the object except `others`; all must hold.
     Condition read(const Json& object, const std::set<std::string>& others = {}) {
-        if (!object.is_object()) fail(fmt::format("{} is no object of bounds", oneLine(object.dump(), 60)));
+        if (!object.is_object())
+            fail(fmt::format("{} is not an object of limits", oneLine(object.dump(), 60)));
         Condition all{Condition::Kind::all, {}, 0, {}};
         for (const auto& [key, value] : object.items())
             if (!others.contains(key)) all.parts.push_back(member(key, value));
@@ -72,24 +73,22 @@ private:
         if (key == "preset") return preset(value);
         if (key == FAILING) return share(value);
         if (findFigure(key)) return bound(key, value);
-        fail(fmt::format("no such figure {}; there are {}, and all, any, preset", oneLine(key),
-                         figureNames()));
+        fail(fmt::format("unknown metric {}; use one of {}, all, any, preset", oneLine(key), figureNames()));
     }
 
     Condition group(const std::string& key, const Json& value) {
-        if (!value.is_array() || value.empty()) fail(key + " is no array of bounds");
+        if (!value.is_array() || value.empty()) fail(key + " is not a non-empty array of limits");
         Condition group{key == "all" ? Condition::Kind::all : Condition::Kind::any, {}, 0, {}};
         for (const Json& part : value) group.parts.push_back(read(part));
         return group;
     }
 
     Condition preset(const Json& value) {
-        if (!value.is_string()) fail("preset is no name");
+        if (!value.is_string()) fail("preset is not a string");
         const std::string name = value.get<std::string>();
         const auto found = presets_.find(name);
-        if (found == presets_.end()) fail(fmt::format("no such preset {}", oneLine(name)));
-        if (std::ranges::count(open_, name))
-            fail(fmt::format("preset {} leads back to itself", oneLine(name)));
+        if (found == presets_.end()) fail(fmt::format("unknown preset {}", oneLine(name)));
+        if (std::ranges::count(open_, name)) fail(fmt::format("preset {} refers to itself", oneLine(name)));
         open_.push_back(name);
         Condition condition = read(found->second, {"because"});
         open_.pop_back();
@@ -100,38 +99,37 @@ private:
 std::string textOf(const Json& object, const char* key, const char* what) {
     const auto at = object.find(key);
     if (at == object.end() || !at->is_string() || at->get_ref<const std::string&>().empty())
-        fail(fmt::format("has no {}, {}", key, what));
+        fail(fmt::format("has no valid {}: {}", key, what));
     return oneLine(at->get<std::string>(), 400);
 }
 
 Rule readRule(const Json& json, const Presets& presets) {
-    if (!json.is_object()) fail("is no object");
+    if (!json.is_object()) fail("is not an object");
     Rule rule;
-    rule.channel = textOf(json, "channel", "the name or pattern of the channels it is for");
-    if (json.contains("scene"))
-        rule.scene = textOf(json, "scene", "the name or pattern of a scene: it is no text, or empty");
-    rule.because = textOf(json, "because", "the reason for it");
+    rule.channel = textOf(json, "channel", "give the name or pattern of channels");
+    if (json.contains("scene")) rule.scene = textOf(json, "scene", "give the name or pattern of scenes");
+    rule.because = textOf(json, "because", "give the reason for the limit");
     rule.fail = ConditionReader(presets).read(json, {"channel", "scene", "because", "warn"});
     if (json.contains("warn")) rule.warn = ConditionReader(presets).read(json["warn"]);
     if (rule.fail.kind == Condition::Kind::all && rule.fail.parts.empty() && !rule.warn)
-        fail(fmt::format("bounds nothing; there are {}", figureNames()));
+        fail(fmt::format("sets no limit; use one of {}", figureNames()));
     return rule;
 }
 
 std::vector<Rule> readDocument(const Json& document, const std::string& name) {
-    if (!document.is_object()) fail("is no object with rules");
+    if (!document.is_object()) fail("is not an object with rules");
     for (const auto& [key, value] : document.items())
         if (key != "$schema" && key != "presets" && key != "rules")
-            fail(fmt::format("no such member {}; there are presets and rules", oneLine(key)));
+            fail(fmt::format("unknown member {}; use presets and rules", oneLine(key)));
     Presets presets;
     if (document.contains("presets")) {
-        if (!document["presets"].is_object()) fail("presets: is no object");
+        if (!document["presets"].is_object()) fail("presets: is not an object");
         presets = document["presets"].get<Presets>();
     }
     for (const auto& [key, value] : presets)  // also those that no rule uses
         named("preset " + oneLine(key), [&] { return ConditionReader(presets).read(Json{{"preset", key}}); });
     const auto list = document.find("rules");
-    if (list == document.end() || !list->is_array()) fail("has no rules, an array");
+    if (list == document.end() || !list->is_array()) fail("has no array \"rules\"");
     std::vector<Rule> rules;
     for (std::size_t i = 0; i < list->size(); ++i) {
         rules.push_back(named(fmt::format("rule {}", i + 1), [&] { return readRule((*list)[i], presets); }));

@@ -24,8 +24,8 @@ std::size_t countOf(const std::vector<std::uint8_t>& covered) {
 void applyMask(Coverage& coverage, int width, int height, const std::string& file) {
     const PictureFile mask = readPicture(file);
     if (mask.width != width || mask.height != height)
-        throw std::runtime_error(fmt::format("--mask {}: is {}x{}, the pictures are {}x{}", file, mask.width,
-                                             mask.height, width, height));
+        throw std::runtime_error(fmt::format("--mask {}: is {}x{}, but the images are {}x{}", file,
+                                             mask.width, mask.height, width, height));
     const Image& image = mask.layers.front().image;
     // Alpha does not count as brightness.
     const int components = image.components == 4 ? 3 : image.components == 2 ? 1 : image.components;
@@ -45,7 +45,7 @@ void applyIds(Coverage& coverage, const std::vector<int>& ids, const Image* plan
 
 void applyCrop(Coverage& coverage, int width, int height, const Crop& crop) {
     if (crop.x + crop.width > width || crop.y + crop.height > height)
-        throw std::runtime_error(fmt::format("--crop {},{},{}x{}: is not inside a picture of {}x{}", crop.x,
+        throw std::runtime_error(fmt::format("--crop {},{},{}x{}: is not inside the image of {}x{}", crop.x,
                                              crop.y, crop.width, crop.height, width, height));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
@@ -107,7 +107,7 @@ void applyEdges(Coverage& coverage, int width, int height, int radius, const Obj
     const Image* const* const planes = ids ? objects.ids : objects.depth;
     if (!planes[0] && !planes[1])
         throw std::runtime_error(
-            "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
+            "--ignore-edges: needs material_id or Z to find edges, and neither image has one");
     std::vector<std::uint8_t> edges(coverage.covered.size(), 0);
     for (const int side : {0, 1}) {
         if (!planes[side]) continue;
@@ -139,7 +139,7 @@ Crop cropOf(const std::string& words) {
         sound = sound && (i == 3 ? next == end : next != end && *next == separators[i]);
         at = next + 1;
     }
-    if (!sound) throw std::runtime_error(fmt::format("--crop {}: is X,Y,WxH in pixels", words));
+    if (!sound) throw std::runtime_error(fmt::format("--crop {}: give X,Y,WxH in pixels", words));
     return crop;
 }
 
@@ -152,10 +152,10 @@ void applySelection(Coverage& coverage, int width, int height, const SelectionOp
     if (options.crop) applyCrop(coverage, width, height, *options.crop);
     if (options.ignore_edges > 0) applyEdges(coverage, width, height, options.ignore_edges, objects, notes);
     coverage.count = countOf(coverage.covered);
-    notes.push_back(fmt::format("{} of {} pixels are compared, the others were left out by the command line",
-                                coverage.count, before));
+    notes.push_back(
+        fmt::format("{} of {} pixels are compared; options exclude the others", coverage.count, before));
     if (coverage.count == 0)
-        throw std::runtime_error("the mask, ids, crop and edges leave no pixel to compare");
+        throw std::runtime_error("--mask, --ids, --crop and --ignore-edges leave no pixel to compare");
 }
 
 }  // namespace diptych

@@ -5,6 +5,7 @@
 #include "compare/verdict/device_bounds.h"
 #include "compare/verdict/surface_grid.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -147,27 +148,27 @@ SurfacePixels surfacePixels(const FramePair& pair) {
 }
 
 std::string SurfacePixels::fault() const {
-    for (const auto& [of, shows, edge] : {std::tuple{&triangles, "show another triangle", "an edge"},
-                                          {&shadows, "lie in another shadow", "the edge of a shadow"}}) {
+    for (const auto& [of, shows, edge] : {std::tuple{&triangles, "another triangle", "an edge"},
+                                          {&shadows, "another shadow", "a shadow boundary"}}) {
         if (of->strays > 0)
-            return fmt::format("{} pixel(s) {} on the other device and are not beside {}, the first at {},{}",
-                               of->strays, shows, edge, of->x, of->y);
+            return fmt::format("the other device shows {} at {} not beside {}, the first at {},{}", shows,
+                               counted(of->strays, "pixel"), edge, of->x, of->y);
         if (of->count > of->most)
-            return fmt::format("{} pixel(s) {} on the other device: of {} beside {} {} may", of->count, shows,
-                               of->edges, edge, of->most);
+            return fmt::format("the other device shows {} at {}; tolerance: {} of the {} beside {}", shows,
+                               counted(of->count, "pixel"), of->most, counted(of->edges, "pixel"), edge);
     }
     return {};
 }
 
 std::string SurfacePixels::inWords() const {
     std::string words = fmt::format(
-        "not compared: {} pixel(s) that show another triangle on the other device, all beside an edge ({} of "
-        "{} may)",
-        triangles.count, triangles.most, triangles.edges);
+        "not compared: {} where the other device shows another triangle, all beside an edge (tolerance: {} "
+        "of {})",
+        counted(triangles.count, "pixel"), triangles.most, triangles.edges);
     if (shadows.edges > 0)
-        words += fmt::format("; {} in another shadow, all beside a shadow's edge ({} of {} may)",
+        words += fmt::format("; {} in another shadow, all beside a shadow boundary (tolerance: {} of {})",
                              shadows.count, shadows.most, shadows.edges);
-    if (tied > 0) words += fmt::format("; {} where the scene has two surfaces of one depth", tied);
+    if (tied > 0) words += fmt::format("; {} where two surfaces have the same depth", tied);
     return words;
 }
 

@@ -45,21 +45,21 @@ Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
     const double dark = floor > 0 ? leastRadianceBound / floor : 0;
     return {std::max(radianceBound(), dark),
             dark > radianceBound()
-                ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where it is darkest")
+                ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel")
                 : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
 }
 
 Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (!pair.needs.emission) return {0, "nothing in the scene emits"};
     if (gbufferLayout(encoding, pair.needs).wide_emission)
-        return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
+        return {0, "float32: the scene's emission exceeds the range of 9.9.9.e5"};
     return radianceTolerance(mode, pair);
 }
 
 Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
     if (gbufferLayout(encoding, pair.needs).wide_lightmap)
-        return {0, "float32: the scene's lightmaps leave the range of 9.9.9.e5"};
+        return {0, "float32: the scene's lightmaps exceed the range of 9.9.9.e5"};
     return radianceTolerance(mode, pair);
 }
 
@@ -88,26 +88,28 @@ const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
 Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!throughGBuffer(mode, pair))
         return {0,
-                "forward+ was not drawn through this G-buffer's encoding, so no difference can be explained"};
+                "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
     const std::optional<EncodingUse> use = encodingUse(mode, pair);
     if (!use)
         return {0,
-                "forward+ was not drawn from surfaces that this G-buffer's bits allow, so none is explained"};
+                "forward+ was not rendered from surfaces perturbed by this G-buffer's quantization, so it "
+                "explains no difference"};
     const std::string used =
         use->x < 0 || use->beyond > 0
             ? ""
             : fmt::format("; the largest error is {:.0f} % of its pixel's bound, at {},{}", 100 * use->used,
                           use->x, use->y);
-    return {use->most,
-            fmt::format("rounding to the {} G-buffer's bits moves light by up to {:.3g} (mean {:.3g}), as "
-                        "forward+ finds by shading its own surfaces moved by as much{}{}; deferred must "
-                        "equal what forward+ shades from the decoded surfaces {}",
-                        nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean,
-                        use->beside, used, pair.cpu ? "bit for bit" : "within 16 ULP")};
+    return {
+        use->most,
+        fmt::format(
+            "quantization by the {} G-buffer changes lit by up to {:.3g} (mean {:.3g}), as forward+ measures "
+            "by shading perturbed surfaces{}{}; deferred must equal forward+ on the decoded surfaces {}",
+            nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, use->beside, used,
+            pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
-    if (encoding == GBufferEncoding::full) return {0, "the full G-buffer carries float32 whole"};
+    if (encoding == GBufferEncoding::full) return {0, "the full G-buffer stores float32 exactly"};
     if (isLit(mode.number)) return litTolerance(mode, pair);
     const Bits bits = bitsOf(encoding);
     switch (mode.number) {
@@ -139,10 +141,10 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
                 return {0, "every dielectric has F0 = 0.04: nothing is stored"};
             return {squareBound(gpu::SPECULAR_BITS), "square root in 8 bits"};
         case gpu::DEBUG_material_id:
-            return {0, "the index is carried whole"};
+            return {0, "the index is stored exactly"};
         case gpu::DEBUG_light_count:
         case gpu::DEBUG_list_overflow:
-            return {0, "one list for both paths, by the same function of pixel and depth"};
+            return {0, "both paths use one list, chosen by the same function of pixel and depth"};
         case gpu::DEBUG_shaded_samples:
             return {0, "the same samples of one G-buffer are shaded"};
         case gpu::DEBUG_depth:
@@ -151,14 +153,14 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_transmittance:
             return {0, "the same function of pixel and depth in both paths"};
         case gpu::DEBUG_geometric_normal:
-            return {0, "both paths quantise it alike"};
+            return {0, "both paths quantise it in the same way"};
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_cascade:
         case gpu::DEBUG_page_residency:
         case gpu::DEBUG_local_visibility:
             return {0, "the same maps, read at the same positions along the same normals"};
     }
-    return {0, "nothing is known to lose precision here"};
+    return {0, "no loss of precision is known here"};
 }
 
 // gpuUlps of the pixel's largest component in the channel's metric. Relative: that share, for the denominator
@@ -220,22 +222,21 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
         if (allowedByBits(mode, pair))
             result.because += fmt::format(
-                "; beyond what the bits of the {} G-buffer allow at each pixel, by forward+ shading its own "
-                "surfaces moved by them",
+                "; plus the quantization bound of the {} G-buffer at each pixel, as forward+ measures by "
+                "shading perturbed surfaces",
                 nameOf(path.settings.gbuffer));
         if (ShadowEdges(pair).any())
             result.because +=
-                "; beyond what a light that casts adds, where its shadow's edge lies within the filter's "
-                "reach and a texel";
+                "; plus a shadow-casting light's contribution where its shadow boundary lies within the "
+                "filter radius and one texel";
         if (const EnvironmentCost environment(pair); environment.any())
             result.because += environment.because(mode);
         if (mode.number == static_cast<int>(gpu::DEBUG_lit) && BlendedPixels(pair).any())
             result.because +=
-                "; beyond what the picture changes by within two pixels where something is blended, which "
-                "the reference meets with its own rays";
+                "; plus the image's change within two pixels where fragments are blended, because the "
+                "reference traces its own rays";
         if (!reference.uncertainty.empty())
-            result.because +=
-                "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
+            result.because += "; plus the reference's uncertainty at each pixel, at 99.9 % confidence";
     } else {
         // Surfaces that are forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
@@ -245,20 +246,21 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         if (mode.number == static_cast<int>(gpu::DEBUG_lit_haze))
             result = {shadingRounding, "float32 against quadrature in double, 1e-4"};
         if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility))
-            result = {0,
-                      "beyond the filter's reach and a texel from a shadow's edge, all or nothing is seen"};
+            result = {
+                0,
+                "farther than the filter radius and one texel from a shadow boundary, visibility is 0 or 1"};
         if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility))
             result = {shadingRounding,
-                      "float32 weights against double, 1e-4; beyond the filter's reach and a texel from a "
-                      "shadow's edge, all or nothing is seen of a light"};
+                      "float32 weights against double, 1e-4; farther than the filter radius and one texel "
+                      "from a shadow boundary, a light's visibility is 0 or 1"};
         if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
-            result = {geometricNormalBound(path), "both paths pack it alike, octahedral"};
+            result = {geometricNormalBound(path), "both paths pack it in the same way, octahedral"};
     }
     if (path.settings.haze && path.settings.haze_march_steps > 0 &&
         (mode.number == static_cast<int>(gpu::DEBUG_lit) ||
          mode.number == static_cast<int>(gpu::DEBUG_lit_haze)))
         result.because +=
-            fmt::format("; beyond what {} steps through haze may be off by, {:.2g} % of its light",
+            fmt::format("; plus the error of {} steps through haze, {:.2g} % of its light",
                         path.settings.haze_march_steps, 100 * marchShare / path.settings.haze_march_steps);
     result.most_pixels = true;
     return result;
@@ -269,8 +271,8 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame* deferred = pair.of(Path::deferred);
     if (pair.baseline.origin.external || pair.test.origin.external)
-        return {0, "another renderer's picture has no tolerance of its own: give rules (--tolerances)"};
-    Tolerance result{0, "one path twice: the same function of the same numbers"};
+        return {0, "an external renderer's image has no derived tolerance: give rules (--tolerances)"};
+    Tolerance result{0, "one path twice: the same function of the same inputs"};
     if (deferred && pair.of(Path::forward_plus))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
     else if (isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test))
@@ -279,14 +281,14 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
         result = {0, "no bound is known between these two paths"};
     if (!pair.cpu && mode.metric != Metric::exact) {
         result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
-        result.because += fmt::format("; and {} ULP of the pixel's largest component on a GPU", gpuUlps);
+        result.because += fmt::format("; plus {} ULP of the pixel's largest component on a GPU", gpuUlps);
         const Frame* const forward = pair.of(Path::forward_plus);
         if (deferred && forward && forward->settings.prepass != Switch::on &&
             (isLit(mode.number) || mode.number == static_cast<int>(gpu::DEBUG_depth) ||
              mode.number == static_cast<int>(gpu::DEBUG_position)))
             result.because +=
-                ", where without a depth pre-pass forward+ shades with the fragment's own depth, whose bits "
-                "may differ from those that were stored";
+                "; without a depth pre-pass, forward+ shades with the fragment's own depth, which may differ "
+                "from the stored depth";
     }
     return result;
 }

@@ -16,7 +16,7 @@
 namespace diptych {
 
 // Parses JSON nested no deeper than json_depth, within `limits`. Throws std::runtime_error, one line without
-// the file's name: "nests deeper than 128", "has 70000000 values: at most 16777216 are read", "is not JSON:
+// the file's name: "is nested deeper than 128 levels", "has 70000000 values: at most 16777216 are read", "is not JSON:
 // parse error at line 3, column 7: ...".
 nlohmann::json parseJson(std::string_view text, const JsonLimits& limits = {});
 // With members in their order.

@@ -25,7 +25,7 @@ Report afterBlendingReport(std::vector<Frame> frames) {
 
 std::size_t namedFailures(const Comparison& comparison) {
     return static_cast<std::size_t>(std::ranges::count_if(comparison.failures, [](const std::string& line) {
-        return line.starts_with("after the transparent draw: ");
+        return line.starts_with("the transparent draw adds a difference");
     }));
 }
 

@@ -221,7 +221,7 @@ ChannelDiff litWithFault(const Settings& settings, const std::function<void(Fram
 void expectBeyondTheBits(const ChannelDiff& channel, const char* what = "") {
     EXPECT_EQ(channel.unexplained_pixels, 0u) << "deferred equals the decoded surfaces' light";
     EXPECT_EQ(channel.verdict, Verdict::fail) << what;
-    EXPECT_NE(channel.reason.find("times the bound of its G-buffer"), std::string::npos)
+    EXPECT_NE(channel.reason.find("exceeds the G-buffer's quantization bound"), std::string::npos)
         << what << channel.reason;
     ASSERT_TRUE(channel.encoding_use.has_value());
     EXPECT_GT(channel.encoding_use->used, 1.5) << what;

@@ -39,7 +39,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     // With other lights the Settings differ, which is stated before any number.
     ran = runTool(folder, "compare builtin:points --size 32x18 --runs 0 --baseline b.exr --lights point:2");
     EXPECT_EQ(ran.code, 1);
-    EXPECT_EQ(ran.out.find("baseline: other Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
+    EXPECT_EQ(ran.out.find("baseline: different Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
 
     ran = runTool(folder, comparePoints + "--baseline b.exr --lights point:2 --update-baseline");
     EXPECT_EQ(ran.code, 0) << ran.err;

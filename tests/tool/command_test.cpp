@@ -121,7 +121,7 @@ TEST(Command, DiscsOfSunsAreNoted) {
     for (const Json& frame : report["frames"]) {
         const std::string path = frame["path"];
         EXPECT_NE(
-            frame["notes"].dump().find("1 sun's disc: not drawn by " + path + " yet: the reference has it"),
+            frame["notes"].dump().find("1 sun disc: not rendered by " + path + " yet; the reference has it"),
             std::string::npos);
         EXPECT_EQ(frame["counters"]["lights"], 2) << "those of the file, and no other";
     }
@@ -171,7 +171,8 @@ TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
     EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: maps"), std::string::npos) << told("").out;
     EXPECT_EQ(told("--env scene --ibl-intensity 2").code, 0);
     const Ran other = told("--env sky.exr");
-    EXPECT_NE(other.out.find("EXT_lights_image_based: light 0: left out, --env is given"), std::string::npos);
+    EXPECT_NE(other.out.find("EXT_lights_image_based: light 0: ignored because --env is given"),
+              std::string::npos);
     EXPECT_NE(other.out.find("sky.exr: maps"), std::string::npos) << other.out;
     EXPECT_TRUE(runTool(folder, "plan builtin:furnace --env scene")
                     .failedOver("--env scene: builtin:furnace has no"));

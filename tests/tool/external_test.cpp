@@ -140,9 +140,9 @@ TEST(External, AnyFailureIsAnErrorAndNeverAComparison) {
     const std::vector<Case> cases{{{"exit"}, "exited with 3: no licence for <this> machine"},
                                   {{"crash"}, "was ended by signal 11"},
                                   {{"none"}, "wrote no picture"},
-                                  {{"wide"}, "its picture is 33x18, and 32x18 was asked for"},
-                                  {{"nan"}, "lit is NaN or infinite at 1 pixel(s), the first at 3,2"},
-                                  {{"link", before}, "its picture is no regular file"},
+                                  {{"wide"}, "its picture is 33x18, but 32x18 was requested"},
+                                  {{"nan"}, "lit is NaN or infinite at 1 pixel, the first at 3,2"},
+                                  {{"link", before}, "its picture is not a regular file"},
                                   {{"old", before}, "its picture is older than its job"}};
     for (const auto& [mode, says] : cases) {
         writeRenderer(folder, "fake", mode);
@@ -226,8 +226,8 @@ TEST(External, TheBackgroundIsNotCompared) {
         0);
     const Json fake = comparisonWith(reportOf(folder), "f");
     EXPECT_EQ(fake["channels"][0]["flip"], 0);
-    EXPECT_NE(reportOf(folder)["frames"].back()["notes"].dump().find("f shows something at " +
-                                                                     std::to_string(behind) + " pixel(s)"),
+    EXPECT_NE(reportOf(folder)["frames"].back()["notes"].dump().find("f is not black at " +
+                                                                     std::to_string(behind) + " pixel"),
               std::string::npos);
 }
 
@@ -256,7 +256,7 @@ TEST(External, ATimeoutEndsAllThatItStarted) {
     const Folder folder;
     writeRenderer(folder, "fake", {"flee", (folder / "pid").string()}, {{"timeout", 1.5}});
     const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
-    EXPECT_TRUE(ran.failedOver("was killed after 1.5 s"));
+    EXPECT_TRUE(ran.failedOver("was killed after its timeout of 1.5 s"));
     const pid_t child = processIn(folder / "pid");
     ASSERT_GT(child, 0);
     EXPECT_FALSE(isRunning(child)) << "nor has it fled into a session of its own";
@@ -383,15 +383,14 @@ TEST(External, ARendererHasARowOfATradeoff) {
 TEST(External, FilesAreReadStrictly) {
     const Folder folder;
     const std::vector<std::pair<std::string, std::string>> cases{
-        {R"({})", "command: is the program and its arguments"},
-        {R"({"command": "sh -c x"})", "command: is the program and its arguments"},
-        {R"({"command": ["x", 3]})", "command: is the program and its arguments"},
+        {R"({})", "command: must be the program and its arguments"},
+        {R"({"command": "sh -c x"})", "command: must be the program and its arguments"},
+        {R"({"command": ["x", 3]})", "command: must be the program and its arguments"},
         {R"({"command": ["x"], "timeot": 3})", "timeot: is not a known field of a renderer"},
         {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
         {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
-        {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
-         "light_faktor: is not a known field of what is granted"},
-        {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is none of linear, srgb"},
+        {R"({"command": ["x"], "granted": {"light_faktor": 2}})", "light_faktor: is not a known field of granted"},
+        {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is not one of linear, srgb"},
         {R"({"command")", "is not JSON"}};
     for (const auto& [text, says] : cases) {
         folder.write("r.json", text);

@@ -209,7 +209,7 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
                 ++killed;
                 EXPECT_EQ(WTERMSIG(status), signal) << "round " << round;
             } else if (WEXITSTATUS(status) != 0) {
-                EXPECT_NE((*program)->err().find("another diptych is at work"), std::string::npos)
+                EXPECT_NE((*program)->err().find("another diptych writes to the same -o"), std::string::npos)
                     << "round " << round << ": " << (*program)->err();
             }
         }

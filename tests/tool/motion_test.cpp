@@ -137,8 +137,8 @@ TEST(Motion, ATargetAtRestIsPosedAndPlanSaysByWhat) {
         EXPECT_EQ(columnsIn(folder / "t.exr"), "00010") << path;
         EXPECT_EQ((ran.out + ran.err).find("undeformed"), std::string::npos) << ran.out << ran.err;
     }
-    for (const auto& [skinning, words] : {std::pair{"compute", "posed once a frame by kernels"},
-                                          {"vertex", "posed by the vertex shader of every draw"}}) {
+    for (const auto& [skinning, words] : {std::pair{"compute", "deformed once per frame by compute shaders"},
+                                          {"vertex", "deformed by the vertex shader of every draw"}}) {
         const Ran plan = runTool(folder, std::string("plan target.gltf --skinning ") + skinning);
         EXPECT_NE(plan.out.find(std::string("1 morphed mesh: 3 vertices, ") + words), std::string::npos)
             << plan.out;

@@ -35,7 +35,7 @@ TEST(PageReport, ASingleFileLoadsNoOther) {
     EXPECT_EQ(seen.told["half"], (nlohmann::json{48, 27}));
     EXPECT_EQ(seen.told["scripts"], 0);
     EXPECT_EQ(seen.told["fetched"], nlohmann::json::array());
-    EXPECT_EQ(seen.told["says"], "a single file leaves out the values under the cursor");
+    EXPECT_EQ(seen.told["says"], "a single-file report has no values under the cursor");
 }
 
 // As the tool leaves it: whatever can be opened is open, and every picture is there.

@@ -198,8 +198,9 @@ bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, 
     EXPECT_GT(tiles(), 0u) << "what is done is there";
     if (::testing::Test::HasFailure()) return false;
     const fs::path kept = keptIn(folder).front();
-    EXPECT_EQ(tool.err().find(kept.filename().string() + ": the same command goes on") != std::string::npos,
-              says)
+    EXPECT_EQ(
+        tool.err().find(kept.filename().string() + ": the same command resumes there") != std::string::npos,
+        says)
         << tool.err();
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
     // What was drawn is not drawn again, and the result says so.
@@ -207,15 +208,15 @@ bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, 
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(
         std::regex_search(again.out + again.err,
-                          std::regex("the reference went on from [1-9][0-9]* % that a command that did not "
-                                     "end had drawn in [0-9]+:[0-9]+; the rest took [0-9]+:[0-9]+")))
+                          std::regex("the reference resumed at [1-9][0-9]* %, which an interrupted command "
+                                     "had rendered in [0-9]+:[0-9]+; the rest took [0-9]+:[0-9]+")))
         << again.out << again.err;
     EXPECT_FALSE(fs::exists(kept)) << "the picture is whole";
 
     fs::rename(folder / "r.exr", folder / "pieced.exr");
     const Ran at_once = runTool(folder, inShell(words));
     EXPECT_EQ(at_once.code, 0);
-    EXPECT_EQ((at_once.out + at_once.err).find("went on from"), std::string::npos);
+    EXPECT_EQ((at_once.out + at_once.err).find("resumed at"), std::string::npos);
     const Ran same = runTool(folder, "diff pieced.exr r.exr --metric max --tolerance 0 --json");
     EXPECT_EQ(same.code, 0) << same.out << same.err;
     return true;
@@ -289,8 +290,7 @@ bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::st
         EXPECT_EQ(keptIn(folder), std::vector<fs::path>{kept}) << "its own is removed, the other's is not";
         EXPECT_EQ(contentsOf(kept), held);
         const std::string line =
-            "diptych: kept of other references, whose commands did not end: " + kept.filename().string() +
-            ";";
+            "diptych: kept from other interrupted references: " + kept.filename().string() + ";";
         EXPECT_EQ(ran.err.find(line) != ran.err.npos, quiet.empty()) << ran.err;
     }
     // The command of the first picture can still resume, and removes the file at its end.
@@ -392,7 +392,7 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     const Json report = jsonIn(folder / "out/report.json");
     EXPECT_GT(report["frames"][0]["uncertainty"].get<double>(), 0);
     for (const std::size_t row : {0u, 1u})
-        EXPECT_NE(report["comparisons"][row]["channels"].dump().find("what the reference itself is known to"),
+        EXPECT_NE(report["comparisons"][row]["channels"].dump().find("the reference's uncertainty"),
                   std::string::npos);
     const PictureFile exr = readExr(folder / "r.exr");
     EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &PictureLayer::name), 1);

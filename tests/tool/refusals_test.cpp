@@ -21,7 +21,7 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
     EXPECT_TRUE(ran.err.starts_with("diptych: bad.glb: is not JSON")) << ran.err;
     EXPECT_NE(ran.out.find("\nERROR bad.glb: is not JSON"), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all "), std::string::npos)
+    EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be rendered: bad.glb; pass: all "), std::string::npos)
         << ran.out;
     const Json report = Json::parse(contentsOf(folder / "out/report.json"));
     EXPECT_EQ(report["comparisons"].size(), 2u);
@@ -86,7 +86,7 @@ TEST(Refusals, SamplesNeedATruthOfSamples) {
                   .code,
               0);
     EXPECT_TRUE(runTool(folder, "compare builtin:triangle --size 16x9 --runs 0 --msaa 4 --baseline r.exr")
-                    .failedOver("--msaa 4: the reference takes 1 of a pixel's samples; use --spp 64"));
+                    .failedOver("--msaa 4: the reference takes only 1 sample per pixel; use --spp 64"));
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
 }
 

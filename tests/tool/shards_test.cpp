@@ -145,32 +145,32 @@ TEST(ManyScenes, MergeNamesWhatItMust) {
     EXPECT_EQ(json["errors"].size(), 1u);
 
     fs::copy(folder / "2", folder / "twice", fs::copy_options::recursive);
-    EXPECT_TRUE(merged("1 2 3 twice").failedOver("shard 2/3 is there twice"));
+    EXPECT_TRUE(merged("1 2 3 twice").failedOver("shard 2/3 exists twice"));
     EXPECT_EQ(nlohmann::json::parse(contentsOf(folder / "out/report.json"))["comparisons"].size(), 3u);
 
     runTool(folder, few + " --gbuffer compact --shard 2/3 -o other");
-    EXPECT_TRUE(merged("1 other 3").failedOver("other: was asked for another gbuffer"));
+    EXPECT_TRUE(merged("1 other 3").failedOver("other: has another gbuffer"));
     runTool(folder,
             "compare -q builtin:points builtin:triangle builtin:areas" + manyHow + " --shard 2/3 -o scene");
-    EXPECT_TRUE(merged("1 scene 3").failedOver("scene: is of other scenes: builtin:areas"));
+    EXPECT_TRUE(merged("1 scene 3").failedOver("scene: has another scene: builtin:areas"));
     runTool(folder, few + " --shard 2/4 -o four");
-    EXPECT_TRUE(merged("1 four 3").failedOver("four: is one of 4 shards, the others are of 3"));
+    EXPECT_TRUE(merged("1 four 3").failedOver("four: is one of 4 shards, the others of 3"));
 
     fs::copy(folder / "2", folder / "built", fs::copy_options::recursive);
     std::string manifest = contentsOf(folder / "built/shard.json");
     const std::size_t at = manifest.find("\"build\": \"") + 10;
     manifest.replace(at, 5, "9.9.9");
     std::ofstream(folder / "built/shard.json") << manifest;
-    EXPECT_TRUE(merged("1 built 3").failedOver("built: is of another build (9.9.9"));
+    EXPECT_TRUE(merged("1 built 3").failedOver("built: is from another build (9.9.9"));
 
     fs::copy(folder / "2", folder / "cut", fs::copy_options::recursive);
     for (const auto& entry : fs::recursive_directory_iterator(folder / "cut"))
         if (entry.path().filename() == "lit.values.js") fs::remove(entry.path());
     EXPECT_TRUE(merged("1 cut 3").failedOver("cut: the report is incomplete"));
 
-    EXPECT_TRUE(merged("1 2 3 nowhere").failedOver("nowhere: is no report of a shard"));
-    EXPECT_TRUE(runTool(folder, "merge nowhere -o out").failedOver("nowhere: is no report of a shard"));
-    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of the shards are missing"));
+    EXPECT_TRUE(merged("1 2 3 nowhere").failedOver("nowhere: is not the report of a shard"));
+    EXPECT_TRUE(runTool(folder, "merge nowhere -o out").failedOver("nowhere: is not the report of a shard"));
+    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of shards are missing"));
     EXPECT_EQ(before, timeless(folder / "2")) << "no shard is changed";
 }
 

@@ -162,7 +162,7 @@ TEST(Terminal, WhatSbatchSaysPassesAFilter) {
     EXPECT_TRUE(isPlain(ran));
     for (const std::string out : {"a\x1b[1m", "a\u009b", "a\u202e", "a\nb", "a\"b", "a\xff"})
         EXPECT_TRUE(runTool(folder, "submit slurm --dry-run -- compare builtin:triangle -o '" + out + "'")
-                        .failedOver("line breaks and other controls"));
+                        .failedOver("line breaks and control characters"));
 }
 
 // What is opened first would get the number of a closed descriptor, and with it the messages. sbatch looks at
@@ -203,7 +203,7 @@ TEST(ShardScripts, OnlyDataIsJoined) {
         std::ofstream(script, std::ios::binary) << text << "window.owned = true;\n";
         const Ran ran = runTool(folder, "merge shard -o joined");
         EXPECT_EQ(ran.code, 2);
-        EXPECT_NE(ran.err.find("is a script that holds more than data"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("is a script that contains more than data"), std::string::npos) << ran.err;
         EXPECT_FALSE(fs::exists(folder / "joined" / script.lexically_relative(folder / "shard")));
         std::ofstream(script, std::ios::binary) << text;
     }

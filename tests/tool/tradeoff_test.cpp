@@ -135,7 +135,8 @@ TEST(Tradeoff, SaysWhatLightTheRowsLeaveOut) {
     folder.write("l.json", R"({"lights": [{"type": "directional", "angle": 0.0093, "intensity": 2}]})");
     const Ran ran = runTool(folder, std::string(sweep) + "--lights l.json --grid '{\"settings\":{}}'");
     ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_NE(Json::parse(ran.out)["notes"].dump().find("not drawn by forward_plus yet"), std::string::npos)
+    EXPECT_NE(Json::parse(ran.out)["notes"].dump().find("not rendered by forward_plus yet"),
+              std::string::npos)
         << ran.out;
 }
 

@@ -41,5 +41,5 @@ server.listen(0, '127.0.0.1', () => {
   const flags = ['--headless=new', '--no-sandbox', '--no-first-run', '--use-angle=swiftshader',
     '--enable-unsafe-swiftshader', `--user-data-dir=${join(dirname(file), 'profile')}`];
   browser = spawn(chromium, [...flags, `http://127.0.0.1:${server.address().port}${key}`], { stdio: 'ignore' });
-  browser.on('error', error => end(1, `${chromium}: ${error.message}; DIPTYCH_CHROMIUM says which`));
+  browser.on('error', error => end(1, `${chromium}: ${error.message}; set DIPTYCH_CHROMIUM to the browser`));
 });

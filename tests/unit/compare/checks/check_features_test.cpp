@@ -57,7 +57,7 @@ TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
         slot.v = {-s * sx, c * sy, y};
         return slot;
     };
-    const std::string tail = ". What is pictured there (arrows, frames, seams) falls into place.";
+    const std::string tail = ". Arrows, frames and seams in the texture are in the right place.";
     Material& m = scene.materials[0];
     const auto told = [&] { return what(scene, "texture transforms"); };
     m.base_color_texture = transformed(0.5, -0.25, 0, 1, 1);
@@ -86,15 +86,15 @@ TEST(CheckFeatures, SamplersAreToldWhereTheyShow) {
     sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     EXPECT_EQ(what(scene, "samplers"), "");
     slot.u.x = 2;
-    EXPECT_EQ(what(scene, "samplers"), "Base colour: beyond its edge stripes of its last texels along u.");
+    EXPECT_EQ(what(scene, "samplers"), "Base colour: stripes of its edge texels beyond its edge along u.");
     slot.v.y = 2;
     EXPECT_EQ(what(scene, "samplers"),
-              "Base colour: beyond its edge stripes of its last texels along u and v.");
+              "Base colour: stripes of its edge texels beyond its edge along u and v.");
     sampler.wrap_s = Wrap::repeat;
     sampler.wrap_t = Wrap::mirrored_repeat;
     sampler.magnify_linear = false;
     EXPECT_EQ(what(scene, "samplers"),
-              "Base colour: beyond its edge mirrored copies along v, enlarged texels are sharp squares.");
+              "Base colour: mirrored copies beyond its edge along v, enlarged texels are sharp squares.");
 }
 
 TEST(CheckFeatures, SecondTextureCoordinates) {
@@ -104,7 +104,7 @@ TEST(CheckFeatures, SecondTextureCoordinates) {
     slot.texcoord = 1;
     EXPECT_TRUE(what(scene, "second UV set").starts_with("Occlusion: laid out by TEXCOORD_1."));
     scene.meshes[0].primitives[0].texcoords[1].clear();
-    EXPECT_TRUE(what(scene, "second UV set").starts_with("Occlusion: one texel all over"));
+    EXPECT_TRUE(what(scene, "second UV set").starts_with("Occlusion: one texel everywhere"));
     scene.materials[0].occlusion_strength = 0;
     EXPECT_EQ(what(scene, "second UV set"), "");
 }
@@ -189,10 +189,10 @@ TEST(CheckFeatures, FlatNormalsWhereTheyCanBeTold) {
 TEST(CheckFeatures, DeepImagesByTheirSlot) {
     Scene scene = plainScene();
     scene.materials[0].metallic_roughness_texture.texture = 0;
-    EXPECT_EQ(what(scene, "images of over 8 bits"), "");
+    EXPECT_EQ(what(scene, "images with more than 8 bits"), "");
     scene.images[0] = {"image", 1, 1, {}, {1, 2, 3, 4}};
-    EXPECT_EQ(what(scene, "images of over 8 bits"),
-              "Metallic-roughness: over 8 bits a component. Gradients run without steps.");
+    EXPECT_EQ(what(scene, "images with more than 8 bits"),
+              "Metallic-roughness: more than 8 bits per component. Gradients run without steps.");
 }
 
 }  // namespace diptych

@@ -63,7 +63,7 @@ TEST(PixelStory, NamesTheFirstStepThatDiffers) {
     story.steps[2].beyond = false;
     EXPECT_EQ(firstDifference(story), "no step differs by more than rounding");
     words = inWords(story);
-    EXPECT_NE(words.find("pass: at this pixel all 3 channels"), std::string::npos) << words;
+    EXPECT_NE(words.find("pass: at this pixel all 3 shared channels"), std::string::npos) << words;
     EXPECT_EQ(toJson(story)["first_difference"], nullptr);
 }
 
@@ -80,7 +80,7 @@ TEST(PixelStory, ATermComesBeforeTheLightItMakes) {
     EXPECT_EQ(
         firstDifference(story),
         "the first step that differs by more than rounding: light 0, point \"lamp\" (1 1 1.5 against 1 1 1 "
-        "W/(sr m^2), 0.5 of it; the surfaces are the same)");
+        "W/(sr m^2), relative difference 0.5; the surfaces are the same)");
     EXPECT_EQ(toJson(story)["first_difference"], "light 0");
 }
 

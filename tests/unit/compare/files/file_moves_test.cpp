@@ -182,7 +182,7 @@ TEST(FileMoves, AListThatCannotBeReadIsNamed) {
         } catch (const std::runtime_error& error) {
             EXPECT_EQ(std::string(error.what()),
                       (place / ".diptych.put/.plan.json").string() +
-                          ": left by a program that was killed, and cannot be read; remove its folder");
+                          ": left by an interrupted run and unreadable; remove its folder");
         }
         EXPECT_TRUE(fs::exists(place / ".diptych.put/lit.png"));
     }

@@ -109,9 +109,9 @@ TEST(HostileParts, AFileOfAnotherFolderIsRefusedByName) {
         for (const char* list : {"files", "sections"}) {
             std::ofstream(shards.part()) << sound;
             shards.change(shards.part(), [&](Json& json) { json[list][0] = name; });
-            EXPECT_NE(
-                shards.merged().find(std::string("part.json: ") + list + "[0]: \"" + name + "\" is no file"),
-                std::string::npos)
+            EXPECT_NE(shards.merged().find(std::string("part.json: ") + list + "[0]: \"" + name +
+                                           "\" is not a file"),
+                      std::string::npos)
                 << name;
             EXPECT_EQ(shards.outside(), before) << name;
         }
@@ -151,29 +151,29 @@ TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
          [](Json& json) {
              json["closer"] = {{0, 1, 2}};
          }},
-        {"closer_tables: has 0 elements, and there are 1 paths",
+        {"closer_tables: has 0 elements, but there are 1 paths",
          [](Json& json) {
              json["closer"] = {{0, 1, 1}};
          }},
-        {"sections: has 0 elements, and there are 1 comparisons",
+        {"sections: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["sections"] = Json::array(); }},
-        {"rows: has 2 elements, and there are 1 comparisons",
+        {"rows: has 2 elements, but there are 1 comparisons",
          [](Json& json) { json["rows"].push_back(json["rows"][0]); }},
-        {"tables: has 0 elements, and there are 1 comparisons",
+        {"tables: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["tables"] = Json::array(); }},
-        {"exposures: has 0 elements, and there are 1 comparisons",
+        {"exposures: has 0 elements, but there are 1 comparisons",
          [](Json& json) { json["exposures"] = Json::array(); }},
         {"frames: is not an array",
          [](Json& json) {
              json["frames"] = {{"0", 1}};
          }},
         {"frames[1].notes[0]: is not a string", [](Json& json) { json["frames"][1]["notes"] = {1}; }},
-        {"rows[0].worst: is no channel's number", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
-        {"comparisons[0].channels[0][1]: is no verdict",
+        {"rows[0].worst: is not a channel index", [](Json& json) { json["rows"][0]["worst"] = 5000; }},
+        {"comparisons[0].channels[0][1]: is not a verdict",
          [](Json& json) { json["comparisons"][0]["channels"][0][1] = "perhaps"; }},
         {"junit[0]: is not a whole number from 0 to", [](Json& json) { json["junit"][0] = -1; }},
-        {"stands twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
-        {"stands twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
+        {"is listed twice", [](Json& json) { json["files"].push_back(json["files"][0]); }},
+        {"is listed twice", [](Json& json) { json["files"].push_back("box-1/part.json"); }},
         {"is nested deeper than 128 levels",
          [](Json& json) {
              for (int i = 0; i < 200; ++i) json["notes"] = Json::array({json["notes"]});
@@ -202,7 +202,8 @@ TEST(HostileParts, ABadTextIsNamedBeforeAnythingIsWritten) {
     const std::string section = json["sections"][0];
     fs::remove(shards.shard / section);
     std::ofstream(shards.shard / section) << "alert(1, 2, 3)";
-    EXPECT_NE(shards.merged().find(section + ": is a script that holds more than data"), std::string::npos);
+    EXPECT_NE(shards.merged().find(section + ": is a script that contains more than data"),
+              std::string::npos);
 }
 
 TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
@@ -268,7 +269,7 @@ TEST(HostileShards, OneBadShardIsNamedAndTheOthersAreJoined) {
     EXPECT_EQ(report["errors"].size(), 1u);
     for (const char* text : {"", "[", "{}", "5"}) {
         std::ofstream(shards.shard / "shard.json") << text;
-        EXPECT_NE(shards.merged({shards.shard, other}).find("shard-1: is no report of a shard"),
+        EXPECT_NE(shards.merged({shards.shard, other}).find("shard-1: is not the report of a shard"),
                   std::string::npos);
     }
 }
@@ -280,10 +281,10 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
         {"shard.count: is not a whole number", [](Json& json) { json["shard"]["count"] = -1; }},
         {"shard.index: is not a whole number from 1 to 1", [](Json& json) { json["shard"]["index"] = 2; }},
         {"items[0][2]: is not a whole number from 1 to 1", [](Json& json) { json["items"][0][2] = 0; }},
-        {"items[0][1]: \"../\" is no folder", [](Json& json) { json["items"][0][1] = "../"; }},
-        {"items[0][1]: \"/etc/\" is no folder", [](Json& json) { json["items"][0][1] = "/etc/"; }},
-        {"items[0][1]: \"box-1\" is no folder", [](Json& json) { json["items"][0][1] = "box-1"; }},
-        {"items[1]: has the folder of another scene",
+        {"items[0][1]: \"../\" is not a folder name", [](Json& json) { json["items"][0][1] = "../"; }},
+        {"items[0][1]: \"/etc/\" is not a folder name", [](Json& json) { json["items"][0][1] = "/etc/"; }},
+        {"items[0][1]: \"box-1\" is not a folder name", [](Json& json) { json["items"][0][1] = "box-1"; }},
+        {"items[1]: uses the folder of another scene",
          [](Json& json) { json["items"].push_back(json["items"][0]); }},
         {"items[0]: is not an array", [](Json& json) { json["items"] = {1}; }},
         {"errors[0][1]: is not a string",
@@ -292,7 +293,7 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
          }},
         {"has no \"plan\"", [](Json& json) { json.erase("plan"); }},
         {"software: is not a string", [](Json& json) { json["software"] = 3; }},
-        {"is not ours", [](Json& json) { json["schema"] = 2; }},
+        {"is not from diptych", [](Json& json) { json["schema"] = 2; }},
     };
     const Shards shards;
     const std::string sound = contentsOf(shards.shard / "shard.json");
@@ -556,7 +557,7 @@ TEST(HostileFolders, AKeptFolderThatIsALinkIsRefused) {
         KeptFolder kept(root / "out", "scenes", key);
         ADD_FAILURE() << "was taken";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find(".out.scenes: is a link"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find(".out.scenes: is a symbolic link"), std::string::npos)
             << error.what();
     }
     EXPECT_EQ(contentsOf(root / "elsewhere/mine.txt"), "mine");

@@ -74,7 +74,7 @@ TEST(Layers, AColourWithoutAlphaIsOpaque) {
             EXPECT_EQ((lacking ? channel.test : channel.reference).image.data, (PixelData{1, 1}));
             EXPECT_EQ((lacking ? channel.reference : channel.test).image.data, (PixelData{30, 31}));
         }
-        EXPECT_EQ(matched.notes.at(0), fmt::format("A: {} has none and is opaque: 1 everywhere",
+        EXPECT_EQ(matched.notes.at(0), fmt::format("A: {} has none, so it counts as opaque: 1 everywhere",
                                                    lacking ? "the test" : "the reference"));
         ASSERT_EQ(matched.one_sided.size(), 1u) << "an alpha of nothing";
     }
@@ -108,9 +108,9 @@ TEST(Layers, OnlyColoursAreAPair) {
     ASSERT_EQ(matched.channels.size(), 2u);
     EXPECT_EQ(matched.channels[0].name, "lit");
     EXPECT_EQ(matched.channels[1].name, "A");
-    EXPECT_EQ(matched.notes, std::vector<std::string>{
-                                 "lit of the reference is compared with ViewLayer.Combined of the test: each "
-                                 "is the only colour there"});
+    EXPECT_EQ(matched.notes,
+              std::vector<std::string>{"lit of the reference is compared with ViewLayer.Combined of the "
+                                       "test: each is the only colour of its image"});
     EXPECT_EQ(matchChannels(named("a"), named("b"), {}).channels.at(0).name, "a");
     EXPECT_NE(faultOf([&] {
                   matchChannels(plain(), named("albedo"), {});
@@ -119,7 +119,8 @@ TEST(Layers, OnlyColoursAreAPair) {
     const auto two = [&] {
         return channelsOf(file({layer("a", {"a.R", "a.G", "a.B"}), layer("b", {"b.R", "b.G", "b.B"})}), {});
     };
-    EXPECT_EQ(faultOf([&] { matchChannels(plain(), two(), {}); }).substr(0, 20), "no layer is in both:");
+    EXPECT_EQ(faultOf([&] { matchChannels(plain(), two(), {}); }).substr(0, 26),
+              "the images share no layer:");
 }
 
 TEST(Layers, ALayerIsGivenAName) {
@@ -215,9 +216,9 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     const auto b = [] { return channelsOf(file({layer("lit", {"lit.Y"})}), {}); };
     const auto c = [] { return channelsOf(file({layer("ao", {"ao.Y"})}), {}); };
     EXPECT_EQ(faultOf([&] { matchChannels(a(), b(), {}); }),
-              "lit: R,G,B in the reference and lit.Y in the test; --map says what belongs together");
+              "lit: R,G,B in the reference and lit.Y in the test; match them with --map");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), c(), {}); }),
-              "no layer is in both: the reference has lit, the test ao; --map gives them one name");
+              "the images share no layer: the reference has lit, the test has ao; --map can match them");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"normals"}); }),
               "--channels normals: not in both; both have lit");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"lti"}); }),
@@ -259,13 +260,14 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     };
     EXPECT_EQ(without(1), "xxxx..xxxx..") << "both sides of the edge";
     EXPECT_EQ(without(2), "xxx...xxx...");
-    EXPECT_EQ(notes.back(), "6 of 12 pixels are compared, the others were left out by the command line");
-    EXPECT_EQ(faultOf([&] { without(9); }), "the mask, ids, crop and edges leave no pixel to compare");
+    EXPECT_EQ(notes.back(), "6 of 12 pixels are compared; options exclude the others");
+    EXPECT_EQ(faultOf([&] { without(9); }),
+              "--mask, --ids, --crop and --ignore-edges leave no pixel to compare");
     Coverage all = everyPixel(12);
     SelectionOptions options;
     options.ignore_edges = 1;
     EXPECT_EQ(faultOf([&] { applySelection(all, 6, 2, options, {}, notes); }),
-              "--ignore-edges: neither material_id nor Z is in either picture, and they tell objects apart");
+              "--ignore-edges: needs material_id or Z to find edges, and neither image has one");
     Image depth(6, 2, 1, 10.0f);  // 5 % further away is another object
     depth.at(0, 0) = 10.6f;
     depth.at(5, 1) = 10.4f;
@@ -300,10 +302,10 @@ TEST(Layers, OneComponentAgainstColoursIsSaid) {
     const auto colours = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
     EXPECT_EQ(matchChannels(grey(), colours(), {}).notes,
               (std::vector<std::string>{
-                  "lit: the one component of the reference is compared with each of the three of the test"}));
+                  "lit: the single component of the reference is compared with all three of the test"}));
     EXPECT_EQ(matchChannels(colours(), grey(), {}).notes,
               (std::vector<std::string>{
-                  "lit: the one component of the test is compared with each of the three of the reference"}));
+                  "lit: the single component of the test is compared with all three of the reference"}));
     EXPECT_TRUE(matchChannels(grey(), grey(), {}).notes.empty());
 }
 
@@ -332,12 +334,12 @@ TEST(Selection, MaskIdsAndCrop) {
     options.crop = cropOf("1,0,2x2");
     EXPECT_EQ(by(options), ".xx.xx");
     options.crop = cropOf("2,0,2x2");
-    EXPECT_EQ(faultOf([&] { by(options); }), "--crop 2,0,2x2: is not inside a picture of 3x2");
+    EXPECT_EQ(faultOf([&] { by(options); }), "--crop 2,0,2x2: is not inside the image of 3x2");
     Coverage four = everyPixel(4);
     options = {};
     options.mask = (files / "mask.png").string();
     EXPECT_EQ(faultOf([&] { applySelection(four, 2, 2, options, {}, notes); }),
-              "--mask " + options.mask + ": is 3x2, the pictures are 2x2");
+              "--mask " + options.mask + ": is 3x2, but the images are 2x2");
 }
 
 // ---- what forgives ----

@@ -99,7 +99,8 @@ TEST(KeptFolder, ALinkIsRefusedAndItsFolderKept) {
         const KeptFolder kept(home / "r", "scenes", {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find(".r.scenes: is a link"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(".r.scenes: is a symbolic link"), std::string::npos)
+            << error.what();
     }
     EXPECT_EQ(namesIn(elsewhere), (std::vector<std::string>{"key.json", "mine.txt"}));
 }

@@ -49,7 +49,7 @@ TEST(SceneFolders, AFolderStandsForItsSceneFilesSorted) {
               (Names{"builtin:spots", "a.GLB", "b/c/five.glb", "b/two.gltf", "x[1].glb", "missing.glb"}));
     expectFault(
         (root / "empty").string(),
-        (root / "empty").string() + ": holds no .gltf or .glb file; name a folder that does, or a scene");
+        (root / "empty").string() + ": contains no .gltf or .glb file; give a folder that does, or a scene");
 }
 
 TEST(SceneFolders, EachSceneStandsOnce) {
@@ -84,7 +84,7 @@ TEST(SceneFolders, AListIsRelativeToItsFolder) {
                      (root / "b/missing.glb").string(), (root / "b/no#comment.glb").string()}));
     std::ofstream(root / "none.txt") << "# nothing\n";
     expectFault("@" + (root / "none.txt").string(),
-                "@" + (root / "none.txt").string() + ": names no scene; a line each");
+                "@" + (root / "none.txt").string() + ": lists no scene; give one per line");
     expectFault("@" + (root / "gone.txt").string(), "@" + (root / "gone.txt").string() + ": no such file");
     std::ofstream(root / "b/more.txt") << "@scenes.txt\n";
     expectFault("@" + (root / "b/scenes.txt").string(),

@@ -94,21 +94,21 @@ TEST(Library, WhatCannotBeComparedSaysWhy) {
     EXPECT_EQ(faultOf([&] {
                   compare({2, 2, four}, {3, 2, six});
               }),
-              "the reference is 2x2 and the test 3x2: only pictures of one size are compared");
+              "the reference is 2x2 and the test is 3x2: images must have the same size");
     EXPECT_EQ(faultOf([&] {
                   compare({2, 3, four}, {2, 2, four});
               }),
-              "the reference is 2x3 and has 12 numbers; it takes 3 for each pixel");
+              "the reference is 2x3 and has 12 values; give 3 per pixel");
     EXPECT_EQ(faultOf([&] {
                   compare({0, 0, {}}, {2, 2, four});
               }),
-              "the reference is 0x0 and has 0 numbers; it takes 3 for each pixel");
+              "the reference is 0x0 and has 0 values; give 3 per pixel");
     Options options;
     options.limits = {{"flop", 1}};
     EXPECT_EQ(faultOf([&] {
                   compare({2, 2, four}, {2, 2, four}, options);
               }),
-              "flop: no such figure; figureNames() has them");
+              "flop: unknown metric; figureNames() lists them");
     options.limits = {{"angle_max", 1}};
     EXPECT_EQ(faultOf([&] {
                   compare({2, 2, four}, {2, 2, four}, options);
@@ -125,7 +125,7 @@ TEST(Library, WhatCannotBeComparedSaysWhy) {
     EXPECT_EQ(faultOf([&] {
                   compare({2, 2, four}, {2, 2, four}, options);
               }),
-              "Options::covered has 3 numbers for 4 pixels");
+              "Options::covered has 3 values for 4 pixels; give one per pixel");
     options.covered = {};
     options.pixels_per_degree = 0;
     EXPECT_NE(faultOf([&] { compare({2, 2, four}, {2, 2, four}, options); }), "");

@@ -294,7 +294,7 @@ TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
     }
     const Report report = reportOf(std::move(frames));
     const Legend legend = legendOf(report, folder() / "report", "light_count", "<div class=\"pair ");
-    EXPECT_EQ(legend.title, "lights that each pixel evaluates");
+    EXPECT_EQ(legend.title, "lights evaluated per pixel");
     EXPECT_EQ(legend.words, (std::vector<std::string>{"0", "10", "20 lights"}));
     ASSERT_EQ(legend.stops.size(), 11u);
     ASSERT_EQ(legend.picture.height, 3) << "no strip of a legend in it";

@@ -55,13 +55,11 @@ TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
     image.pixel(2)[0] = std::numeric_limits<float>::infinity();
     EXPECT_FALSE(overflowInWords(image, LitFormat::fp32));
     EXPECT_EQ(overflowInWords(image, LitFormat::fp16).value_or(""),
-              "lit: 2 pixel(s) are as large as fp16 holds, or larger, and cut; use --lit-format fp32");
+              "lit: clamped to the range of fp16 at 2 pixels; use --lit-format fp32");
     image.pixel(1)[2] = 64512;  // of 10 bits the largest
-    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("2 pixel(s)"),
-              std::string::npos);
+    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("2 pixels"), std::string::npos);
     image.pixel(1)[2] = 64000;
-    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("1 pixel(s)"),
-              std::string::npos);
+    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("1 pixel;"), std::string::npos);
 }
 
 TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {
@@ -144,10 +142,9 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     EXPECT_EQ(frame.counters.lights, 3u);
     view.view.width = view.view.height = 90;
     view.view.wider_frame = 2;
-    EXPECT_EQ(
-        describedFrame(scene, view, settings).notes.back(),
-        "the camera frames 2:1, and the picture is 1:1: more is seen above and below, so that nothing is "
-        "cropped");
+    EXPECT_EQ(describedFrame(scene, view, settings).notes.back(),
+              "the camera's aspect ratio is 2:1, the picture's 1:1: more is visible above and below, and "
+              "nothing is cropped");
 }
 
 // A floor under a sky, which is sampled: its uncertainty relative to each pixel is that of 999 in a thousand

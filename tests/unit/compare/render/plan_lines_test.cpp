@@ -23,7 +23,8 @@ Requirements::Line plannedLine(const std::string& what, const char* scene, const
 TEST(PlanLines, NameShadowsAndHaze) {
     Settings settings;
     EXPECT_TRUE(plannedLine("shadows", "builtin:suns", settings).modelled);
-    EXPECT_EQ(plannedLine("shadows", "builtin:suns", settings).why, "the brightest sun casts: --shadows pcf");
+    EXPECT_EQ(plannedLine("shadows", "builtin:suns", settings).why,
+              "the brightest sun casts shadows: --shadows pcf");
     EXPECT_FALSE(plannedLine("haze", "builtin:suns", settings).modelled);
     settings.haze = true;
     EXPECT_TRUE(plannedLine("haze", "builtin:suns", settings).modelled);

@@ -151,7 +151,7 @@ TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
         const std::string other = judgedCard({.figure = figure, .measured = 0.25, .limit = 0.002});
         EXPECT_NE(other.find("class=\"plot unbounded\""), std::string::npos)
             << "no colour says that it passes";
-        EXPECT_NE(other.find(fmt::format("the limit is on {}, not on these errors", figure)),
+        EXPECT_NE(other.find(fmt::format("the limit applies to {}, not to these errors", figure)),
                   std::string::npos)
             << other;
         EXPECT_EQ(other.find("line: "), std::string::npos);
@@ -168,10 +168,11 @@ TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
     EXPECT_NE(card.find("worst pixel 1, 2, by FLIP<br><span class=\"values\"> 0.125</span>"),
               std::string::npos)
         << card;
-    EXPECT_NE(card.find("pixels by FLIP, the height"), std::string::npos);
+    EXPECT_NE(card.find("pixels by FLIP; bar height"), std::string::npos);
     EXPECT_NE(card.find("<title>0.121 to 0.133: 1 pixel</title>"), std::string::npos)
         << "and not where 0.25 lies: " << card;
-    EXPECT_NE(card.find("the limit is on flip, not on these errors"), std::string::npos) << "it is a mean";
+    EXPECT_NE(card.find("the limit applies to flip, not to these errors"), std::string::npos)
+        << "it is a mean";
     EXPECT_EQ(
         judgedCard({.figure = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
         std::string::npos)
@@ -191,7 +192,7 @@ TEST(ReportErrors, OnlyAFailingChannelHasItsCommand) {
     EXPECT_NE(cardOf(page, "roughness").find("<code>" + command + "</code>"), std::string::npos)
         << cardOf(page, "roughness");
     EXPECT_EQ(cardOf(page, "albedo").find("<code>"), std::string::npos);
-    EXPECT_NE(contentsOf(out / "junit.xml").find("again: " + command + "\n"), std::string::npos);
+    EXPECT_NE(contentsOf(out / "junit.xml").find("reproduce: " + command + "\n"), std::string::npos);
 }
 
 }  // namespace

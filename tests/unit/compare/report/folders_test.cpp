@@ -162,7 +162,7 @@ TEST(ReportFolders, KeepSaysOfWhichComparisons) {
         EXPECT_EQ(countOf(page, "<div class=\"panel\"") > 0, of_bad);
         EXPECT_EQ(countOf(page, "<figure class=\"histogram\">"), 1u) << "of roughness, whatever is kept";
         const std::size_t channels = channelsOfOneSample();
-        EXPECT_EQ(countOf(page, "--keep failing: no pictures are kept of channels that pass"),
+        EXPECT_EQ(countOf(page, "--keep failing: pictures of passing channels are not kept"),
                   keep == Keep::failing ? channels : 0);
         EXPECT_EQ(countOf(page, "--keep none: no pictures are kept"), keep == Keep::none ? 2 * channels : 0);
         EXPECT_EQ(files, listedIn(out / "report.json"));

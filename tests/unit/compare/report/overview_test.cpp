@@ -88,7 +88,7 @@ TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
         EXPECT_NE(page.find(std::string("<tr><td>") + key + "</td>"), std::string::npos) << key;
 }
 
-// Notes stand below the index, each once with its scenes; scenes that could not be drawn are failures.
+// Notes stand below the index, each once with its scenes; scenes that could not be rendered are failures.
 TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     std::vector<Frame> frames;
     for (const char* scene : {"a/x.glb", "a/y.glb", "a/z.glb"})
@@ -107,7 +107,7 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     EXPECT_LT(page.find("<section class=\"index\">"), page.find("<b><bdi>3 scenes: </bdi></b>"));
     EXPECT_NE(page.find("<li>a/bad.glb: is cut short</li>"), std::string::npos);
     EXPECT_NE(page.find("<h1><span class=\"verdict fail\">fail</span>"), std::string::npos);
-    EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
+    EXPECT_NE(page.find("<p>ERROR: 1 scene could not be rendered: a/bad.glb; pass"), std::string::npos);
 }
 
 TEST(ReportOverview, ErrorsThatAreAnglesHaveAUnit) {
@@ -137,20 +137,20 @@ TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
     Report report = reportOf(bothFrames());
     ASSERT_TRUE(report.passed());
     for (const bool lacking : {false, true}) {
-        if (lacking) report.failures = {{"only_a.exr", "is in A alone"}};
+        if (lacking) report.failures = {{"only_a.exr", "is in A only"}};
         const std::filesystem::path out = folder() / (lacking ? "lacking" : "whole");
         writeReport(report, out, {});
         EXPECT_EQ(report.passed(), !lacking);
         const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
                           junit = contentsOf(out / "junit.xml");
         EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
-        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone</p>"), lacking);
-        EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A alone</li>"), lacking);
+        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A only</p>"), lacking);
+        EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A only</li>"), lacking);
         EXPECT_EQ(countOf(json, "\n  \"verdict\": \"fail\""), lacking);
         EXPECT_EQ(countOf(json, "\"scene\": \"only_a.exr\""), lacking);
         EXPECT_EQ(countOf(junit, "<testsuite name=\"only_a.exr\" tests=\"1\" failures=\"1\" errors=\"0\""),
                   lacking);
-        EXPECT_EQ(countOf(junit, "<failure type=\"scene\" message=\"only_a.exr: is in A alone\"/>"), lacking);
+        EXPECT_EQ(countOf(junit, "<failure type=\"scene\" message=\"only_a.exr: is in A only\"/>"), lacking);
     }
 }
 

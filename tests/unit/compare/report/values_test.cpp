@@ -188,7 +188,7 @@ TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
         one.channels.back().verdict = Verdict::forward_only;
         const ReportLayout layout = layoutOf(report, {});
         EXPECT_EQ(layout.pictures[0][0].values, width == 4096 ? "roughness.values.js" : "");
-        EXPECT_EQ(reportHtml(report, layout).find("are in the EXRs alone") != std::string::npos,
+        EXPECT_EQ(reportHtml(report, layout).find("have values only in the EXR files") != std::string::npos,
                   width == 4097);
     }
 }

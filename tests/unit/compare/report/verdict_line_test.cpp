@@ -91,7 +91,7 @@ TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
                       table.npos,
                   explained)
             << table;
-        EXPECT_EQ(table.find("1 pixel(s) (100 %) differ from what the encoding explains") != table.npos,
+        EXPECT_EQ(table.find("the encoding does not explain the difference at 1 pixel (100 %)") != table.npos,
                   !explained)
             << table;
     }
@@ -119,12 +119,12 @@ TEST(VerdictLine, ANanComesFirst) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels.at(gpu::DEBUG_metallic).at(1, 2) = std::nanf("");
     EXPECT_TRUE(channelIn(reportOf(frames), gpu::DEBUG_metallic)
-                    .reason.starts_with("NaN or infinity at 1 pixel(s) of forward_plus; max inf exceeds"))
+                    .reason.starts_with("NaN or infinity at 1 pixel of forward_plus; max inf exceeds"))
         << channelIn(reportOf(frames), gpu::DEBUG_metallic).reason;
     CompareOptions options;
     options.rules = rulesFromJson(R"({"rules": [{"channel": "*", "max": 9, "because": "any"}]})", "t.json");
-    EXPECT_TRUE(
-        channelIn(reportWith(frames, options), gpu::DEBUG_metallic).reason.starts_with("1 pixel(s) are NaN"));
+    EXPECT_TRUE(channelIn(reportWith(frames, options), gpu::DEBUG_metallic)
+                    .reason.starts_with("NaN or infinite values differ at 1 pixel"));
 }
 
 TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
@@ -138,7 +138,7 @@ TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
               "FAIL: 2 of 3 comparisons failed: a.glb, c.glb (metallic beyond tolerance)");
     EXPECT_NE(reportTable(report).find("  FAIL a.glb, metallic: max 0.5 exceeds"), std::string::npos);
     report.errors = {{"d.glb", "d.glb: is cut short"}};
-    EXPECT_TRUE(verdictLine(report).starts_with("ERROR: 1 scene could not be drawn: d.glb; FAIL: 2 of 3"));
+    EXPECT_TRUE(verdictLine(report).starts_with("ERROR: 1 scene could not be rendered: d.glb; FAIL: 2 of 3"));
     EXPECT_NE(reportTable(report).find("\nERROR d.glb: is cut short\n"), std::string::npos);
     const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
     EXPECT_EQ(countOf(junit, "<error type=\"scene\" message=\"d.glb: is cut short\"/>"), 1u) << junit;
@@ -156,8 +156,8 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
     dark[1].through_gbuffer.at(litMode) = dark[0].channels.at(litMode);
     const std::pair<std::vector<Frame>, std::string> cases[] = {
         {bothFrames(), ""},
-        {empty, ", but both pictures are empty: no surface is in view"},
-        {dark, ", but both pictures are black: no light reaches what is in view"}};
+        {empty, ", but both images are empty: no surface is in view"},
+        {dark, ", but both images are black: no light reaches a visible surface"}};
     const auto shared = std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
         return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
     });
@@ -175,7 +175,7 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
         EXPECT_EQ(reportWith(frames, options).passed(), words.empty());
     }
     const auto json = nlohmann::json::parse(reportJson(reportWith(empty, {}), nullptr));
-    EXPECT_EQ(json["comparisons"][0]["emptiness"], "both pictures are empty: no surface is in view");
+    EXPECT_EQ(json["comparisons"][0]["emptiness"], "both images are empty: no surface is in view");
 }
 
 // A surface on 1 % of the picture is one; on less, the background decides every picture.
@@ -193,7 +193,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
                 }
         }
         EXPECT_EQ(reportWith(frames, {}).comparisons.at(0).emptiness,
-                  shown == 1 ? "only 0.5 % of the picture shows the scene" : "");
+                  shown == 1 ? "only 0.5 % of the image shows the scene" : "");
     }
 }
 
@@ -213,7 +213,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsLit) {
                 }
         }
         EXPECT_EQ(reportWith(frames, {}).comparisons.at(0).emptiness,
-                  shown == 9 ? "only 4.5 % of what is in view is lit" : "");
+                  shown == 9 ? "light reaches only 4.5 % of the visible surfaces" : "");
     }
 }
 
@@ -226,7 +226,7 @@ TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     frames[4].notes = {"the same", "another"};
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 3 scenes: the same\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, a.glb, b.glb, each with numbers of its own: it took 1.5 s\n"), table.npos)
+    EXPECT_NE(table.find("\nnote, a.glb, b.glb, with different numbers: it took 1.5 s\n"), table.npos)
         << table;
     EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
 }
@@ -242,8 +242,7 @@ TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
     const std::string table = reportTable(reportOf(frames));
     EXPECT_NE(table.find("\nnote, 2 scenes: material 2: roughness 3\n"), table.npos) << table;
     EXPECT_NE(table.find("\nnote, a.glb: material 3: roughness 4\n"), table.npos) << table;
-    EXPECT_NE(table.find("\nnote, 2 scenes, each with numbers of its own: material 1: roughness 2\n"),
-              table.npos)
+    EXPECT_NE(table.find("\nnote, 2 scenes, with different numbers: material 1: roughness 2\n"), table.npos)
         << table;
     EXPECT_EQ(countOf(table, "\nnote"), 3u) << table;
 }

@@ -45,7 +45,7 @@ TEST(Shards, AreCountedFromOne) {
     EXPECT_EQ(shardWords("0/3"), "--shard 0/3: there is no shard 0 of 3; the first is 1");
     EXPECT_EQ(shardWords("4/3"), "--shard 4/3: there is no shard 4 of 3; the first is 1");
     for (const char* word : {"", "3", "1/", "/3", "a/3", "1/3/5", "1 /3", "1.5/3", "slurm/x"})
-        EXPECT_NE(shardWords(word).find("is I/N, the I-th of N from 1"), std::string::npos) << word;
+        EXPECT_NE(shardWords(word).find("give I/N, counted from 1"), std::string::npos) << word;
 }
 
 TEST(Shards, ARegularArrayOfSlurmSaysItself) {

@@ -143,7 +143,7 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
         const auto changed = nlohmann::json::parse(toJson(now.settings));
         ASSERT_NE(changed.at(key), usual.at(key)) << key << ": no value here changes it";
         EXPECT_EQ(baselineMismatches(baseline, now, aCpu),
-                  Lines{fmt::format("baseline: other Settings: {} {} (now {})", key, usual.at(key).dump(),
+                  Lines{fmt::format("baseline: different Settings: {} {} (now {})", key, usual.at(key).dump(),
                                     changed.at(key).dump())});
         ++cases;
     }
@@ -161,7 +161,7 @@ TEST(Baseline, AReferenceOfFewerSamplesIsNoTruthOfThem) {
     reference.reference_mode = ReferenceMode::scene;
     reference.spp = 3;
     EXPECT_EQ(samplesProblem(reference, path),
-              "--msaa 4: the reference takes 3 of a pixel's samples; use --spp 64");
+              "--msaa 4: the reference takes only 3 samples per pixel; use --spp 64");
     reference.spp = 4;
     EXPECT_EQ(samplesProblem(reference, path), "");
     path.msaa = 8;

@@ -84,15 +84,16 @@ TEST(CompareOptions, NoiseIsARaceOnACpu) {
     const Report report = compared(
         noisyFrames(), {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true});
     EXPECT_TRUE(
-        says(report.comparisons[0].failures, "two runs differ in lit at 2 pixel(s), by up to 0.3: a race"));
+        says(report.comparisons[0].failures, "two runs differ in lit at 2 pixels, by up to 0.3: a race"));
     EXPECT_EQ(litOf(report).verdict, Verdict::fail) << "nothing is granted for a race";
 }
 
 TEST(CompareOptions, WhatKernelsLeaveMayNotChange) {
     std::vector<Frame> frames = framesApart();
     frames[1].changed_buffers = {"light lists", "posed positions"};
-    EXPECT_TRUE(says(compared(frames, {}, "discrete").comparisons[0].failures,
-                     "compute kernels left other light lists, posed positions in a second run: a race"));
+    EXPECT_TRUE(
+        says(compared(frames, {}, "discrete").comparisons[0].failures,
+             "a second run of the compute shaders left other data in light lists, posed positions: a race"));
 }
 
 TEST(CompareOptions, NoiseOfAGpuIsSaidAndGrantedOnlyWhereAsked) {
@@ -104,7 +105,7 @@ TEST(CompareOptions, NoiseOfAGpuIsSaidAndGrantedOnlyWhereAsked) {
                       {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true},
                       "discrete");
     EXPECT_EQ(litOf(report).verdict, Verdict::pass);
-    EXPECT_NE(litOf(report).tolerance.because.find("and 0.3 that two runs of one path differ by"),
+    EXPECT_NE(litOf(report).tolerance.because.find("plus 0.3, the difference of two runs of one path"),
               std::string::npos);
     EXPECT_GE(litOf(report).tolerance.max, 0.3);
 }

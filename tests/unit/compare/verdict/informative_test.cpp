@@ -58,10 +58,10 @@ TEST(Informative, ARuleForLitJudgesIt) {
 TEST(Informative, TheReportSaysWhatDiffers) {
     const Report report = informedReport({gpu::DEBUG_lit});
     EXPECT_EQ(verdictLine(report),
-              "pass: all 14 compared channels are within tolerance, and 9 of light decide nothing: the "
+              "pass: all 14 compared channels are within tolerance; 9 channels of light not counted: the "
               "paths' Settings differ (4 more exist on one side only)");
     const std::string said =
-        "deferred and forward_plus have Settings of their own: --assign clustered and per_object";
+        "deferred and forward_plus have different Settings: --assign clustered and per_object";
     EXPECT_EQ(countOf(reportTable(report), said), 1u) << reportTable(report);
     const auto json = nlohmann::json::parse(reportJson(report, nullptr));
     const auto& comparison = json["comparisons"][0];

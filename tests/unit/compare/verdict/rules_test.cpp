@@ -126,34 +126,34 @@ TEST(Rules, FaultsWordByWord) {
     EXPECT_EQ(fault("nonsense"),
               "dir/t.json: is not JSON: parse error at line 1, column 2: syntax error while "
               "parsing value - invalid literal; last read: 'no'");
-    EXPECT_EQ(fault(Json::array()), "dir/t.json: is no object with rules");
-    EXPECT_EQ(fault({{"rule", 1}}), "dir/t.json: no such member rule; there are presets and rules");
-    EXPECT_EQ(fault(Json::object()), "dir/t.json: has no rules, an array");
-    EXPECT_EQ(faultOfRule(7), "dir/t.json: rule 1: is no object");
+    EXPECT_EQ(fault(Json::array()), "dir/t.json: is not an object with rules");
+    EXPECT_EQ(fault({{"rule", 1}}), "dir/t.json: unknown member rule; use presets and rules");
+    EXPECT_EQ(fault(Json::object()), "dir/t.json: has no array \"rules\"");
+    EXPECT_EQ(faultOfRule(7), "dir/t.json: rule 1: is not an object");
     EXPECT_EQ(faultOfRule({{"max", 1}, {"because", "x"}}),
-              "dir/t.json: rule 1: has no channel, the name or pattern of the channels it is for");
+              "dir/t.json: rule 1: has no valid channel: give the name or pattern of channels");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"max", 1}}),
-              "dir/t.json: rule 1: has no because, the reason for it");
+              "dir/t.json: rule 1: has no valid because: give the reason for the limit");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"max", "1"}, {"because", "x"}}),
               "dir/t.json: rule 1: max is \"1\", not a number");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"max", -1}, {"because", "x"}}),
-              "dir/t.json: rule 1: max -1 is negative: no error is");
+              "dir/t.json: rule 1: max -1 is negative; give 0 or more");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"maxx", 1}, {"because", "x"}})
-                  .find("dir/t.json: rule 1: no such figure maxx; there are max, mean, "),
+                  .find("dir/t.json: rule 1: unknown metric maxx; use one of max, mean, "),
               0u);
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"preset", "p"}, {"because", "x"}}),
-              "dir/t.json: rule 1: no such preset p");
+              "dir/t.json: rule 1: unknown preset p");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"any", Json::array()}, {"because", "x"}}),
-              "dir/t.json: rule 1: any is no array of bounds");
+              "dir/t.json: rule 1: any is not a non-empty array of limits");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"failing", {{"above", 1}}}, {"because", "x"}}),
-              "dir/t.json: rule 1: failing is { \"above\": ERROR, \"share\": 0 to 1 }");
+              "dir/t.json: rule 1: failing must be { \"above\": ERROR, \"share\": 0 to 1 }");
     EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"failing", {{"above", 1}, {"share", 2}}}, {"because", "x"}}),
-              "dir/t.json: rule 1: failing: share 2 is not from 0 to 1");
-    EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"because", "x"}}).find("dir/t.json: rule 1: bounds nothing"),
+              "dir/t.json: rule 1: failing: share 2 is not between 0 and 1");
+    EXPECT_EQ(faultOfRule({{"channel", "lit"}, {"because", "x"}}).find("dir/t.json: rule 1: sets no limit"),
               0u);
     EXPECT_EQ(
         fault({{"presets", {{"a", {{"preset", "b"}}}, {"b", {{"preset", "a"}}}}}, {"rules", Json::array()}}),
-        "dir/t.json: preset a: preset a leads back to itself");
+        "dir/t.json: preset a: preset a refers to itself");
     EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: is nested deeper than 128 levels");
 }
 

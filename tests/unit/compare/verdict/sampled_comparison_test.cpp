@@ -47,7 +47,7 @@ TEST(SampledComparison, IsOfLitAlone) {
         EXPECT_TRUE(comparison.passed()) << (comparison.failures.empty() ? "" : comparison.failures[0]);
         EXPECT_EQ(std::ranges::count_if(
                       comparison.notes,
-                      [](const std::string& note) { return note.starts_with("lit alone is compared"); }),
+                      [](const std::string& note) { return note.starts_with("only lit is compared"); }),
                   1);
     }
     EXPECT_GT(report.comparisons[2].channels.size(), 10u) << "the paths' samples are the same ones";

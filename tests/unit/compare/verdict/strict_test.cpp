@@ -59,8 +59,8 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
             const Comparison& c = report.comparisons.at(pair);
             const std::string name = pair == 0 ? "deferred" : "forward_plus";
             const Lines said{"albedo is in " + name +
-                             (strict ? " alone, and --strict asks for the same channels on both sides"
-                                     : " alone and was not compared")};
+                             (strict ? " only, but --strict requires the same channels on both sides"
+                                     : " only: not compared")};
             EXPECT_EQ(c.failures, strict ? said : Lines{}) << pair;
             EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
         }
@@ -68,12 +68,12 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
         // In what users and CI read.
         const std::string table = reportTable(report), file = report.frames[0].name,
                           pairs = file + "/deferred, builtin:one " + file + "/forward_plus";
-        const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus alone, and --strict"
-                                        : "\nnote: albedo is in forward_plus alone and was not compared\n";
+        const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus only, but --strict"
+                                        : "\nnote: albedo is in forward_plus only: not compared\n";
         EXPECT_NE(table.find(line), std::string::npos) << table;
-        EXPECT_EQ(countOf(table, "albedo is in forward_plus alone"), 1u) << table;
+        EXPECT_EQ(countOf(table, "albedo is in forward_plus only"), 1u) << table;
         EXPECT_EQ(table.find("\nFAIL: 2 of 3 comparisons failed: builtin:one " + pairs +
-                             " (albedo is in deferred alone, and --strict asks for the same channels on both "
+                             " (albedo is in deferred only, but --strict requires the same channels on both "
                              "sides), and 1 more\n") != table.npos,
                   strict)
             << table;
@@ -82,9 +82,9 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
         EXPECT_EQ(json["comparisons"][0][strict ? "failures" : "notes"].size(), 1u);
         const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
         EXPECT_EQ(countOf(junit, "<failure "), strict ? 2u : 0u);
-        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred alone, and --strict asks"),
+        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred only, but --strict requires"),
                   strict ? 1u : 0u);
-        EXPECT_NE(junit.find("albedo is in deferred alone"), std::string::npos) << junit;
+        EXPECT_NE(junit.find("albedo is in deferred only"), std::string::npos) << junit;
     }
 }
 
@@ -93,7 +93,7 @@ TEST(Strict, EitherSideMayLackIt) {
     frames[1].channels.erase(gpu::DEBUG_metallic);
     const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
     EXPECT_EQ(report.comparisons[0].failures,
-              Lines{"metallic is in deferred alone, and --strict asks for the same channels on both sides"});
+              Lines{"metallic is in deferred only, but --strict requires the same channels on both sides"});
     EXPECT_FALSE(report.passed());
 }
 
@@ -123,7 +123,7 @@ TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
         for (const DebugMode& mode : debugModes()) {
             const std::string line =
                 std::string(mode.name) +
-                " is in deferred alone, and --strict asks for the same channels on both sides";
+                " is in deferred only, but --strict requires the same channels on both sides";
             if (std::ranges::count(report.comparisons[0].failures, line) > 0) said.emplace_back(mode.name);
         }
         EXPECT_EQ(said, ours ? Lines{} : pathsOnly) << nlohmann::json(report.comparisons[0].failures);
@@ -157,7 +157,7 @@ TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
             makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
         const Comparison& c = report.comparisons[0];
         EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
-                                     "mystery of baseline: none of our channels, not compared"),
+                                     "mystery of baseline: not compared, Diptych has no such channel"),
                   1);
     }
     EXPECT_FALSE(againstBaseline({}, "mystery", true).passed());
@@ -185,8 +185,8 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
     for (const bool strict : {false, true}) {
         const PictureDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
         const std::string ending =
-            strict ? ", and --strict asks for the same channels on both sides" : " and was not compared";
-        const Lines said{"one is in the reference alone" + ending, "other is in the test alone" + ending};
+            strict ? ", but --strict requires the same channels on both sides" : ": not compared";
+        const Lines said{"one is in the reference only" + ending, "other is in the test only" + ending};
         EXPECT_EQ(diff.passed(), !strict);
         EXPECT_EQ(strict ? diff.failures : Lines{}, strict ? said : Lines{});
         EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
@@ -224,11 +224,12 @@ TEST(Strict, WhatIsNamedIsDemanded) {
     EXPECT_EQ(failures("", {}), Lines{});
     EXPECT_EQ(failures("*", {}), Lines{});
     EXPECT_EQ(failures("lit", {}), Lines{});
-    EXPECT_EQ(failures("albedo", {}), Lines{"albedo is in deferred alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(failures("albedo", {}),
+              Lines{"albedo is in deferred only, but t.json, rule 1 needs both sides"});
     EXPECT_EQ(failures("alb*", {}).size(), 1u);
     EXPECT_EQ(failures("", {litMode}), Lines{});
     EXPECT_EQ(failures("", {static_cast<int>(gpu::DEBUG_albedo)}),
-              Lines{"albedo is in deferred alone, and --channels asks for it"});
+              Lines{"albedo is in deferred only, but --channels requests it"});
 }
 
 // What only forward+ can make fails where a rule is to judge it: nothing does.
@@ -238,7 +239,7 @@ TEST(Strict, ARuleOnWhatForwardAloneHasIsNeverMet) {
         rulesFromJson(R"({"rules": [{"channel": "texcoords", "max": 9, "because": "any"}]})", "t.json");
     const Report report = makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, options);
     EXPECT_EQ(report.comparisons[0].failures,
-              Lines{"texcoords is in forward_plus alone, and t.json, rule 1 judges it"});
+              Lines{"texcoords is in forward_plus only, but t.json, rule 1 needs both sides"});
 }
 
 TEST(Strict, DiffDemandsWhatARuleNames) {
@@ -249,7 +250,7 @@ TEST(Strict, DiffDemandsWhatARuleNames) {
     PictureDiffOptions options;
     options.rules = rulesFromJson(R"({"rules": [{"channel": "two", "max": 1, "because": "any"}]})", "t.json");
     const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
-    EXPECT_EQ(diff.failures, Lines{"two is in the reference alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(diff.failures, Lines{"two is in the reference only, but t.json, rule 1 needs both sides"});
 }
 
 // Pictures that show nothing pass with a word about it, and fail where --strict asks for more.
@@ -263,10 +264,10 @@ TEST(Strict, FailsADiffOfBlackPictures) {
         options.allow_empty = allowed;
         return diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
     };
-    const std::string line = "both pictures are black: every value compared is 0";
+    const std::string line = "both images are black: every compared value is 0";
     EXPECT_TRUE(diff(false, false).passed());
     EXPECT_EQ(diff(false, false).emptiness, line);
-    EXPECT_EQ(diff(true, false).failures, Lines{line + "; --allow-empty grants that"});
+    EXPECT_EQ(diff(true, false).failures, Lines{line + "; --allow-empty accepts that"});
     EXPECT_FALSE(diff(true, false).passed());
     EXPECT_TRUE(diff(true, true).passed());
 }
@@ -336,7 +337,8 @@ TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
     report.device = strictDevice;
     report.frames = std::move(frames);
     const Comparison comparison = compareFrames(report, 0, 1, {}, options);
-    EXPECT_EQ(comparison.failures, Lines{"albedo is in forward_plus alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(comparison.failures,
+              Lines{"albedo is in forward_plus only, but t.json, rule 1 needs both sides"});
     EXPECT_EQ(comparison.notes, Lines{});
 }
 

@@ -193,8 +193,8 @@ TEST(Uncertainty, OfAFileThatWasChangedIsRefusedInOneLine) {
             frameFromExr(file);
             ADD_FAILURE() << wrong;
         } catch (const std::runtime_error& error) {
-            EXPECT_EQ(std::string(error.what()), file.string() + ": its attribute relative_uncertainty, \"" +
-                                                     wrong + "\", is no number");
+            EXPECT_EQ(std::string(error.what()),
+                      file.string() + ": attribute relative_uncertainty \"" + wrong + "\" is not a number");
         }
     }
 }

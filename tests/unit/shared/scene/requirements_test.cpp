@@ -44,9 +44,10 @@ TEST(Requirements, SunsWithoutAShadowAreNamed) {
     lights[3].name = "dusk";
     Settings settings;
     settings.shadows = Shadows::evsm;
-    EXPECT_EQ(leftOutShadows(lights, settings),
-              std::vector<std::string>{
-                  "of 3 directional lights the brightest, noon, casts a shadow; without one: light 0, dusk"});
+    EXPECT_EQ(
+        leftOutShadows(lights, settings),
+        std::vector<std::string>{
+            "only the brightest of 3 directional lights, noon, casts a shadow; these do not: light 0, dusk"});
     settings.shadows = Shadows::off;
     EXPECT_TRUE(leftOutShadows(lights, settings).empty());
     settings.shadows = Shadows::pcf;
@@ -215,7 +216,7 @@ TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     needs.rect_lights = needs.tube_lights = 1;
     needs.sun_discs = 1;
     needs.environment = "sky.exr";
-    const std::vector<std::string> expected{"1 sun's disc: not drawn by deferred yet: the reference has it"};
+    const std::vector<std::string> expected{"1 sun disc: not rendered by deferred yet; the reference has it"};
     EXPECT_EQ(leftOutLight(Path::deferred, needs), expected);
     EXPECT_EQ(leftOutLight(Path::forward_plus, needs).size(), 1u);
     EXPECT_TRUE(leftOutLight(Path::reference, needs).empty()) << "it draws all";
