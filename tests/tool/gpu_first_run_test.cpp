@@ -21,7 +21,7 @@ case "$BROKEN $*" in
         printf '    "type": "discrete"\n  }\n}\n' ;;
     *devices\ --json) echo '{}' ;;
     inexact\ *--probe) echo '     FAIL: 1 of 75 probes: a / b'; exit 1 ;;
-    *--probe) echo '     pass: all 75 probes' ;;
+    *--probe) echo '     pass: 75 of 75 probes' ;;
     *devices) printf '0  Fake GPU 1 (discrete)\n     yes  one thing\n     no   another thing\n' ;;
     related\ audit*) echo 'FAIL: 25 of 26 relations hold, 1 broken, 0 not applicable'; exit 1 ;;
     *audit*) echo 'pass: 26 of 26 relations hold, 0 broken, 0 not applicable' ;;
