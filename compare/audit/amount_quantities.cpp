@@ -122,7 +122,7 @@ double usualTriangles(const Subject& subject) {
 std::string lacksRigid(const Subject& subject) {
     for (const Mesh& mesh : subject.given.scene.meshes)
         if (std::ranges::any_of(mesh.primitives, isDivisible)) return {};
-    return "the scene has no mesh that is neither skinned nor morphed";
+    return "every mesh of the scene is skinned or morphed";
 }
 
 void pushSize(Case& pushed, const Subject& subject, double height) {

@@ -28,7 +28,7 @@ std::string lacksRigidMesh(const Subject& subject) {
     const bool any = std::ranges::any_of(subject.given.scene.meshes, [](const Mesh& mesh) {
         return !mesh.primitives.empty() && isRigid(mesh);
     });
-    return any ? "" : "the scene has no mesh that is neither skinned nor morphed";
+    return any ? "" : "every mesh of the scene is skinned or morphed";
 }
 
 // Lets a node's mesh be drawn by a node of its own instead, after all others. `mesh`: another one.
@@ -158,7 +158,7 @@ std::string lacksFlat(const Subject& subject) {
         for (const Primitive& primitive : mesh.primitives)
             for (std::size_t t = 0; isRigid(primitive) && t + 2 < primitive.indices.size(); t += 3)
                 if (isFlat(primitive, &primitive.indices[t])) return {};
-    return "the scene has no flat triangle that is neither skinned nor morphed";
+    return "the scene has no flat triangle outside skinned and morphed meshes";
 }
 
 // Each flat triangle becomes four.

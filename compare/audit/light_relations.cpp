@@ -121,7 +121,7 @@ std::vector<Relation> lightRelations() {
              .same_pipelines = true},
             {.name = "dark_lights",
              .changes = "two lights of intensity 0 are added in the middle of the picture",
-             .because = "0 is added",
+             .because = "a light of intensity 0 adds 0",
              .lacks = lacksPerObject,
              .change = addDarkLights},
             {.name = "far_lights",

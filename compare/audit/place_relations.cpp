@@ -85,8 +85,7 @@ std::string lacksTurnable(const Subject& subject) {
 }
 std::string lacksMirrorable(const Subject& subject) {
     if (subject.view.width % 2 != 0)
-        return "the picture is an odd number of pixels wide: the 2x2 of which differences are made are "
-               "others";
+        return "the picture's width is odd: mirrored, derivatives would use other 2x2 quads";
     return lacksTurnable(subject);
 }
 
