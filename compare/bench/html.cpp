@@ -6,6 +6,7 @@
 #include "compare/bench/style.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -103,13 +104,14 @@ std::string skips(const Bench& bench) {
 std::string kernels(const Bench& bench) {
     if (!bench.kernels) return {};
     const KernelReport& report = *bench.kernels;
-    std::string out = fmt::format(
-                          "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">Nanoseconds per "
-                          "light and pixel: the difference between lists of {} and {} out of {} lights, "
-                          "{}x{}, {} interleaved runs, {} threads</p>\n",
-                          report.short_list, report.long_list, report.lights, report.size.width,
-                          report.size.height, report.runs, report.threads) +
-                      head({{"kernel", false}, {"ns", true}, {"ratio to CPU", true}, {"goal", true}});
+    std::string out =
+        fmt::format(
+            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">Nanoseconds per light and "
+            "pixel: the difference between lists of {} and {} out of {} lights, {}x{}, {}, {}</p>\n",
+            report.short_list, report.long_list, report.lights, report.size.width, report.size.height,
+            counted(static_cast<std::uint64_t>(report.runs), "interleaved run"),
+            counted(static_cast<std::uint64_t>(report.threads), "thread")) +
+        head({{"kernel", false}, {"ns", true}, {"ratio to CPU", true}, {"goal", true}});
     for (const KernelRow& row : report.rows)
         out += "<tr>" + wholeCell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
                numberCell(row.ratio ? fmt::format("{:.2f}", *row.ratio) : "") +
@@ -139,13 +141,14 @@ std::string how(const Bench& bench) {
 std::string benchHtml(const Bench& bench) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
-        "<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
-        "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by "
-        "side: <bdi>{0}</bdi></h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
-        "{8}{15}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
-        markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
-        markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, "
+        "{0}</title>\n<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
+        "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by side: <bdi>{0}</bdi></h1><p "
+        "class=\"soft\">{4} of {5} each on {6} ({7})</p></header>\n{8}{15}{9}<div "
+        "id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
+        markup(bench.scene), page::style, plotStyle, benchStyle, counted(bench.rows.size(), "row"),
+        counted(static_cast<std::uint64_t>(bench.runs), "frame"), markup(bench.device.name),
+        markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
         rows(bench), kernels(bench), skips(bench), how(bench), page::tables,

@@ -34,9 +34,11 @@ std::string benchTable(const Bench& bench, std::size_t first) {
 std::string kernelTable(const KernelReport& kernels) {
     std::string out = fmt::format(
         "\none listed point light at one pixel: the difference between lists of {} and {} out of {} lights, "
-        "{}x{}, {} runs, {} threads\n{:<44}  {:>6}  {:>15}  {:>6}\n",
+        "{}x{}, {}, {}\n{:<44}  {:>6}  {:>15}  {:>6}\n",
         kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
-        kernels.runs, kernels.threads, "kernel", "ns", "ratio to CPU", "goal");
+        counted(static_cast<std::uint64_t>(kernels.runs), "run"),
+        counted(static_cast<std::uint64_t>(kernels.threads), "thread"), "kernel", "ns", "ratio to CPU",
+        "goal");
     for (const KernelRow& row : kernels.rows)
         out += fmt::format("{:<44}  {:>6.3f}  {:>15}  {:>6}\n", row.name, row.ns,
                            row.ratio ? fmt::format("{:.2f}", *row.ratio) : "-",

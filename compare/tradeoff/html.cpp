@@ -44,9 +44,9 @@ std::string header(const Tradeoff& tradeoff) {
     std::vector<std::string> cameras;
     for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
     return fmt::format(
-        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} Settings "
-        "at {}x{} on {} ({}), {} each; {}; errors of lit against the reference</p></header>\n",
-        page::isolated(tradeoff.scene), tradeoff.rows.size(), size.width, size.height,
+        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} at {}x{} "
+        "on {} ({}), {} each; {}; errors of lit against the reference</p></header>\n",
+        page::isolated(tradeoff.scene), counted(tradeoff.rows.size(), "row"), size.width, size.height,
         markup(tradeoff.device.name), markup(tradeoff.device.driver),
         counted(static_cast<std::uint64_t>(tradeoff.runs), "timed frame"),
         page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
