@@ -125,7 +125,7 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         breakable(audit.scene), audit.settings.size.width, audit.settings.size.height,
         markup(audit.device.name), markup(audit.device.driver), page::isolated(audit.camera));
     out += fmt::format("<div class=\"box says\"><p>{}</p></div>\n", markup(inWords(audit)));
-    out += "<h2>Which relations hold</h2>\n" + tableOfRelations(audit);
+    out += "<h2>All verdicts</h2>\n" + tableOfRelations(audit);
     out +=
         "<p class=\"soft small\">Each relation compares two pictures of one renderer, so it needs no ground "
         "truth. A pixel's error is divided by the error allowed there: above 1 the relation is broken. "
