@@ -55,7 +55,7 @@ Predicted predictLights(const Subject& subject, const Settings&, double error) {
         }));
     return {
         .up = error * 0x1p26 / std::max(reaching, 1.0),
-        .because = "light is added up in float32, one light after the other: N equal terms round by N 2^-26"};
+        .because = "float32 sums one light after another: N equal terms have a relative error of N 2^-26"};
 }
 
 template <class Value>
@@ -122,7 +122,7 @@ double usualTriangles(const Subject& subject) {
 std::string lacksRigid(const Subject& subject) {
     for (const Mesh& mesh : subject.given.scene.meshes)
         if (std::ranges::any_of(mesh.primitives, isDivisible)) return {};
-    return "the scene has no mesh that is neither skinned nor morphed";
+    return "every mesh of the scene is skinned or morphed";
 }
 
 void pushSize(Case& pushed, const Subject& subject, double height) {
@@ -148,15 +148,17 @@ std::string lacksMotion(const Subject& subject) {
 }
 
 Predicted predictTriangles(const Subject&, const Settings&, double) {
-    return {.because = "a corner is float32 wherever a triangle is cut, and indices have 32 bits"};
+    return {.because = "new corners are float32 as the old ones are, and indices have 32 bits"};
 }
 
 Predicted predictSize(const Subject&, const Settings&, double) {
-    return {.because = "places of pixels are float32, which holds them to 2^24; a picture has 2^14 at most"};
+    return {.because =
+                "pixel coordinates are float32, exact up to 2^24; a picture's side has at most 2^14 pixels"};
 }
 
 Predicted predictTime(const Subject&, const Settings&, double) {
-    return {.because = "time is double, which knows 1e6 s to 1e-10 s, and after the last key nothing moves"};
+    return {.because =
+                "time is double, which resolves 1e-10 s at 1e6 s, and nothing moves after the last key"};
 }
 
 }  // namespace
@@ -167,7 +169,7 @@ std::vector<Quantity> amountQuantities() {
     times.insert(times.begin(), 0);
     return {{.name = "lights",
              .unit = "",
-             .what = "copies of every local light, which share its intensity",
+             .what = "number of copies of every local light, which share its intensity",
              .magnitudes = {1, 10, 100, 1000, mostCopies},
              .usual = usualOne,
              .lacks = lacksLocalLight,
@@ -178,7 +180,7 @@ std::vector<Quantity> amountQuantities() {
              .predict = predictLights},
             {.name = "triangles",
              .unit = "",
-             .what = "triangles, by cutting up the scene's own",
+             .what = "number of triangles, by subdividing the scene's own",
              .magnitudes = ladder(1e2, 1e6),
              .usual = usualTriangles,
              .lacks = lacksRigid,
@@ -187,7 +189,7 @@ std::vector<Quantity> amountQuantities() {
              .predict = predictTriangles},
             {.name = "size",
              .unit = "pixels",
-             .what = "the height of the picture, whose shape stays",
+             .what = "the picture's height at the same aspect ratio",
              .magnitudes = sizes,
              .usual = usualSize,
              .lacks = lacksNothing,

@@ -67,7 +67,7 @@ const std::array<Criterion, criterionCount> criteria{
     {{"1e-3", "error below 1e-3", 1e-3, errorOf},
      {"1e-2", "error below 1e-2", 1e-2, errorOf},
      {"visible", "not visible (HDR-FLIP below 0.05)", 0.05, flipOf},
-     {"finite", "every pixel a number", 0.5, nonfiniteOf}}};
+     {"finite", "every pixel finite", 0.5, nonfiniteOf}}};
 
 bool holds(const Criterion& criterion, const Outcome& outcome) {
     return criterion.figure(outcome) < criterion.limit;
@@ -145,7 +145,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
 Requirement judge(const QuantityAudit& audit, double magnitude) {
     Requirement requirement{.quantity = std::string(audit.quantity->name), .magnitude = magnitude};
     if (!audit.lacks.empty()) {
-        requirement.because = "not pushed: " + audit.lacks;
+        requirement.because = "not varied: " + audit.lacks;
         return requirement;
     }
     if (std::ranges::all_of(audit.steps, [](const Step& step) { return step.covered == 0; })) {
@@ -167,9 +167,9 @@ Requirement judge(const QuantityAudit& audit, double magnitude) {
                 (!furthest || std::abs(reach.last - audit.usual) > std::abs(*furthest - audit.usual)))
                 furthest = reach.last;
         }
-        const std::string reached = furthest
-                                        ? fmt::format("the error is below 1e-2 as far as {:.3g}", *furthest)
-                                        : "the error is not below 1e-2 as the scene is";
+        const std::string reached =
+            furthest ? fmt::format("the error stays below 1e-2 as far as {:.3g}", *furthest)
+                     : "the unchanged scene already has an error of 1e-2 or more";
         requirement.met = requirement.met && met;
         if (!met)
             requirement.because +=

@@ -66,8 +66,8 @@ void pushExposure(Case& pushed, const Subject&, double factor) {
 
 Predicted predictExposure(const Subject&, const Settings&, double) {
     return {.because =
-                "exposure multiplies float32 radiance in double; both pictures are rounded to 8 bits after "
-                "the tone curve"};
+                "exposure multiplies float32 radiance in double, and both pictures are rounded to 8 bits "
+                "after the tone curve"};
 }
 
 // How far z is off, and why.
@@ -77,11 +77,11 @@ Predicted roundingOf(DepthFormat format) {
             break;
         case DepthFormat::d32f_standard:
             return {.up = 0x1p-24,
-                    .because = "depth near 1 is off by two roundings of 24 bits, wherever the surface is"};
+                    .because = "depth is stored near 1 at any distance, with two rounding errors of 24 bits"};
         case DepthFormat::d24:
-            return {.up = 0x1p-25, .because = "depth is off by half a step of 24 bits"};
+            return {.up = 0x1p-25, .because = "depth has a rounding error of half a 24-bit step"};
         case DepthFormat::d16:
-            return {.up = 0.5 / 65535, .because = "depth is off by half a step of 16 bits"};
+            return {.up = 0.5 / 65535, .because = "depth has a rounding error of half a 16-bit step"};
     }
     return {};
 }
@@ -102,8 +102,8 @@ Predicted predictNear(const Subject& subject, const Settings& settings, double e
         return predicted;
     }
     return {.because =
-                "reversed depth in float32 has 24 bits wherever the planes are, and positions are made "
-                "of it in one division"};
+                "reversed float32 depth has 24 bits wherever the planes are, and one division turns it into "
+                "a position"};
 }
 
 // A vertex lies within 2^-24 of its distance; seen through so small an angle that is a part of a pixel, and
@@ -113,13 +113,14 @@ Predicted predictFov(const Subject& subject, const Settings&, double) {
     const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
     return {
         .down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
-        .because = "a vertex is known to 2^-24 of its distance: at that angle the whole picture is as large"};
+        .because =
+            "a vertex is accurate to 2^-24 of its distance: at that angle the whole picture is no larger"};
 }
 
 Predicted predictGrazing(const Subject&, const Settings&, double) {
     return {.because =
-                "n.v is kept from 0 by 1e-4 in the material's definition, and depth is interpolated by the "
-                "rasteriser's own planes"};
+                "the material model clamps n.v to at least 1e-4, and the rasteriser interpolates depth by "
+                "plane equations"};
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ std::vector<Quantity> cameraQuantities() {
     return {
         {.name = "exposure",
          .unit = "",
-         .what = "pictures of 8 bits, exposed by a factor beyond the automatic exposure",
+         .what = "exposure of the 8-bit pictures, as a factor of the automatic exposure",
          .magnitudes = ladder(1e-30, 1e30, 1e3),
          .usual = usualOne,
          .lacks = lacksNothing,
@@ -141,7 +142,7 @@ std::vector<Quantity> cameraQuantities() {
          .predict = predictExposure},
         {.name = "near",
          .unit = "",
-         .what = "the far plane's distance over the near plane's, which is drawn nearer",
+         .what = "the far plane's distance divided by the near plane's, by moving the near plane",
          .magnitudes = ladder(1e2, 1e9),
          .usual = usualNear,
          .lacks = lacksNothing,
@@ -151,7 +152,7 @@ std::vector<Quantity> cameraQuantities() {
          .predicts_formats = true},
         {.name = "fov",
          .unit = "degrees",
-         .what = "the vertical field of view, from the same eye",
+         .what = "the vertical field of view, from the same camera position",
          .magnitudes = fovs,
          .usual = usualFov,
          .lacks = lacksPerspective,

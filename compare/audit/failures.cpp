@@ -6,6 +6,7 @@
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "compare/run/command_text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -74,7 +75,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
     Failure failure;
     if (!reduced) {
-        failure.words = at + "; without its textures, environment and motion the scene does not show it";
+        failure.words = at + "; it does not occur without the scene's textures, environment and animation";
         of.failures.push_back(std::move(failure));
         return;
     }
@@ -84,11 +85,8 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     scenes[failure.scene] = gltfOf(reduced->smallest);
     scenes[lights] = lightsFileOf(reduced->smallest);
     const Settings& small = reduced->smallest.settings;
-    const auto plural = [](std::size_t count, const char* what) {
-        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-    };
-    failure.words = fmt::format("{}; {}, {} and {}x{} pixels show it: error {}", at,
-                                plural(reduced->triangles, "triangle"), plural(reduced->lights, "light"),
+    failure.words = fmt::format("{}; {}, {} and {}x{} pixels reproduce it: error {}", at,
+                                counted(reduced->triangles, "triangle"), counted(reduced->lights, "light"),
                                 small.size.width, small.size.height, page::number(reduced->shown.error));
     const Settings asked = series.applied(small);
     for (const std::string& file : {failure.scene, lights})
@@ -97,7 +95,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         if (failure.command.empty() &&
             trial.fails(comparisonWords(failure, lights, asked, mode, trial.words, trial.folder)))
             failure.command = shellLine(comparisonWords(failure, lights, asked, mode, trial.words, folder));
-    if (failure.command.empty()) failure.words += "; compare grants as much and passes it";
+    if (failure.command.empty()) failure.words += "; compare tolerates this error and passes";
     of.failures.push_back(std::move(failure));
 }
 

@@ -28,7 +28,7 @@ std::string lacksRigidMesh(const Subject& subject) {
     const bool any = std::ranges::any_of(subject.given.scene.meshes, [](const Mesh& mesh) {
         return !mesh.primitives.empty() && isRigid(mesh);
     });
-    return any ? "" : "the scene has no mesh that is neither skinned nor morphed";
+    return any ? "" : "every mesh of the scene is skinned or morphed";
 }
 
 // Lets a node's mesh be drawn by a node of its own instead, after all others. `mesh`: another one.
@@ -43,7 +43,7 @@ void carry(Scene& scene, std::size_t index, int mesh) {
 
 std::string lacksOrder(const Subject& subject) {
     if (subject.given.settings.transparency == Transparency::unsorted)
-        return "--transparency unsorted blends in the order of the file";
+        return "--transparency unsorted blends in file order";
     return lacksRigidMesh(subject);
 }
 
@@ -152,14 +152,13 @@ std::string lacksFlat(const Subject& subject) {
     if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
     // The middle of an edge is rounded to 2^-24 of its distance from the mesh's origin.
     if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
-        return "the scene reaches over a thousand times as far as it is near: there the middle of an edge is "
-               "seen "
-               "to be rounded";
+        return "the scene's farthest surface is over 1000 times as far as its nearest: rounded edge "
+               "midpoints would be visible";
     for (const Mesh& mesh : subject.given.scene.meshes)
         for (const Primitive& primitive : mesh.primitives)
             for (std::size_t t = 0; isRigid(primitive) && t + 2 < primitive.indices.size(); t += 3)
                 if (isFlat(primitive, &primitive.indices[t])) return {};
-    return "the scene has no flat triangle that is neither skinned nor morphed";
+    return "the scene has no flat triangle outside skinned and morphed meshes";
 }
 
 // Each flat triangle becomes four.
@@ -189,7 +188,7 @@ std::string lacksMaterials(const Subject& subject) {
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
             if (channel.part >= AnimatedPart::base_color)
-                return "an animation moves a material by its number";
+                return "an animation refers to a material by its index";
     return {};
 }
 
@@ -207,8 +206,8 @@ void permuteMaterials(Related& related, const Subject&) {
 
 std::string lacksFile(const Subject& subject) {
     return flattened(subject.given) ? ""
-                                    : "joints, morph targets or a turned normal map place vertices, which is "
-                                      "not written to a file";
+                                    : "joints, morph targets or a rotated normal map move vertices, and the "
+                                      "written file leaves them out";
 }
 
 // The scene without textures, environment and motion, as it is read of a file of it.
@@ -238,34 +237,34 @@ void throughGlb(Related& related, const Subject& subject) {
 
 std::vector<Relation> geometryRelations() {
     return {{.name = "draws_reversed",
-             .changes = "what is drawn last is drawn first",
-             .because = "the nearest surface is seen in whatever order they are drawn",
+             .changes = "draw calls are reversed: the last comes first",
+             .because = "the nearest surface is visible in any drawing order",
              .lacks = lacksOrder,
              .change = reverseDraws,
              .reorders = true,
              .same_pipelines = true},
             {.name = "meshes_split",
-             .changes = "each mesh becomes two, of half the triangles",
-             .because = "a triangle is drawn alike whichever draw it is part of",
+             .changes = "each mesh becomes two with half the triangles each",
+             .because = "a triangle is drawn the same way in any draw call",
              .lacks = lacksRigidMesh,
              .change = splitMeshes,
              .reorders = true,
              .same_pipelines = true},
             {.name = "unindexed",
              .changes = "no triangle shares a vertex with another",
-             .because = "the same vertices are read from elsewhere",
+             .because = "the same vertices are read from other indices",
              .lacks = lacksRigidMesh,
              .change = unindex,
              .same_pipelines = true},
             {.name = "triangles_split",
              .changes = "each flat triangle becomes four",
              .alike = Alike::rounding,
-             .because = "the middle of an edge is rounded to float32, and interpolation goes from there",
+             .because = "edge midpoints are rounded to float32, and interpolation starts from them",
              .lacks = lacksFlat,
              .change = splitTriangles},
             {.name = "materials_permuted",
              .changes = "the order of the materials is reversed",
-             .because = "the same numbers are read from elsewhere",
+             .because = "the same values are read from other indices",
              .lacks = lacksMaterials,
              .change = permuteMaterials,
              .reorders = true,
@@ -273,12 +272,12 @@ std::vector<Relation> geometryRelations() {
             {.name = "through_gltf",
              .changes = "the scene without textures and motion is written to a .gltf file and read again",
              .alike = Alike::rounding,
-             .because = "float32 survives a file, but normals that are read are made unit vectors again",
+             .because = "the file keeps float32 exactly, but the reader normalizes normals again",
              .lacks = lacksFile,
              .change = throughGltf},
             {.name = "through_glb",
-             .changes = "the same .gltf file is a .glb file",
-             .because = "a data URI and a binary chunk are the same bytes",
+             .changes = "the same scene is read from a .glb file instead of a .gltf file",
+             .because = "a data URI and a binary chunk hold the same bytes",
              .lacks = lacksFile,
              .change = throughGlb,
              .same_pipelines = true}};

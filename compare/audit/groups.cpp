@@ -27,7 +27,7 @@ std::string lacksSun(const Subject& subject) {
     return any ? "" : "the scene has no directional light";
 }
 std::string lacksEnvironment(const Subject& subject) {
-    return subject.given.scene.environment ? "" : "the scene has no environment: --env gives it one";
+    return subject.given.scene.environment ? "" : "the scene has no environment: add one with --env";
 }
 
 double usualOne(const Subject&) {

@@ -61,7 +61,8 @@ std::string tableOf(const Audit& audit) {
 std::string stepsOf(const QuantityAudit& of) {
     std::string out =
         "<details><summary>Every step</summary><div class=\"scroll rows\"><table class=\"stack\">" +
-        headOf({"magnitude", "settings", "light", "depth", "FLIP", "misplaced", "no numbers"}) + "<tbody>";
+        headOf({"magnitude", "settings", "light", "depth", "FLIP", "misplaced", "NaN or infinite"}) +
+        "<tbody>";
     for (const Step& step : of.steps)
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const Outcome& outcome = step.outcomes[s];
@@ -91,7 +92,7 @@ std::string sectionOf(const QuantityAudit& of) {
     for (const std::string& reason : reasons)
         out += fmt::format("<p class=\"soft small\">Predicted: {}</p>", markup(reason));
     for (const std::string& left : of.left_out)
-        out += fmt::format("<p class=\"soft small\">Not a series of its own: {}</p>", markup(left));
+        out += fmt::format("<p class=\"soft small\">No series of its own: {}</p>", markup(left));
     for (const Failure& failure : of.failures)
         out += fmt::format(
             "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy"
@@ -109,10 +110,10 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
         verdict = fmt::format("<span class=\"verdict {0}\">{0}</span> ", failed ? "fail" : "pass");
     std::string out = fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: an audit, {}</title>\n"
-        "<style>{}{}{}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>{}{}</h1>"
-        "<p class=\"soft\">where each path breaks, one quantity at a time; {}x{} on {} ({}); "
-        "{}</p></header>\n",
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: an audit, "
+        "{}</title>\n<style>{}{}{}</style></head>\n<body>\n<header><p "
+        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">where each path breaks, varying one "
+        "quantity at a time; {}x{} on {} ({}); {}</p></header>\n",
         markup(audit.scene), page::style, plotStyle, auditStyle, verdict, page::breakable(audit.scene),
         audit.settings.size.width, audit.settings.size.height, markup(audit.device.name),
         markup(audit.device.driver), page::isolated(audit.camera));
@@ -122,24 +123,22 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
             out += "<li>" + markup(inWords(requirement)) + "</li>";
         out += "</ul></div>\n";
     }
-    out += "<h2>How far each holds</h2>\n" + tableOf(audit);
+    out += "<h2>Range in which each path holds</h2>\n" + tableOf(audit);
     out +=
         "<p class=\"soft small\">The error is the larger of two 99th percentiles over the pixels that show a "
-        "surface: lit against a reference in double precision of the surfaces that forward+ captures, and "
-        "view "
-        "depth against rays traced in double. Predictions are of what float32 and double can hold, for "
-        "Settings "
-        "that round no more than these; they agree where both are within a factor of 2.</p>\n<h2>Error by "
-        "magnitude</h2>\n<div class=\"audit\">";
+        "surface: of lit against a double-precision reference that shades the surfaces forward+ captures, "
+        "and of view depth against rays traced in double precision. Predictions say how far float32 and "
+        "double should hold if Settings add no other rounding. A prediction agrees with a measurement within "
+        "a factor of 2.</p>\n<h2>Error by magnitude</h2>\n<div class=\"audit\">";
     for (const QuantityAudit& of : audit.quantities)
         if (of.lacks.empty()) out += sectionOf(of);
     out += "</div>\n";
     std::vector<std::string> notes = audit.notes;
     if (!audit.to_come.empty())
-        notes.push_back(fmt::format("being measured: still to come: {}", fmt::join(audit.to_come, ", ")));
+        notes.push_back(fmt::format("still being measured: {}", fmt::join(audit.to_come, ", ")));
     for (const QuantityAudit& of : audit.quantities)
         if (!of.lacks.empty())
-            notes.push_back(fmt::format("{} was not pushed: {}", of.quantity->name, of.lacks));
+            notes.push_back(fmt::format("{} was not varied: {}", of.quantity->name, of.lacks));
     if (!notes.empty()) {
         out += "<h3 class=\"part\">Notes</h3><div class=\"box says\"><ul>";
         for (const std::string& note : notes) out += "<li>" + markup(note) + "</li>";

@@ -49,12 +49,12 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
     // Products with distances squared and D keep some ten binary orders from either end.
     return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
             .down = std::isfinite(least) ? 0x1p-116 / least : 0,
-            .because = "light is float32 from its source to the picture, from 1e-38 to 3e38"};
+            .because = "light is float32 from its source to the picture: 1e-38 to 3e38"};
 }
 
 Predicted predictRange(const Subject&, const Settings&, double) {
     return {.because =
-                "the window is of the squared ratio of distance and range, which is formed in one step"};
+                "the range window uses the squared ratio of distance to range, which one step computes"};
 }
 
 // Whether something else than local lights shines on surfaces.
@@ -72,20 +72,21 @@ bool hasOtherLight(const Subject& subject) {
 Predicted predictDistance(const Subject& subject, const Settings&, double error) {
     if (hasOtherLight(subject))
         return {.because =
-                    "a light near a surface shines on a place of its height alone, less than a hundredth of "
-                    "the picture; elsewhere what is not local outshines it"};
+                    "a light near a surface only lights an area as wide as its height, less than 1 % of the "
+                    "picture; other light outshines it elsewhere"};
     return {.down = 0x1p-25 * glm::distance(subject.point, subject.view.eye()) / error,
             .because =
-                "a light's place is float32 from the camera: its height over a surface is off by 2^-25 of "
-                "the distance of both from there"};
+                "a light's position is float32 relative to the camera: its height above a surface has an "
+                "error of 2^-25 of their distance from the camera"};
 }
 
 Predicted predictEye(const Subject&, const Settings&, double) {
-    return {.because = "a light near the eye is near the origin of all coordinates, where float32 is finest"};
+    return {.because =
+                "a light near the camera is near the origin of all coordinates, where float32 is finest"};
 }
 
 Predicted predictCone(const Subject&, const Settings&, double) {
-    return {.because = "a cone's edge is at least 0.001 of a cosine wide, of which float32 resolves 6e-8"};
+    return {.because = "a cone's soft edge is at least 0.001 wide in cosine, and float32 resolves 6e-8"};
 }
 
 double usualRange(const Subject& subject) {
@@ -183,12 +184,11 @@ Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
     const Image& radiance = subject.given.scene.environment->radiance;
     float most = 0;
     for (std::size_t i = 0; i < radiance.pixels(); ++i) most = std::max(most, sumOf(radiance.pixel(i)));
-    return {
-        .up = most > 0 ? 0x1p118 / most : Predicted::never,
-        .because =
-            "radiance is float32 from the environment to the picture, which ends at 3e38; maps and samples "
-            "approximate a single bright pixel, and how far they may depends on all others",
-        .at_most = true};
+    return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
+            .because =
+                "radiance is float32 from the environment to the picture, up to 3e38; maps and samples only "
+                "approximate a single bright pixel, and their error depends on all other pixels",
+            .at_most = true};
 }
 
 // Its brightest pixel alone.
@@ -220,7 +220,7 @@ std::vector<Quantity> lightQuantities() {
     return {
         {.name = "intensity",
          .unit = "",
-         .what = "all that sends light, multiplied by a factor",
+         .what = "all light sources, multiplied by a factor",
          .magnitudes = ladder(1e-12, 1e12),
          .usual = usualOne,
          .lacks = lacksNothing,
@@ -239,7 +239,8 @@ std::vector<Quantity> lightQuantities() {
          .predict = predictRange},
         {.name = "distance",
          .unit = "m",
-         .what = "local lights from the surface in the middle of the picture, as bright there as they were",
+         .what =
+             "distance of local lights from the surface in the middle of the picture, which stays as bright",
          .magnitudes = places,
          .usual = usualDistance,
          .lacks = lacksDistance,
@@ -247,7 +248,7 @@ std::vector<Quantity> lightQuantities() {
          .predict = predictDistance},
         {.name = "eye",
          .unit = "m",
-         .what = "local lights from the camera",
+         .what = "distance of local lights from the camera",
          .magnitudes = places,
          .usual = usualEye,
          .lacks = lacksLocalLight,
@@ -255,7 +256,7 @@ std::vector<Quantity> lightQuantities() {
          .predict = predictEye},
         {.name = "cone",
          .unit = "degrees",
-         .what = "the whole angle of every point and spot, inner as outer",
+         .what = "the full cone angle of every point and spot light, inner equal to outer",
          .magnitudes = cones,
          .usual = usualCone,
          .lacks = lacksCone,

@@ -13,7 +13,7 @@ namespace {
 std::string lacksTwoLights(const Subject& subject) {
     if (subject.given.scene.lights.size() < 2) return "the scene has one light";
     if (subject.given.settings.shadow_lights > 0)
-        return "--shadow-lights chooses among equal lights by their order";
+        return "--shadow-lights selects among equal lights by their order";
     if (subject.given.settings.haze &&
         std::ranges::count(subject.given.scene.lights, LightKind::directional, &Light::kind) > 1)
         return "--haze scatters the light of one sun";
@@ -27,8 +27,8 @@ void permuteLights(Related& related, const Subject&) {
 std::string lacksSplittable(const Subject& subject) {
     const Settings& settings = subject.given.settings;
     if (subject.given.scene.lights.empty()) return "the scene has no light";
-    if (settings.light_cutoff > 0) return "--light-cutoff ends a dimmer light sooner";
-    if (settings.shadows != Shadows::off) return "one sun or --shadow-lights cast: leave out --shadows";
+    if (settings.light_cutoff > 0) return "--light-cutoff gives a dimmer light a shorter range";
+    if (settings.shadows != Shadows::off) return "a sun or --shadow-lights cast shadows: leave out --shadows";
     return lacksPerObject(subject);
 }
 
@@ -104,29 +104,29 @@ std::vector<Relation> lightRelations() {
             {.name = "lights_split",
              .changes = "each light becomes two of half the intensity",
              .alike = Alike::sums,
-             .because = "half of a float32 is exact; twice as many terms are added",
+             .because = "half of a float32 is exact; the sum has twice as many terms",
              .lacks = lacksSplittable,
              .change = splitLights},
             {.name = "light_doubled",
-             .changes = "all that sends light sends twice as much",
-             .because = "light is a product of what is sent, and twice a float32 is exact",
+             .changes = "every light source is twice as bright",
+             .because = "shaded light is proportional to its source, and twice a float32 is exact",
              .lacks = lacksNone,
              .change = doubleLight,
              .same_pipelines = true},
             {.name = "light_64th",
-             .changes = "all that sends light sends a 64th",
-             .because = "light is a product of what is sent, and a 64th of a float32 is exact",
+             .changes = "every light source has 1/64 of its brightness",
+             .because = "shaded light is proportional to its source, and 1/64 of a float32 is exact",
              .lacks = lacksNone,
              .change = multiplyLightMuch,
              .same_pipelines = true},
             {.name = "dark_lights",
              .changes = "two lights of intensity 0 are added in the middle of the picture",
-             .because = "0 is added",
+             .because = "a light of intensity 0 adds 0",
              .lacks = lacksPerObject,
              .change = addDarkLights},
             {.name = "far_lights",
-             .changes = "three bright lights are added that reach nothing",
-             .because = "light ends at its range, and 0 is added",
+             .changes = "three bright lights are added out of range of every surface",
+             .because = "a light is exactly 0 beyond its range, so it adds 0",
              .lacks = lacksPerObject,
              .change = addFarLights}};
 }

@@ -69,26 +69,26 @@ void pushTexel(Case& pushed, const Subject&, double share) {
 }
 
 Predicted predictTexel(const Subject&, const Settings&, double) {
-    return {.because =
-                "a texel of integers is 0 to 1 to 16 bits, and a normal map of one value is a direction"};
+    return {
+        .because =
+            "an integer texel is 0 to 1 in at most 16 bits, and a normal map of one value is one direction"};
 }
 
 Predicted predictRoughness(const Subject&, const Settings&, double) {
-    return {.because = "below 0.045 a roughness is shaded as 0.045, where D is 8e4 at most"};
+    return {.because = "roughness is clamped to at least 0.045, where D is at most 8e4"};
 }
 
 Predicted predictNormalMap(const Subject&, const Settings&, double) {
-    return {.up = 0x1p63, .because = "squares of the mapped normal's parts are float32, which ends at 3e38"};
+    return {.up = 0x1p63,
+            .because = "squares of the mapped normal's components are float32, which ends at 3e38"};
 }
 
 Predicted predictEmission(const Subject&, const Settings&, double) {
-    return {.up = 3.4e38, .because = "what a surface sends is float32, which ends at 3.4e38"};
+    return {.up = 3.4e38, .because = "emission is float32, which ends at 3.4e38"};
 }
 
 Predicted predictColor(const Subject&, const Settings&, double) {
-    return {.because =
-                "a colour that is too dark for float32 sends nothing beside what the surface reflects as a "
-                "mirror"};
+    return {.because = "a base colour too dark for float32 adds nothing visible to the specular reflection"};
 }
 
 }  // namespace
@@ -97,48 +97,47 @@ std::vector<Quantity> materialQuantities() {
     std::vector<double> roughnesses = ladder(1e-6, 1e-2);
     roughnesses.insert(roughnesses.begin(), 0);
     for (const double rough : {0.02, 0.03, 0.045, 0.06, 0.1, 0.2, 0.5, 1.0}) roughnesses.push_back(rough);
-    return {
-        {.name = "roughness",
-         .unit = "",
-         .what = "the roughness factor of every material",
-         .magnitudes = roughnesses,
-         .usual = usualRoughness,
-         .lacks = lacksNothing,
-         .push = pushRoughness,
-         .variants = {{"shading-precision", "fp16"}},
-         .predict = predictRoughness},
-        {.name = "normal_map",
-         .unit = "",
-         .what = "the strength of every normal map",
-         .magnitudes = ladder(1e-3, 1e9),
-         .usual = usualOne,
-         .lacks = lacksNormalMap,
-         .push = pushNormalMap,
-         .predict = predictNormalMap},
-        {.name = "texel",
-         .unit = "",
-         .what = "every texel of every texture but its alpha, as a share of the largest that its type holds",
-         .magnitudes = {0, 1e-5, 1 / 255.0, 2 / 255.0, 0.05, 0.2, 0.5, 254 / 255.0, 1},
-         .usual = usualOne,
-         .lacks = lacksTexture,
-         .push = pushTexel,
-         .predict = predictTexel},
-        {.name = "emission",
-         .unit = "W/(sr m^2)",
-         .what = "what every surface sends by itself",
-         .magnitudes = ladder(1e-12, 1e38, 100),
-         .usual = usualOne,
-         .lacks = lacksNothing,
-         .push = pushEmission,
-         .predict = predictEmission},
-        {.name = "color",
-         .unit = "",
-         .what = "the colour of every vertex, in place of its own",
-         .magnitudes = ladder(1e-38, 1, 100),
-         .usual = usualOne,
-         .lacks = lacksNothing,
-         .push = pushColor,
-         .predict = predictColor}};
+    return {{.name = "roughness",
+             .unit = "",
+             .what = "the roughness factor of every material",
+             .magnitudes = roughnesses,
+             .usual = usualRoughness,
+             .lacks = lacksNothing,
+             .push = pushRoughness,
+             .variants = {{"shading-precision", "fp16"}},
+             .predict = predictRoughness},
+            {.name = "normal_map",
+             .unit = "",
+             .what = "the strength of every normal map",
+             .magnitudes = ladder(1e-3, 1e9),
+             .usual = usualOne,
+             .lacks = lacksNormalMap,
+             .push = pushNormalMap,
+             .predict = predictNormalMap},
+            {.name = "texel",
+             .unit = "",
+             .what = "every texel of every texture except alpha, as a fraction of its type's largest value",
+             .magnitudes = {0, 1e-5, 1 / 255.0, 2 / 255.0, 0.05, 0.2, 0.5, 254 / 255.0, 1},
+             .usual = usualOne,
+             .lacks = lacksTexture,
+             .push = pushTexel,
+             .predict = predictTexel},
+            {.name = "emission",
+             .unit = "W/(sr m^2)",
+             .what = "the emission of every surface",
+             .magnitudes = ladder(1e-12, 1e38, 100),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushEmission,
+             .predict = predictEmission},
+            {.name = "color",
+             .unit = "",
+             .what = "the colour of every vertex, replacing its own",
+             .magnitudes = ladder(1e-38, 1, 100),
+             .usual = usualOne,
+             .lacks = lacksNothing,
+             .push = pushColor,
+             .predict = predictColor}};
 }
 
 }  // namespace diptych::audit

@@ -150,7 +150,7 @@ void ChosenSeries::add(Series one, const Settings& settings) {
     const auto same = std::ranges::find(known_, effective);
     if (same != known_.end()) {
         const Series& as = series[static_cast<std::size_t>(same - known_.begin())];
-        left_out.push_back(fmt::format("{}: is drawn as {}", one.words(), as.words()));
+        left_out.push_back(fmt::format("{} draws the same as {}", one.words(), as.words()));
         return;
     }
     known_.push_back(std::move(effective));

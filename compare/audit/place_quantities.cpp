@@ -62,13 +62,13 @@ double distanceOf(const Subject& subject) {
 Predicted predictOffset(const Subject& subject, const Settings&, double error) {
     return {
         .up = error * distanceOf(subject) * 0x1p53,
-        .because = "places are composed relative to the camera in double, whose 53 bits are of the offset"};
+        .because = "positions relative to the camera are computed in double, with 53 bits for the offset"};
 }
 
 Predicted predictVertex(const Subject&, const Settings&, double) {
     return {.because =
-                "vertices are stored from the middle of all meshes, which is exact: float32's bits are "
-                "of the scene's size"};
+                "vertices are stored relative to the middle of all meshes, which is exact: float32 only "
+                "spans the scene's size"};
 }
 
 Predicted predictScale(const Subject& subject, const Settings&, double) {
@@ -81,8 +81,8 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
     return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
             .down = std::max(dim, 0x1p-63 / distanceOf(subject)),
             .because =
-                "squares of lengths are float32, from 1e-38 to 3e38, and so are candela, which go with "
-                "the square of the factor"};
+                "squared lengths and candela are float32, 1e-38 to 3e38, and candela grow with the square of "
+                "the factor"};
 }
 
 double usualOffset(const Subject&) {
@@ -98,7 +98,7 @@ std::vector<Quantity> placeQuantities() {
     vertices.insert(vertices.begin(), 0);
     return {{.name = "offset",
              .unit = "m",
-             .what = "scene, lights and camera, moved together away from the origin",
+             .what = "distance from the origin of scene, lights and camera together",
              .magnitudes = offsets,
              .usual = usualOffset,
              .lacks = lacksNothing,
@@ -107,7 +107,7 @@ std::vector<Quantity> placeQuantities() {
              .predict = predictOffset},
             {.name = "vertex",
              .unit = "m",
-             .what = "vertices moved away from the origin of their mesh, which its node makes up for",
+             .what = "distance of vertices from their mesh's origin, which its node compensates",
              .magnitudes = vertices,
              .usual = usualOffset,
              .lacks = lacksNothing,
@@ -115,7 +115,7 @@ std::vector<Quantity> placeQuantities() {
              .predict = predictVertex},
             {.name = "scale",
              .unit = "",
-             .what = "all lengths multiplied by a factor, and intensities so that the picture stays the same",
+             .what = "factor on all lengths, with intensities adjusted so that the picture stays the same",
              .magnitudes = ladder(1e-6, 1e6),
              .usual = usualOne,
              .lacks = lacksNothing,

@@ -79,14 +79,13 @@ void scaleByTwo(Related& related, const Subject&) {
 
 std::string lacksTurnable(const Subject& subject) {
     if (subject.given.settings.env != Settings().env || subject.given.scene.environment)
-        return "the maps of an environment have pixels of their own";
+        return "the maps of an environment have their own pixel grid";
     if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
     return lacksWithShadows(subject);
 }
 std::string lacksMirrorable(const Subject& subject) {
     if (subject.view.width % 2 != 0)
-        return "the picture is an odd number of pixels wide: the 2x2 of which differences are made are "
-               "others";
+        return "the picture's width is odd: mirrored, derivatives would use other 2x2 quads";
     return lacksTurnable(subject);
 }
 
@@ -122,42 +121,42 @@ std::vector<Relation> placeRelations() {
         {.name = "moved",
          .changes = "scene, lights and camera are moved by 100,000 times the scene's radius",
          .alike = Alike::rounding,
-         .because = "places are composed from the camera in double; one that rounds to another float32 "
-                    "moves by 2^-24 of its distance",
+         .because = "positions relative to the camera are computed in double; one that rounds to another "
+                    "float32 moves by 2^-24 of its distance",
          .lacks = lacksWithShadows,
          .change = moveTogether},
         {.name = "turned",
-         .changes = "scene, lights and camera are turned by 37 degrees about +Y",
+         .changes = "scene, lights and camera are rotated by 37 degrees about +Y",
          .alike = Alike::rounding,
-         .because = "vectors in world space have other components, which round otherwise",
+         .because = "vectors in world space have other components, which round differently",
          .lacks = lacksTurnable,
          .change = turnTogether},
         {.name = "quarter_turn",
-         .changes = "scene, lights and camera are turned by 90 degrees about +Y",
+         .changes = "scene, lights and camera are rotated by 90 degrees about +Y",
          .alike = Alike::rounding,
-         .because = "x and z change places, so that sums of products are in another order",
+         .because = "x and z are exchanged, so sums of products have another order",
          .lacks = lacksTurnable,
          .change = turnByAQuarter},
         {.name = "mirrored",
          .changes = "scene, lights and camera are mirrored at x = 0, and so is the picture; without textures",
          .alike = Alike::rounding,
-         .because = "signs change; where the picture's columns are mirrored they round otherwise",
+         .because = "signs change, and mirrored columns of the picture round differently",
          .lacks = lacksMirrorable,
          .change = mirror},
         {.name = "scaled",
-         .changes = "all lengths are doubled, and candela are four times as many",
+         .changes = "all lengths are doubled, and candela are multiplied by 4",
          .because = "powers of two are exact in float32",
          .lacks = lacksWithShadows,
          .change = scaleByTwo,
          .same_pipelines = true},
         {.name = "tiles_shifted",
-         .changes = "the picture has 6 more pixels on each side, so that others begin a tile",
+         .changes = "the picture has 6 more pixels on each side, so tiles begin at other pixels",
          .alike = Alike::rounding,
-         .because = "a ray through a pixel is found by another division",
+         .because = "another division computes the ray through a pixel",
          .lacks = lacksWithShadows,
          .change = shiftTiles},
         {.name = "near_halved",
-         .changes = "the near plane, without a far one, is half as far away",
+         .changes = "the near plane is half as far away, without a far plane",
          .because = "stored depth is near / depth, and half of a float32 is exact",
          .lacks = lacksWithoutFar,
          .change = halveNear,

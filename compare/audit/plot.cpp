@@ -3,6 +3,7 @@
 
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -89,11 +90,14 @@ private:
             const Outcome& outcome = step.outcomes[s];
             const double px = x(step.magnitude), py = y(outcome.error());
             path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
-            const std::string words = page::markup(fmt::format(
-                "{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
-                audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
-                outcome.error(), outcome.light, outcome.depth, outcome.flip,
-                outcome.nonfinite > 0 ? fmt::format(", {} pixels no numbers", outcome.nonfinite) : ""));
+            const std::string words = page::markup(
+                fmt::format("{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
+                            audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
+                            outcome.error(), outcome.light, outcome.depth, outcome.flip,
+                            outcome.nonfinite > 0
+                                ? fmt::format(", {} NaN or infinite",
+                                              counted(static_cast<std::uint64_t>(outcome.nonfinite), "pixel"))
+                                : ""));
             const bool number = std::isfinite(outcome.error());
             marks += number ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3\"><title>{}</title></circle>",
                                           svgNumber(px), svgNumber(py), words)

@@ -7,6 +7,7 @@
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
@@ -258,13 +259,13 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
         SeriesHeld of;
         of.series = series_[i];
         if (relation.of_settings && effectiveSettings(before[i]) == effectiveSettings(after[i])) {
-            of.lacks = fmt::format("{} does not read what is changed", nameOf(series_[i].path));
+            of.lacks = fmt::format("{} does not read the changed input", nameOf(series_[i].path));
             result.series.push_back(std::move(of));
             continue;
         }
         if (dear && isReferenceSeries(of.series)) {
             if (result.holds()) {
-                of.lacks = "not drawn: the paths hold it, and of an environment the reference is dear";
+                of.lacks = "not drawn: both paths hold, and the reference is slow with an environment";
                 result.series.push_back(std::move(of));
                 continue;
             }
@@ -294,7 +295,8 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
     const bool many = std::ranges::any_of(
         result.series, [](const SeriesHeld& of) { return of.held.aside > of.held.most_aside; });
     if (spoil || !many || tied() <= result.series.front().held.covered / 100) return result;
-    result.lacks = fmt::format("{} pixels show surfaces that coincide, where either may be seen", tied());
+    result.lacks =
+        fmt::format("{} show coinciding surfaces, where either may be visible", counted(tied(), "pixel"));
     result.series.clear();
     return result;
 }

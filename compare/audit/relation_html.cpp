@@ -41,7 +41,7 @@ std::vector<const RelationHeld*> ordered(const RelationAudit& audit) {
 std::string tableOfRelations(const RelationAudit& audit) {
     std::string out = "<div class=\"box scroll rows\"><table class=\"stack\"><thead><tr>";
     for (const char* name :
-         {"relation", "verdict", "drawn by", "error / allowed", "worst pixel", "set aside"})
+         {"relation", "verdict", "renderer", "error / allowed", "worst pixel", "set aside"})
         out += fmt::format("<th><button type=\"button\">{}</button></th>", name);
     out += "</tr></thead>\n<tbody>";
     for (const RelationHeld* of : ordered(audit))
@@ -64,7 +64,7 @@ std::string picturesOf(const RelationHeld& of, const SeriesHeld& series) {
     if (!series.changed) return {};
     std::string out = "<div class=\"related\">";
     for (const auto& [name, words] :
-         {std::pair{"given", "as it is"}, {"changed", "changed"}, {"used", "error / allowed"}})
+         {std::pair{"given", "original"}, {"changed", "changed"}, {"used", "error / allowed"}})
         out += fmt::format(
             "<figure><img src=\"{0}-{1}.png\" alt=\"{2}\"><figcaption>{2}, {3}</figcaption></figure>",
             pictureStem(*of.relation, series), name, words, markup(series.series.words()));
@@ -75,16 +75,16 @@ std::string channelsOf(const SeriesHeld& series) {
     std::string out;
     for (const ChannelHeld& channel : series.held.channels) {
         if (channel.beyond == 0) continue;
-        out += fmt::format("<li>{}: {} beyond what is allowed; the worst at {},{}: {} of {}</li>",
+        out += fmt::format("<li>{}: {} out of tolerance; the worst at {},{}: error {}, allowed {}</li>",
                            debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                            channel.y, page::number(channel.error), page::number(channel.allowed));
     }
     if (series.held.aside > series.held.most_aside)
-        out += fmt::format("<li>{} pixels show another surface; {} at most may</li>", series.held.aside,
-                           series.held.most_aside);
+        out += fmt::format("<li>{} show another surface; at most {} may</li>",
+                           counted(series.held.aside, "pixel"), series.held.most_aside);
     if (series.held.filtered > series.held.most_filtered)
-        out += fmt::format("<li>{} pixels show a texture otherwise; {} at most may</li>",
-                           series.held.filtered, series.held.most_filtered);
+        out += fmt::format("<li>{} filter a texture differently; at most {} may</li>",
+                           counted(series.held.filtered, "pixel"), series.held.most_filtered);
     if (!series.held.failed.empty()) out += "<li>not drawn: " + markup(series.held.failed) + "</li>";
     return out.empty() ? "" : "<ul>" + out + "</ul>";
 }
@@ -118,19 +118,19 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: relations, "
         "{}</title>\n<style>{}{}</style></head>\n<body>\n<header><p "
-        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">what must not change its picture; {}x{} "
-        "on {} ({}); {}</p></header>\n",
+        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">changes that must not change the picture; "
+        "{}x{} on {} ({}); {}</p></header>\n",
         markup(audit.scene), page::style, auditStyle,
         fmt::format("<span class=\"verdict {0}\">{0}</span> ", audit.holds() ? "pass" : "fail"),
         breakable(audit.scene), audit.settings.size.width, audit.settings.size.height,
         markup(audit.device.name), markup(audit.device.driver), page::isolated(audit.camera));
     out += fmt::format("<div class=\"box says\"><p>{}</p></div>\n", markup(inWords(audit)));
-    out += "<h2>What holds</h2>\n" + tableOfRelations(audit);
+    out += "<h2>All verdicts</h2>\n" + tableOfRelations(audit);
     out +=
-        "<p class=\"soft small\">A picture is held against another one of the same renderer, and no truth is "
-        "needed. Of each pixel the error is a part of what is allowed there: above 1 the relation is broken. "
-        "Pixels beside an edge that show another surface are set aside, and textured ones that a filter "
-        "weights otherwise; both are bounded in number.</p>\n<h2>The relations</h2>\n<div class=\"audit "
+        "<p class=\"soft small\">Each relation compares two pictures of one renderer, so it needs no ground "
+        "truth. A pixel's error is divided by the error allowed there: above 1 the relation is broken. "
+        "Pixels at an edge that show another surface are excluded, and so are textured pixels that a filter "
+        "weights differently; the number of both is limited.</p>\n<h2>The relations</h2>\n<div class=\"audit "
         "alone\">";
     for (const RelationHeld* of : ordered(audit)) out += sectionOfRelation(*of, audit.device);
     out += "</div>\n";

@@ -345,7 +345,7 @@ std::string Grant::inWords() const {
         case Alike::rounding:
             return fmt::format(
                 "{:.2g} of the value{}", relative,
-                step > 0 ? fmt::format(" and {:.2g} of what it changes by to the next pixel", step) : "");
+                step > 0 ? fmt::format(" plus {:.2g} of its change to the next pixel", step) : "");
     }
     return {};
 }

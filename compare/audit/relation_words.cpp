@@ -49,10 +49,11 @@ Json jsonOfSeries(const SeriesHeld& of, const Relation& relation) {
 std::string asideInWords(const SeriesHeld& of) {
     std::string out;
     if (of.held.aside > 0)
-        out += fmt::format("; {} pixels beside edges set aside of {} at most", of.held.aside,
+        out += fmt::format("; {} at edges excluded (at most {})", counted(of.held.aside, "pixel"),
                            of.held.most_aside);
     if (of.held.filtered > 0)
-        out += fmt::format("; {} filtered otherwise of {} at most", of.held.filtered, of.held.most_filtered);
+        out += fmt::format("; {} filtered differently (at most {})", counted(of.held.filtered, "pixel"),
+                           of.held.most_filtered);
     return out;
 }
 
@@ -78,28 +79,29 @@ std::string blameInWords(const RelationHeld& held, const ReportDevice& device) {
         case Blame::none:
             return {};
         case Blame::relation:
-            return "the reference in double precision breaks it too: the scene is read otherwise, or the "
-                   "relation does not bind it; ours most likely";
+            return "the double-precision reference breaks it too: the changed scene is read differently, or "
+                   "the relation does not hold for this scene; most likely a bug of Diptych";
         case Blame::ours_likely:
-            return fmt::format("holds in double precision, and {} is a CPU: ours most likely", device.name);
+            return fmt::format("holds in double precision, and {} is a CPU: most likely a bug of Diptych",
+                               device.name);
         case Blame::driver_or_ours:
-            return fmt::format("holds in double precision: a bug of the driver or ours, on {} with {}",
+            return fmt::format("holds in double precision: a bug of the driver or of Diptych, on {} with {}",
                                device.name, device.driver);
     }
     return {};
 }
 
 std::string seriesInWords(const SeriesHeld& held) {
-    return held.series.path == Path::reference ? "reference, in double" : held.series.words();
+    return held.series.path == Path::reference ? "reference, double precision" : held.series.words();
 }
 
 std::string worstInWords(const SeriesHeld& held) {
     if (!held.held.failed.empty()) return "not drawn: " + held.held.failed;
     const ChannelHeld* const worst = held.held.worst();
-    if (!worst) return "the same";
-    return fmt::format("{} {}{} of {} at {},{}", debugMode(worst->mode).name, page::number(worst->error),
-                       held.grant.alike == Alike::bits ? " ULP" : "", page::number(worst->allowed), worst->x,
-                       worst->y);
+    if (!worst) return "equal";
+    return fmt::format("{} {}{}, allowed {}, at {},{}", debugMode(worst->mode).name,
+                       page::number(worst->error), held.grant.alike == Alike::bits ? " ULP" : "",
+                       page::number(worst->allowed), worst->x, worst->y);
 }
 
 std::string inWords(const RelationHeld& held, const ReportDevice& device) {
@@ -107,7 +109,7 @@ std::string inWords(const RelationHeld& held, const ReportDevice& device) {
     const std::string_view verdict = verdictOf(held);
     if (verdict == "does not apply")
         return fmt::format("{:<19} does not apply: {}\n", relation.name,
-                           held.lacks.empty() ? "neither path reads what is changed" : held.lacks);
+                           held.lacks.empty() ? "neither path reads the changed input" : held.lacks);
     if (verdict == "holds") {
         const SeriesHeld* worst = nullptr;
         double used = -1;
@@ -130,7 +132,7 @@ std::string inWords(const RelationHeld& held, const ReportDevice& device) {
                            asideInWords(of));
         for (const ChannelHeld& channel : of.held.channels)
             if (channel.beyond > 0)
-                out += fmt::format("        {}: {} beyond, the worst at {},{}: {} of {}\n",
+                out += fmt::format("        {}: {} out of tolerance, the worst at {},{}: {}, allowed {}\n",
                                    debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                                    channel.y, page::number(channel.error), page::number(channel.allowed));
     }
@@ -143,8 +145,8 @@ std::string inWords(const RelationAudit& audit) {
         const std::string_view verdict = verdictOf(of);
         ++(verdict == "holds" ? hold : verdict == "broken" ? broken : silent);
     }
-    return fmt::format("{}: {} relations hold, {} are broken, {} do not apply\n",
-                       broken > 0 ? "FAIL" : "pass", hold, broken, silent);
+    return fmt::format("{}: {} of {} relations hold, {} broken, {} not applicable\n",
+                       broken > 0 ? "FAIL" : "pass", hold, audit.relations.size(), broken, silent);
 }
 
 Json toJson(const RelationAudit& audit) {

@@ -53,11 +53,11 @@ std::string lacksNone(const Subject&) {
 std::string lacksWithShadows(const Subject& subject) {
     const Settings& settings = subject.given.settings;
     if (settings.shadows == Shadows::off) return {};
-    return "the texels of shadow maps fall elsewhere: leave out --shadows";
+    return "shadow-map texels fall on other points: leave out --shadows";
 }
 std::string lacksPerObject(const Subject& subject) {
     if (subject.given.settings.assign != Assignment::per_object) return {};
-    return "--assign per_object takes some of an object's lights together, others then";
+    return "--assign per_object merges some of an object's lights, and then merges others";
 }
 
 }  // namespace diptych::audit

@@ -53,15 +53,14 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
 Predicted predictCaster(const Subject& subject, const Settings& settings, double) {
     const Shadows kind = settings.shadows;
     if (kind == Shadows::evsm || kind == Shadows::evsm4 || kind == Shadows::msm4)
-        return {
-            .up = 0x1p24 * std::max(subject.bounds.radius(), 1e-6),
-            .because =
-                "moments are of depths from 0 to 1, of which float32 resolves 2^-24: over that many radii "
-                "the scene is one depth; a filter of moments may err before",
-            .at_most = true};
+        return {.up = 0x1p24 * std::max(subject.bounds.radius(), 1e-6),
+                .because =
+                    "moments use depths from 0 to 1, and float32 resolves 2^-24: a range of that many scene "
+                    "radii makes the scene one depth; a moment filter may fail earlier",
+                .at_most = true};
     return {.because =
-                "a map's depth is reversed: float32 is finest where the scene ends, by steps of the scene's "
-                "size wherever the range begins"};
+                "shadow-map depth is reversed: float32 is finest at the scene's far end, with steps relative "
+                "to the scene's size wherever the range begins"};
 }
 
 double usualCaster(const Subject& subject) {
@@ -79,7 +78,7 @@ double usualExponent(const Subject&) {
 }
 
 Predicted predictExponent(const Subject&, const Settings&, double) {
-    return {.up = 44.36, .because = "the second moment is exp(2 x 44.36) at most, where float32 ends"};
+    return {.up = 44.36, .because = "the second moment is at most exp(2 x 44.36), the end of float32"};
 }
 
 void pushHaze(Case& pushed, const Subject&, double density) {
@@ -96,8 +95,8 @@ Predicted predictHaze(const Subject& subject, const Settings& settings, double) 
     constexpr double opaque = 87;  // e^-87 is float32's least normal number
     return {.up = opaque / (least * subject.nearest),
             .because =
-                "behind an optical depth of 87 float32 has no light; it is reached where the nearest "
-                "surface is"};
+                "float32 transmittance is 0 beyond an optical depth of 87, which the nearest surface reaches "
+                "there"};
 }
 
 }  // namespace
@@ -105,7 +104,7 @@ Predicted predictHaze(const Subject& subject, const Settings& settings, double) 
 std::vector<Quantity> shadowQuantities() {
     return {{.name = "shadow_depth",
              .unit = "m",
-             .what = "how far beyond the scene, towards the sun, something small casts too",
+             .what = "distance of an additional small shadow caster beyond the scene, towards the sun",
              .magnitudes = ladder(1, 1e8),
              .usual = usualCaster,
              .lacks = lacksSun,
@@ -114,7 +113,7 @@ std::vector<Quantity> shadowQuantities() {
              .predict = predictCaster},
             {.name = "evsm_exponent",
              .unit = "",
-             .what = "the positive exponent of exponential variance shadow maps of 32 bits",
+             .what = "the positive exponent of 32-bit exponential variance shadow maps",
              .magnitudes = {1, 2, 5, 10, 20, 30, 40, 44, 44.36},
              .usual = usualExponent,
              .lacks = lacksSun,

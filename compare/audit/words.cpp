@@ -81,7 +81,7 @@ Json jsonOf(const QuantityAudit& audit) {
 std::string rangeOf(std::optional<double> from, std::optional<double> to) {
     if (from && to) return magnitudeInWords(*from) + " to " + magnitudeInWords(*to);
     if (to) return "up to " + magnitudeInWords(*to);
-    return from ? "down to " + magnitudeInWords(*from) : "all of it";
+    return from ? "down to " + magnitudeInWords(*from) : "whole range";
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ std::string magnitudeInWords(double magnitude) {
 }
 
 std::string rangeInWords(const Hold& hold) {
-    if (!hold.usual) return "not at all";
+    if (!hold.usual) return "nowhere";
     return rangeOf(hold.down.broken ? std::optional(hold.down.last) : std::nullopt,
                    hold.up.broken ? std::optional(hold.up.last) : std::nullopt);
 }
@@ -122,7 +122,7 @@ std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, st
 std::string inWords(const QuantityAudit& audit) {
     const Quantity& quantity = *audit.quantity;
     const std::string unit = quantity.unit.empty() ? "" : " " + std::string(quantity.unit);
-    if (!audit.lacks.empty()) return fmt::format("{}: not pushed: {}\n", quantity.name, audit.lacks);
+    if (!audit.lacks.empty()) return fmt::format("{}: not varied: {}\n", quantity.name, audit.lacks);
     std::string out =
         fmt::format("{}: {}; {} to {}{}, here {}\n", quantity.name, quantity.what,
                     magnitudeInWords(audit.steps.front().magnitude),
@@ -138,9 +138,8 @@ std::string inWords(const QuantityAudit& audit) {
         out += "\n";
         for (std::size_t c = 0; c < audit.predicted.size(); ++c)
             if (const auto agree = agrees(audit, c, s); agree && !*agree)
-                out +=
-                    fmt::format("        predicted for {}: {}, which does not agree with the measurement\n",
-                                criteria[c].name, rangeInWords(audit.predicted[c][s], audit));
+                out += fmt::format("        predicted for {}: {}, which differs from the measurement\n",
+                                   criteria[c].name, rangeInWords(audit.predicted[c][s], audit));
     }
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         for (const Step& step : audit.steps)
@@ -158,8 +157,7 @@ std::string inWords(const QuantityAudit& audit) {
                                    magnitudeInWords(step.magnitude), unit, outcome.failed);
                 break;
             }
-    for (const std::string& left : audit.left_out)
-        out += fmt::format("    not a series of its own: {}\n", left);
+    for (const std::string& left : audit.left_out) out += fmt::format("    no series of its own: {}\n", left);
     for (const Failure& failure : audit.failures) {
         out += "    " + failure.words + "\n";
         if (!failure.command.empty()) out += "        " + failure.command + "\n";

@@ -80,8 +80,8 @@ void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
         settings.lights = count > 0 ? fmt::format("point:{}", count) : "";
     else
         throw std::runtime_error(
-            fmt::format("--lights {}: --light-counts says how many; leave one out, or put {{}} where the "
-                        "count is to stand",
+            fmt::format("--lights {}: --light-counts sets the number; leave one out, or write {{}} in place "
+                        "of the number",
                         settings.lights));
 }
 
@@ -90,7 +90,7 @@ void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
 std::vector<Path> benchPaths(const std::string& words) {
     const std::vector<Path> paths = valuesOf(words, "--paths", "path", &Settings::path);
     if (std::ranges::count(paths, Path::reference) > 0)
-        throw std::runtime_error("--paths reference: is no path to be timed; it has deferred, forward_plus");
+        throw std::runtime_error("--paths reference: bench does not time it; use deferred, forward_plus");
     return paths;
 }
 
@@ -213,13 +213,14 @@ constexpr int tableSamples[] = {1, 4, 8};
 void checkSampleTable(const BenchOptions& options) {
     if (options.table != BenchTable::msaa) return;
     if (options.assign.size() > 1)
-        throw std::runtime_error("--table msaa: is of one --assign; run it once for each");
+        throw std::runtime_error("--table msaa: takes one --assign; run it once for each");
     if (!options.transparencies.empty())
         throw std::runtime_error(
-            "--transparencies: --table msaa has rows without blended surfaces and with --transparency");
+            "--transparencies: --table msaa has rows with and without --transparency already; leave it out");
     if (!options.lightings.empty())
-        throw std::runtime_error("--lightings: --table msaa is of one --lighting; run it once for each");
-    if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table msaa");
+        throw std::runtime_error("--lightings: --table msaa takes one --lighting; run it once for each");
+    if (!options.frames)
+        throw std::runtime_error("--kernels only: does not time --table msaa; leave one out");
 }
 
 std::vector<Assignment> assignmentsOf(const Settings& given, const BenchOptions& options) {
@@ -252,13 +253,14 @@ namespace {
 
 BenchCases growthCases(const Settings& given, const BenchOptions& options) {
     if (options.assign.size() > 1)
-        throw std::runtime_error("--table growth: is of one --assign; run it once for each");
+        throw std::runtime_error("--table growth: takes one --assign; run it once for each");
     if (!options.light_counts.empty() || !options.sizes.empty() || !options.transparencies.empty() ||
         !options.lightings.empty())
         throw std::runtime_error(
             "--table growth: takes no --light-counts, --sizes, --transparencies or --lightings: lights and "
             "pixels are axes");
-    if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table growth");
+    if (!options.frames)
+        throw std::runtime_error("--kernels only: does not time --table growth; leave one out");
     BenchCases cases;
     for (const GrowthRow& row : growthRows) {
         if (!options.axes.empty() && std::ranges::count(options.axes, row.axis) == 0) continue;
@@ -284,7 +286,7 @@ BenchCases growthCases(const Settings& given, const BenchOptions& options) {
 
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
     if (options.table == BenchTable::growth) return growthCases(given, options);
-    if (!options.axes.empty()) throw std::runtime_error("--axes: are those of --table growth");
+    if (!options.axes.empty()) throw std::runtime_error("--axes: needs --table growth");
     checkSampleTable(options);
     const std::vector<Path> paths =
         options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
@@ -354,7 +356,7 @@ std::string ending(const ModeParts& parts) {
     std::string words;
     if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
     if (parts.lighting) words += fmt::format(", {}", nameOf(*parts.lighting));
-    if (parts.samples) words += fmt::format(", {} sample{}", *parts.samples, *parts.samples == 1 ? "" : "s");
+    if (parts.samples) words += ", " + counted(static_cast<std::uint64_t>(*parts.samples), "sample");
     return words;
 }
 }  // namespace

@@ -107,7 +107,7 @@ bool drawsAnotherPicture(Assignment assign);
 std::string assignLabel(Assignment assign, const ModeParts& parts = {});
 std::string modeLabel(Path path, Assignment assign, const ModeParts& parts = {});
 inline constexpr const char* starMeans =
-    "* draws another picture: only some of the lights are shaded per pixel, the others by object";
+    "* draws a different picture: only some lights are shaded per pixel, the others per object";
 // "forward_plus, every, 640x360, 1024 lights"
 std::string skipName(const BenchSkip& skip);
 

@@ -73,13 +73,13 @@ std::string Conclusion::inWords() const {
         return fmt::format("{} ({})", nameOf(s.path), assignLabel(s.assign, faster->parts));
     };
     std::string words = fmt::format(
-        "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {} drawn in turn; {:.2f} "
-        "to {:.2f} at {:.1f} % confidence)",
+        "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {}; {:.2f} to {:.2f} at "
+        "{:.1f} % confidence)",
         a.size.width, a.size.height, counted(faster->counters.lights, "light"), mode(a),
         msText(faster->time.median), mode(b), ratio.median,
-        counted(static_cast<std::uint64_t>(ratio.pairs), "pair") + " of frames", ratio.low, ratio.high,
+        counted(static_cast<std::uint64_t>(ratio.pairs), "interleaved frame pair"), ratio.low, ratio.high,
         100 * ratio.confidence);
-    if (!ratio.isSure()) return words + "; which one is faster cannot be told, more --runs may help";
+    if (!ratio.isSure()) return words + "; no significant difference, more --runs may help";
     if (!pass.empty())
         words += fmt::format("; the pass that differs most is {}: {} against {}", pass, passMs(faster_ms),
                              passMs(slower_ms));

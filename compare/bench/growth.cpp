@@ -47,7 +47,7 @@ std::string cause(const GrowthLine& line) {
         name = pass.name;
     }
     if (name.empty()) return {};
-    return fmt::format("; {:.0f} % of the added time is {}", 100 * most / all, name);
+    return fmt::format("; {:.0f} % of the added time is in {}", 100 * most / all, name);
 }
 
 std::string lineInWords(const GrowthLine& line, const char* what, const std::vector<double>& amounts,
@@ -55,15 +55,15 @@ std::string lineInWords(const GrowthLine& line, const char* what, const std::vec
     std::vector<double> values;
     for (const BenchRow* row : line.rows) values.push_back(valueOf(*row));
     const std::string begin = fmt::format(
-        "{}, {} over {}: {:.4g} {} at {}, {:.4g} at {}", nameOf(line.path), what, nameOf(line.axis),
-        amounts.front(), unit, numberText(values.front()), amounts.back(), numberText(values.back()));
+        "{}, {} over {}: {:.4g} {} at {}, {:.4g} {} at {}", nameOf(line.path), what, nameOf(line.axis),
+        amounts.front(), unit, numberText(values.front()), amounts.back(), unit, numberText(values.back()));
     const Bend bend = bendOf(values, amounts);
     if (!bend.found) return begin + "; flat";
     const std::string from =
         bend.value == values.front() ? "" : fmt::format("flat up to {}, then ", numberText(bend.value));
     const std::string to =
         bend.until == values.back() ? "" : fmt::format(" up to {}", numberText(bend.until));
-    return fmt::format("{}; {}grows as the power {:.2f}{}{}", begin, from, bend.exponent, to, why);
+    return fmt::format("{}; {}grows with exponent {:.2f}{}{}", begin, from, bend.exponent, to, why);
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ std::vector<std::string> growthInWords(const Bench& bench) {
 
 std::string growthText(const Bench& bench) {
     std::string out = fmt::format("{:<10}  {:>10}  {:<12}  {:>9}  {:>9}  {:>9}  {:>9}  passes, ms\n", "axis",
-                                  "value", "path", "ms", "least", "most", "MiB");
+                                  "value", "path", "ms", "min", "max", "MiB");
     for (const GrowthLine& line : growthLines(bench))
         for (const BenchRow* row : line.rows) {
             std::string passes;
@@ -143,7 +143,7 @@ std::string growthHtml(const Bench& bench) {
     std::string out;
     const std::vector<std::string> words = growthInWords(bench);
     if (words.empty()) return out;
-    out += "<h2>How it grows</h2>\n<div class=\"box says\"><ul>";
+    out += "<h2>How time and memory grow</h2>\n<div class=\"box says\"><ul>";
     for (const std::string& sentence : words) out += fmt::format("<li>{}</li>", page::markup(sentence));
     return out + "</ul></div>\n";
 }

@@ -86,7 +86,8 @@ std::string growthPlot(const Bench& bench, PlotPlace place) {
                                          svgNumber(y), markAt(path, x + 12, y)) +
                                  legend.words(std::string(nameOf(path))));
     }
-    return plotElement(plotWidth, std::max(legend.end(), panelHeight), "How a frame grows", place, out);
+    return plotElement(plotWidth, std::max(legend.end(), panelHeight), "How a frame's time and memory grow",
+                       place, out);
 }
 
 }  // namespace diptych::bench

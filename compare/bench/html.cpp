@@ -6,6 +6,7 @@
 #include "compare/bench/style.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -57,8 +58,8 @@ std::string rows(const Bench& bench) {
                                                       {"path", false},
                                                       {"assign", false},
                                                       {"ms", true},
-                                                      {"least", true},
-                                                      {"most", true},
+                                                      {"min", true},
+                                                      {"max", true},
                                                       {"assign ms", true},
                                                       {"share", true},
                                                       {"memory", true},
@@ -105,12 +106,12 @@ std::string kernels(const Bench& bench) {
     const KernelReport& report = *bench.kernels;
     std::string out =
         fmt::format(
-            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">Nanoseconds for each light of a "
-            "pixel: the difference between lists of {} and of {} of {} lights, {}x{}, {} runs in turn, "
-            "{} threads</p>\n",
+            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">Nanoseconds per light and "
+            "pixel: the difference between lists of {} and {} out of {} lights, {}x{}, {}, {}</p>\n",
             report.short_list, report.long_list, report.lights, report.size.width, report.size.height,
-            report.runs, report.threads) +
-        head({{"kernel", false}, {"ns", true}, {"times the CPU's", true}, {"goal", true}});
+            counted(static_cast<std::uint64_t>(report.runs), "interleaved run"),
+            counted(static_cast<std::uint64_t>(report.threads), "thread")) +
+        head({{"kernel", false}, {"ns", true}, {"ratio to CPU", true}, {"goal", true}});
     for (const KernelRow& row : report.rows)
         out += "<tr>" + wholeCell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
                numberCell(row.ratio ? fmt::format("{:.2f}", *row.ratio) : "") +
@@ -122,18 +123,14 @@ std::string kernels(const Bench& bench) {
 
 std::string how(const Bench& bench) {
     std::string out =
-        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "
-        "unsplit, "
-        "from culling to linear lit, lists made anew, the scene already uploaded: the median. What is called "
-        "least and most is of single frames, and so are the ends of bars.</li><li>All modes and sizes of one "
-        "light count are drawn "
-        "in "
-        "turn, one frame each and again from the first, so that a device that slows down does so for all "
-        "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is "
-        "that "
-        "of the passes that make light lists, of all passes.</li><li>How many times as long a mode takes is "
-        "the median over frames drawn in the same turn, and the interval is that of a sign test: it holds "
-        "whatever the times' distribution is.</li>";
+        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is the median over whole frames, "
+        "not split into passes, from culling to linear lit. It includes making the light lists; the scene is "
+        "already uploaded. Min and max are of single frames, and so are the ends of bars.</li><li>All modes "
+        "and sizes of one light count are interleaved, one frame of each per round, so a device that slows "
+        "down affects all alike.</li><li>Pass times are medians over as many other frames, with each pass "
+        "timed by itself. The share is the fraction of pass time that makes light lists.</li><li>The ratio "
+        "of two modes is the median over frames of the same round. Its interval comes from a sign test, "
+        "which holds for any distribution of times.</li>";
     for (const std::string& note : commonNotes(bench)) out += "<li>" + markup(note) + "</li>";
     return out + "</ul></div>\n<footer><p><a href=\"bench.json\">bench.json</a>" +
            (bench.rows.empty() ? "" : " <a href=\"bench.svg\">bench.svg</a>") + "</p></footer>\n";
@@ -144,13 +141,14 @@ std::string how(const Bench& bench) {
 std::string benchHtml(const Bench& bench) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
-        "<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
-        "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by "
-        "side: <bdi>{0}</bdi></h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
-        "{8}{15}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
-        markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
-        markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, "
+        "{0}</title>\n<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
+        "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by side: <bdi>{0}</bdi></h1><p "
+        "class=\"soft\">{4} of {5} each on {6} ({7})</p></header>\n{8}{15}{9}<div "
+        "id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
+        markup(bench.scene), page::style, plotStyle, benchStyle, counted(bench.rows.size(), "row"),
+        counted(static_cast<std::uint64_t>(bench.runs), "frame"), markup(bench.device.name),
+        markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
         rows(bench), kernels(bench), skips(bench), how(bench), page::tables,

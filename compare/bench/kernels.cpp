@@ -68,7 +68,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
             return cpuMs(report.threads, [&] { runCpuKernel(workload, length, picture); });
         });
     else
-        report.notes.emplace_back("this CPU has no AVX2 and FMA: nothing to hold the shaders against");
+        report.notes.emplace_back("this CPU lacks AVX2 or FMA: no CPU time to compare the shaders with");
     std::vector<std::unique_ptr<DrawnKernel>> drawn;
     for (const DeviceKernel& kernel : deviceKernels()) {
         if (const std::string missing = whyNotDrawn(device, kernel); !missing.empty()) {

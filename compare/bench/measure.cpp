@@ -50,7 +50,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
             skip.parts == partsOf(bench.options, settings) && skip.lights && *skip.lights < *group.lights)
-            return fmt::format("over --max-ms {:.6g} with {} already", bench.options.max_ms,
+            return fmt::format("already over --max-ms {:.6g} with {}", bench.options.max_ms,
                                counted(*skip.lights, "light"));
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
@@ -66,7 +66,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
 // Why such a frame is another's, or none, on this device; empty where it is one of its own.
 std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
     if (std::ranges::find(samples, settings.msaa) == samples.end())
-        return fmt::format("the device does not draw {} samples per pixel", settings.msaa);
+        return fmt::format("the device does not support {} samples per pixel", settings.msaa);
     if (!needs.alpha_blend && settings.transparency != Transparency::off)
         return "no surface of the scene blends";
     return {};

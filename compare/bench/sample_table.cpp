@@ -45,7 +45,7 @@ std::string title(const SampleTable& table) {
 }
 
 std::string columnName(int samples) {
-    return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s");
+    return counted(static_cast<std::uint64_t>(samples), "sample");
 }
 
 // What each column of a cell is headed by, and says.
@@ -55,7 +55,7 @@ struct CellPart {
     std::string (*text)(const BenchRow&);
 };
 const CellPart cellParts[] = {
-    {"ms (least to most)", 24, [](const BenchRow& row) { return timeInWords(row.time); }},
+    {"ms (min to max)", 24, [](const BenchRow& row) { return timeInWords(row.time); }},
     {"lighting ms", 11, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
     {"MiB", 7,
      [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.bytes.picture_images)); }},
@@ -124,13 +124,14 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
         }
         const std::string paper =
             line.path == Path::deferred
-                ? fmt::format("; Billeter, Olsson and Assarsson's keeps {} B per sample, {} MiB", paperBytes,
+                ? fmt::format("; Billeter, Olsson and Assarsson store {} B per sample: {} MiB", paperBytes,
                               fmt::join(theirs, ", "))
                 : "";
-        lines.push_back(fmt::format("{} keeps {} B per sample of {} with {} per pixel: {} MiB at 1920x1080{}",
-                                    nameOf(line.path), fmt::join(bytes, ", "),
-                                    line.path == Path::deferred ? "G-buffer and depth" : "depth",
-                                    fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
+        lines.push_back(
+            fmt::format("{} stores {} B of {} per sample with {} samples per pixel: {} MiB at 1920x1080{}",
+                        nameOf(line.path), fmt::join(bytes, ", "),
+                        line.path == Path::deferred ? "G-buffer and depth" : "depth",
+                        fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
     }
     return lines;
 }

@@ -16,7 +16,7 @@ std::string benchTable(const Bench& bench, std::size_t first) {
     std::string out;
     if (first == 0)
         out = fmt::format("{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9}  {:>6}  passes, ms\n",
-                          "lights", "size", "path", "assign", "ms", "least", "most", "assign ms", "share");
+                          "lights", "size", "path", "assign", "ms", "min", "max", "assign ms", "share");
     for (std::size_t i = first; i < bench.rows.size(); ++i) {
         const BenchRow& row = bench.rows[i];
         std::string passes;
@@ -33,10 +33,12 @@ std::string benchTable(const Bench& bench, std::size_t first) {
 
 std::string kernelTable(const KernelReport& kernels) {
     std::string out = fmt::format(
-        "\none listed point light at one pixel: the difference between lists of {} and of {} of {} lights, "
-        "{}x{}, {} runs, {} threads\n{:<44}  {:>6}  {:>15}  {:>6}\n",
+        "\none listed point light at one pixel: the difference between lists of {} and {} out of {} lights, "
+        "{}x{}, {}, {}\n{:<44}  {:>6}  {:>15}  {:>6}\n",
         kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
-        kernels.runs, kernels.threads, "kernel", "ns", "times the CPU's", "goal");
+        counted(static_cast<std::uint64_t>(kernels.runs), "run"),
+        counted(static_cast<std::uint64_t>(kernels.threads), "thread"), "kernel", "ns", "ratio to CPU",
+        "goal");
     for (const KernelRow& row : kernels.rows)
         out += fmt::format("{:<44}  {:>6.3f}  {:>15}  {:>6}\n", row.name, row.ns,
                            row.ratio ? fmt::format("{:.2f}", *row.ratio) : "-",
@@ -56,7 +58,7 @@ std::string benchEnd(const Bench& bench) {
                 counted(row.counters.lights, "light"), counted(row.counters.nonfinite_pixels, "pixel"));
     for (const BenchRow& row : bench.rows)
         if (row.counters.unsorted.fragments > 0)
-            out += fmt::format("{}, {}: {} of {} found no room in their list\n",
+            out += fmt::format("{}, {}: {} in {} overflowed the fragment list\n",
                                modeName(row.settings.path, row.settings.assign, row.parts),
                                counted(row.counters.lights, "light"),
                                counted(row.counters.unsorted.fragments, "blended fragment"),

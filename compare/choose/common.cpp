@@ -30,7 +30,7 @@ public:
 
     CommonChoice run() {
         propose();
-        inEachScene(0, 0.5, "judged for all", [&](std::size_t scene) { judgeIn(scene); });
+        inEachScene(0, 0.5, "errors for all scenes", [&](std::size_t scene) { judgeIn(scene); });
         std::vector<std::size_t> fit;
         for (std::size_t i = 0; i < all().size(); ++i)
             if (worstMiss(i, false) <= 0) fit.push_back(i);
@@ -168,7 +168,7 @@ private:
             for (std::size_t k = 0; k < which.size(); ++k) order.push_back(k);
             for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
         }
-        inEachScene(0.5, 0.7, "timed for all", [&](std::size_t scene) {
+        inEachScene(0.5, 0.7, "times for all scenes", [&](std::size_t scene) {
             const std::vector<double> times = labOf_(scene).time(frames, order);
             found_.timings += times.size();
             std::vector<std::vector<double>> of(which.size());
@@ -202,7 +202,7 @@ private:
         std::vector<std::vector<std::vector<double>>> rounds(own_.size());
         const auto draw = [&](std::span<const std::size_t> order) {
             std::vector<double> logs(order.size(), 0.0);
-            inEachScene(0.7, 1, "race for all", [&](std::size_t scene) {
+            inEachScene(0.7, 1, "finalists of all scenes", [&](std::size_t scene) {
                 std::vector<Settings> drawn = frames;
                 // Its own choice goes first and last in each round, unless it is one of the contenders.
                 const bool chose = own_[scene]->chosen && ownPlace(scene, frames) == n;

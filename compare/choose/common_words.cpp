@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/report.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -108,17 +109,17 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
         for (const std::size_t i : choice.ties)
             lines.push_back("not measurably slower: " + commonStanding(report, i));
         if (choice.sure)
-            lines.push_back(fmt::format("sure: every other contender is slower over all, at {:.0f} %",
-                                        100 * toldApartConfidence));
+            lines.push_back(fmt::format(
+                "significant: every other finalist is slower over all scenes, at {:.0f} % confidence",
+                100 * toldApartConfidence));
     }
     const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
     lines.push_back(fmt::format(
-        "{} candidates of the scenes' choices, {} within all budgets{}; {} more pictures judged, {} more "
-        "frames timed, {:.1f} s",
-        choice.candidates.size(), fit,
-        choice.left_out > 0 ? fmt::format("; {} that fewer scenes propose are left out", choice.left_out)
-                            : "",
-        choice.judged, choice.timings, report.seconds));
+        "{} from the scenes' choices, {} within all budgets{}; {} compared and {} timed in addition, {:.1f} "
+        "s",
+        counted(choice.candidates.size(), "candidate"), fit,
+        choice.left_out > 0 ? fmt::format("; {} proposed by fewer scenes left out", choice.left_out) : "",
+        counted(choice.judged, "picture"), counted(choice.timings, "frame"), report.seconds));
     return lines;
 }
 
@@ -133,9 +134,9 @@ std::string inWords(const CommonReport& report, const ChoiceReport& first) {
                                 figuresIn(choice.candidates[*choice.chosen], scene, first),
                                 slowdownInWords(choice.slower[scene]));
     } else if (choice.nearest) {
-        text += fmt::format("nothing fits all; the nearest is {}\n", report.words[*choice.nearest]);
+        text += fmt::format("nothing fits all scenes; the nearest is {}\n", report.words[*choice.nearest]);
     } else {
-        text += "nothing was proposed for all\n";
+        text += "no scene proposed a candidate for all\n";
     }
     for (const std::string& line : reasonsInWords(report, first)) text += "  " + line + "\n";
     if (choice.chosen) text += report.commands[*choice.chosen] + "\n";

@@ -106,7 +106,7 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
     const auto say = [&](std::string_view what) {
         if (progress) progress(static_cast<double>(done++) / static_cast<double>(all), what);
     };
-    say("what decides");
+    say("sensitivity");
     deciders.as_is = measure({0, asIs});
     for (Property& property : properties) {
         Decider decider;

@@ -30,11 +30,11 @@ std::string fewInWords(const Decider& decider, const std::string& chosen, const 
     std::vector<std::string> words;
     for (const TimedValue& at : decider.times)
         if (at.value != decider.property.value)
-            words.push_back(fmt::format("at {:.4g} {} takes {:.4g} ms and {} {:.4g}{}", at.value, chosen,
+            words.push_back(fmt::format("at {:.4g}, {} takes {:.4g} ms and {} {:.4g} ms{}", at.value, chosen,
                                         at.ms[0], other, at.ms[1],
-                                        !at.isTold()        ? ", which is not measurably different"
-                                        : at.difference < 0 ? ": it wins there"
-                                                            : ": it wins there neither"));
+                                        !at.isTold()        ? ", not measurably different"
+                                        : at.difference < 0 ? ": faster there"
+                                                            : ": not faster there either"));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
@@ -48,11 +48,11 @@ std::string deciderInWords(const Decider& decider, const std::string& chosen, co
     else if (decider.crossing)
         text += crossingInWords(decider, other);
     else
-        text +=
-            fmt::format("no value within {} and {} turns it{}", figure(property.least), figure(property.most),
-                        decider.open ? fmt::format(" for sure; that one within {} and {} does is left open",
-                                                   figure(decider.open->first), figure(decider.open->second))
-                                     : "");
+        text += fmt::format(
+            "no value between {} and {} reverses the choice{}", figure(property.least), figure(property.most),
+            decider.open ? fmt::format(" significantly; a value between {} and {} may",
+                                       figure(decider.open->first), figure(decider.open->second))
+                         : "");
     std::vector<std::string> at;
     for (const TimedValue& time : decider.times) at.push_back(figure(time.value));
     return text + fmt::format(" (measured at {}: {})", fmt::join(at, ", "), property.how);
@@ -63,9 +63,9 @@ std::string deciderInWords(const Decider& decider, const std::string& chosen, co
 std::vector<std::string> inWords(const DecidersReport& report) {
     const TimedValue& here = report.deciders.as_is;
     std::vector<std::string> lines{fmt::format(
-        "What decided it, {} against {}{}: here {:.4g} ms against {:.4g}{}", report.chosen, report.other,
-        report.other_fits ? "" : ", which does not fit and is compared by time alone", here.ms[0], here.ms[1],
-        here.isTold() ? "" : ", not measurably different")};
+        "Properties that decide between {} and {}{}: here {:.4g} ms against {:.4g} ms{}", report.chosen,
+        report.other, report.other_fits ? "" : ", which does not fit and is compared by time only",
+        here.ms[0], here.ms[1], here.isTold() ? "" : ", not measurably different")};
     constexpr std::size_t told = 3;  // those that turn the choice come first; JSON has all
     for (std::size_t i = 0; i < std::min(told, report.deciders.properties.size()); ++i)
         lines.push_back("  " +

@@ -5,6 +5,7 @@
 #include "compare/choose/plot.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,7 +64,7 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
                                   pathSwatch(candidate.settings), markup(report.words[i]));
     out += candidate.timings > 0 ? page::numberCell(ms, fmt::format("{:.4g}", ms))
                                  : std::string("<td class=\"n\" data-value=\"inf\"></td>");
-    out += fmt::format("<td>{} frames</td>", candidate.timings);
+    out += fmt::format("<td>{}</td>", counted(candidate.timings, "frame"));
     if (candidate.judged) {
         out += page::numberCell(candidate.judged->error, number(candidate.judged->error));
         out += page::numberCell(static_cast<double>(candidate.judged->bytes),
@@ -75,7 +76,7 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     if (i == report.choice.chosen)
         fate = "chosen";
     else if (std::ranges::count(report.choice.ties, i) > 0)
-        fate = "timed with the best: a tie";
+        fate = "tied with the best";
     return out + fmt::format("<td>{}</td></tr>\n", fate);
 }
 
@@ -96,7 +97,7 @@ std::string candidateTable(const ChoiceReport& report) {
                                      {"timed", ""},
                                      {report.figure, " class=\"n\""},
                                      {"memory", " class=\"n\""},
-                                     {"what became of it", ""}})
+                                     {"result", ""}})
         out += fmt::format("<th{}><button type=\"button\">{}</button></th>", kind, markup(head));
     out += "</tr></thead>\n<tbody>";
     for (const std::size_t i : order) out += candidateRow(report, i);
@@ -108,10 +109,11 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
     if (titled)
         out += fmt::format("<h2>{}{}</h2>\n", verdictOf(report.choice.chosen.has_value()),
                            page::breakable(report.scene));
-    out += "<div class=\"choice\">" + choiceBox(report) + "<div class=\"box\">" +
-           choicePlot(report, PlotPlace::page) +
-           "<p class=\"soft small\">A bar is the 99 % confidence interval of a time divided by the fastest "
-           "one's. The line is the smallest error within a time.</p></div></div>\n";
+    out +=
+        "<div class=\"choice\">" + choiceBox(report) + "<div class=\"box\">" +
+        choicePlot(report, PlotPlace::page) +
+        "<p class=\"soft small\">A bar is the 99 % confidence interval of a candidate's time divided by the "
+        "fastest one's. The line is the smallest error that is possible within a time.</p></div></div>\n";
     if (report.deciders) {
         const std::vector<std::string> lines = inWords(*report.deciders);
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",
@@ -125,15 +127,16 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
 std::string commonSection(const CommonReport& all, const ChoiceReport& first) {
     const CommonChoice& choice = all.choice;
     const std::optional<std::size_t> shown = choice.chosen ? choice.chosen : choice.nearest;
-    std::string out = fmt::format("<h2>{}One for all {} scenes</h2>\n<div class=\"box\">",
+    std::string out = fmt::format("<h2>{}One choice for all {} scenes</h2>\n<div class=\"box\">",
                                   verdictOf(choice.chosen.has_value()), all.scenes.size());
     if (shown)
         out += fmt::format("<h3>{}{}{}</h3>", pathSwatch(choice.candidates[*shown].settings),
                            choice.chosen ? "" : "nearest: ", markup(all.words[*shown]));
     out += listOf(reasonsInWords(all, first));
-    if (choice.chosen) out += commandLine("Draw one with it", all.commands[*choice.chosen]);
+    if (choice.chosen) out += commandLine("Draw one scene with it", all.commands[*choice.chosen]);
     out += "</div><div class=\"box scroll rows\"><table class=\"stack\"><thead><tr>";
-    for (const char* head : {"scene", "ms", "error", "memory", "more than its own, %", "interval, %"})
+    for (const char* head :
+         {"scene", "ms", "error", "memory", "slower than its own choice, %", "confidence interval, %"})
         out += fmt::format("<th{}><button type=\"button\">{}</button></th>",
                            std::string_view(head) == "scene" ? "" : " class=\"n\"", head);
     out += "</tr></thead>\n<tbody>";

@@ -37,9 +37,10 @@ public:
             for (const std::size_t i : drawn_)
                 if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
         out += names() + legend();
-        return plotElement(plotWidth, plotHeight,
-                           fmt::format("{} over time of what was judged, {}", report_.figure, report_.scene),
-                           place, out);
+        return plotElement(
+            plotWidth, plotHeight,
+            fmt::format("{} over time of the measured candidates, {}", report_.figure, report_.scene), place,
+            out);
     }
 
 private:
@@ -180,7 +181,7 @@ private:
             });
         const auto isDrawn = [&](const auto& what) { return std::ranges::any_of(drawn_, what); };
         if (isDrawn([&](std::size_t i) { return choice_.candidates[i].fate == Fate::raced; }))
-            entry("timed again, with its interval", "best", [](double at, double up) {
+            entry("finalist, 99 % interval", "best", [](double at, double up) {
                 return fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
                                    svgNumber(at - 9), svgNumber(up - 4), svgNumber(up + 4), svgNumber(up),
                                    svgNumber(at + 9)) +

@@ -307,7 +307,7 @@ private:
     void timeAgain(const std::vector<std::size_t>& which) {
         std::vector<Settings> frames;
         for (const std::size_t i : which) frames.push_back(all_[i].settings);
-        say(0.9, "the best again");
+        say(0.9, "the finalists again");
         const Standings result = tellApart(which.size(), [&](std::span<const std::size_t> order) {
             for (const std::size_t k : order) ++all_[which[k]].timings;
             return lab_.time(frames, order);

@@ -2,6 +2,7 @@
 #include "compare/choose/report.h"
 
 #include "compare/page/text.h"
+#include "shared/text/counted.h"
 #include "shared/text/json.h"
 
 #include <fmt/format.h>
@@ -32,14 +33,18 @@ std::vector<std::string> missesInWords(const ChoiceReport& report) {
     const Candidate& nearest = choice.candidates[*choice.nearest];
     std::vector<std::string> lines;
     const Budget& budget = report.budget;
-    const auto gap = [&](double value, double limit, const char* what) {
+    const auto gap = [&](double value, double limit, const char* what, const std::string& limit_text) {
         if (value > limit)
-            lines.push_back(fmt::format("{} over the {} of {:.4g}", percent(value / limit), what, limit));
+            lines.push_back(
+                fmt::format("{} over the {} budget of {}", percent(value / limit), what, limit_text));
     };
-    if (budget.error) gap(nearest.judged->error, *budget.error, "error");
-    if (budget.ms && nearest.timings > 0) gap(choice.ms, *budget.ms, "time, ms,");
+    if (budget.error)
+        gap(nearest.judged->error, *budget.error, "error", fmt::format("{:.4g}", *budget.error));
+    if (budget.ms && nearest.timings > 0)
+        gap(choice.ms, *budget.ms, "time", fmt::format("{:.4g} ms", *budget.ms));
     if (budget.bytes)
-        gap(static_cast<double>(nearest.judged->bytes), static_cast<double>(*budget.bytes), "memory, bytes,");
+        gap(static_cast<double>(nearest.judged->bytes), static_cast<double>(*budget.bytes), "memory",
+            page::bytes(*budget.bytes));
     return lines;
 }
 
@@ -47,9 +52,9 @@ void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
     if (report.unseen.empty())
         lines.push_back(std::string("not checked from another camera: the scene has no other"));
     for (const UnseenCamera& camera : report.unseen)
-        lines.push_back(fmt::format("checked from {}, another camera: {} {:.4g}{}", camera.camera,
-                                    report.figure, camera.error,
-                                    camera.holds ? "" : ", beyond the budget: give --camera for both"));
+        lines.push_back(fmt::format(
+            "checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera, report.figure,
+            camera.error, camera.holds ? "" : ", over the budget: name both cameras with --camera"));
 }
 
 // How the chosen Settings compare with the best of the other path that were judged and fit, pass by pass.
@@ -59,7 +64,7 @@ std::string whyInWords(const ChoiceReport& report) {
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
     const std::optional<std::size_t> best = bestOfOtherPath(choice, report.budget);
-    if (!best) return "the other path: nothing that was judged fits";
+    if (!best) return "the other path: no measured settings fit";
     const Candidate& other = choice.candidates[*best];
     std::map<std::string, std::pair<double, double>> passes;  // chosen, other
     for (const PassTime& pass : chosen.passes) passes[pass.name].first += pass.ms;
@@ -71,7 +76,7 @@ std::string whyInWords(const ChoiceReport& report) {
             parts.emplace_back(-std::abs(ms.first - ms.second),
                                fmt::format("{} {:.3g} against {:.3g}", name, ms.second, ms.first));
     std::ranges::sort(parts);
-    std::string line = fmt::format("the other path: the {} that was judged and fits is {}, {:.3g} ms",
+    std::string line = fmt::format("the other path: the {} settings that fit are {}, {:.3g} ms",
                                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.ms());
     if (!forSpeed)
         line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
@@ -145,7 +150,7 @@ std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
 const char* fateInWords(Fate fate) {
     switch (fate) {
         case Fate::slower:
-            return "slower, not judged";
+            return "slower, error not measured";
         case Fate::misses:
             return "over the error or memory budget";
         case Fate::too_slow:
@@ -167,8 +172,8 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     for (const std::size_t i : choice.ties)
         lines.push_back("not measurably slower: " + standingOf(report, i));
     if (choice.sure)
-        lines.push_back(
-            fmt::format("sure: every other contender is slower, at {:.0f} %", 100 * toldApartConfidence));
+        lines.push_back(fmt::format("significant: every other finalist is slower, at {:.0f} % confidence",
+                                    100 * toldApartConfidence));
     addUnseen(report, lines);
     return lines;
 }
@@ -188,7 +193,7 @@ std::string inWords(const ChoiceReport& report) {
     std::string text =
         fmt::format("{}, {}x{}, {}: {}\n", report.scene, report.given.size.width, report.given.size.height,
                     fmt::join(report.cameras, "; "), goalInWords(report));
-    if (!choice.chosen && !choice.nearest) text += "nothing could be drawn\n";
+    if (!choice.chosen && !choice.nearest) text += "no candidate could be drawn\n";
     if (!choice.chosen && choice.nearest)
         text += fmt::format("nothing fits; the nearest is {}\n", report.words[*choice.nearest]);
     if (choice.chosen) text += report.words[*choice.chosen] + "\n";
@@ -197,9 +202,9 @@ std::string inWords(const ChoiceReport& report) {
     for (const std::string& line : reasonsInWords(report)) text += "  " + line + "\n";
     if (report.deciders)
         for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
-    text += fmt::format("  {} candidates: {}\n  {} pictures judged, {} frames timed, {:.1f} s\n",
-                        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings,
-                        report.seconds);
+    text += fmt::format("  {}: {}\n  {} compared, {} timed, {:.1f} s\n",
+                        counted(choice.candidates.size(), "candidate"), fatesInWords(choice),
+                        counted(choice.judged, "picture"), counted(choice.timings, "frame"), report.seconds);
     for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
     if (choice.chosen) text += report.commands[*choice.chosen] + "\n";
     return text;

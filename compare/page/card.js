@@ -148,7 +148,7 @@ class Card {
     values.set(name, null);
     waiting.set(name, [() => this.read()]);
     this.showRows([there, 'loading the values']);
-    addScript(name, () => this.showRows([there, `${name} is not beside this page`]));
+    addScript(name, () => this.showRows([there, `${name} is missing beside this page`]));
   }
   showValues(file, there) {
     const pixel = this.pixel[1] * this.width + this.pixel[0];

@@ -25,7 +25,7 @@ function fetchSection(index, then) {
   if (!line || arriving.has(index)) return;
   arriving.set(index, [then]);
   if (inPage) window.diptychSection(index, inPage.textContent);
-  else if (line.dataset.section) addScript(line.dataset.section, () => { line.title = line.dataset.section + ' is not beside this page'; });
+  else if (line.dataset.section) addScript(line.dataset.section, () => { line.title = line.dataset.section + ' is missing beside this page'; });
 }
 
 fillShared(document);

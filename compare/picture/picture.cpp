@@ -118,7 +118,7 @@ std::array<float, 3> pbrNeutral(std::array<float, 3> rgb) {
 
 Exposure exposureFor(const PictureChoice& choice, const Image* lit, const Coverage& coverage) {
     if (choice.exposure)
-        return {*choice.exposure, choice.tonemap, fmt::format("exposure {:.4g}, as asked", *choice.exposure)};
+        return {*choice.exposure, choice.tonemap, fmt::format("exposure {:.4g}, as set", *choice.exposure)};
     if (choice.ev100)
         return {1 / (1.2 * std::exp2(*choice.ev100)), choice.tonemap,
                 fmt::format("EV100 {:.4g}", *choice.ev100)};
@@ -167,13 +167,13 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
         }
         if (!(low <= high)) low = high = 0;
         if (isHeat(mode))
-            return {0, heatTop(high), exposure, fmt::format("heat, 0 to {:g} lights", heatTop(high))};
+            return {0, heatTop(high), exposure, fmt::format("heat map, 0 to {:g} lights", heatTop(high))};
         if (mode.number == gpu::DEBUG_shaded_samples)
             return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
         const std::string range =
             fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
         if (low == high) high = low + 1;
-        return {low, high, exposure, (mode.width == 1 ? "grey, " : "x y z as red green blue, ") + range};
+        return {low, high, exposure, (mode.width == 1 ? "grey, " : "x, y, z as red, green, blue, ") + range};
     }
     if (mode.shown == Shown::display) return {0, 1, exposure, "as stored"};
     switch (mode.kind) {
@@ -185,7 +185,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
             return {0, 1, exposure, "grey, 0 to 1"};
         case ChannelKind::vector:
             if (mode.width == 2) return {0, 1, exposure, "u red, v green, wrapped to 0 to 1"};
-            return {-1, 1, exposure, "x y z as red green blue, -1 to 1"};
+            return {-1, 1, exposure, "x, y, z as red, green, blue, -1 to 1"};
     }
     return {};
 }

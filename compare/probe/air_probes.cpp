@@ -29,8 +29,9 @@ constexpr auto exact_exp = [](double x) { return std::exp(x); };
 constexpr auto exact_expm1 = [](double x) { return std::expm1(x); };
 
 Probe exponentialProbe() {
-    Probe p = airProbe("e^x and e^x - 1", 0, "x in -87 to 60, half of them small down to 1e-12; both ends",
-                       "2e-7 as its polynomial promises, twice that where sums are rounded up or down");
+    Probe p = airProbe("e^x and e^x - 1", 0,
+                       "x from -87 to 60 including both ends, half of them small down to 1e-12",
+                       "2e-7, its polynomial's error bound; twice that if sums are rounded up or down");
     p.outs = 2;
     p.rows = 1u << 17;
     p.make = [](Random& random, std::size_t, float* in) {
@@ -62,10 +63,10 @@ double airByDefinition(double height, double rise, double reach, double inverse_
 }
 
 Probe alongProbe() {
-    Probe p =
-        airProbe("air along a ray", 1,
-                 "from -10 to 100 km, 1 mm to 1e7 m long, up, down and level; scale heights 1 m to 100 km",
-                 "the operations of airAlong() and the promise of exponential()");
+    Probe p = airProbe(
+        "air along a ray", 1,
+        "rays from -10 to 100 km, 1 mm to 1e7 m long, up, down and level; scale heights 1 m to 100 km",
+        "rounding in airAlong() and exponential()'s error bound");
     p.ins = 4;
     p.make = [](Random& random, std::size_t, float* in) {
         const double reach = random.logarithmic(1e-3, 1e7), up = random.coin() ? random.uniform(-1, 1) : 0;
@@ -93,11 +94,10 @@ Probe alongProbe() {
 }
 
 Probe beyondProbe() {
-    Probe p =
-        airProbe("air of an endless ray", 2,
-                 "from -10 to 100 km, elevations from level (endless) to the zenith; scale heights 1 m to "
-                 "100 km",
-                 "the operations of airBeyond() and the promise of exponential()");
+    Probe p = airProbe("air of an endless ray", 2,
+                       "rays from -10 to 100 km, elevations from level (infinite) to the zenith; scale "
+                       "heights 1 m to 100 km",
+                       "rounding in airBeyond() and exponential()'s error bound");
     p.ins = 3;
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = static_cast<float>(random.coin() ? random.uniform(-1e4, 1e5) : random.logarithmic(1e-3, 1e5));
@@ -120,12 +120,11 @@ Probe beyondProbe() {
 }
 
 Probe hazeProbe() {
-    Probe p = airProbe(
-        "transmittance, scattered light", 3,
-        "extinctions 1e-7 to 1 1/m, air of 1 mm to 1e8 m, directions anywhere, the sun's among them; "
-        "aerosols scattering forward, 0 to 0.95; lines of 64, air growing",
-        "the operations of hazeOfAir() and the promise of exponential(); a direction of float32 is as "
-        "long as 1 only nearly");
+    Probe p = airProbe("transmittance, scattered light", 3,
+                       "extinctions 1e-7 to 1 1/m, path lengths 1 mm to 1e8 m, any direction including the "
+                       "sun's; aerosol forward scattering 0 to 0.95; sequences of 64 with growing length",
+                       "rounding in hazeOfAir() and exponential()'s error bound; a float32 direction is only "
+                       "nearly of length 1");
     p.ins = 24;
     p.outs = 6;
     p.line = 64;
@@ -174,9 +173,10 @@ Probe hazeProbe() {
 }
 
 Probe logRatioProbe() {
-    Probe p = airProbe("-ln(1 - z) / z", 4,
-                       "z in 0 to 0.9999999, half of them down to 1e-9, both ends; lines of 256",
-                       "a series below 0.01, of which 0.01^4 / 5 is left out; above a logarithm");
+    Probe p =
+        airProbe("-ln(1 - z) / z", 4,
+                 "z from 0 to 0.9999999 including both ends, half of them down to 1e-9; sequences of 256",
+                 "below 0.01 a series truncated at 0.01^4 / 5; above it a logarithm");
     p.line = 256;
     p.monotone = 1;
     p.make = [](Random&, std::size_t row, float* in) {

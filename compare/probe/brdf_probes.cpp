@@ -41,10 +41,10 @@ double ggx(double alpha, double cosine, double sine) {
 }
 
 Probe distribution() {
-    Probe p = brdfProbe("D", 0,
-                        "roughness 0.045 to 1 and both ends; h at 1e-7 to pi/2 from n, n anywhere; s of any "
-                        "length in 1e-3 to 2",
-                        "the operations of ggxDenominator() and one division");
+    Probe p = brdfProbe(
+        "D", 0,
+        "roughness 0.045 to 1 including both ends; h at 1e-7 to pi/2 from n, any n; s of length 1e-3 to 2",
+        "rounding in ggxDenominator() and one division");
     p.ins = 7;
     p.rows = 1u << 17;
     p.make = [](Random& random, std::size_t row, float* in) {
@@ -118,14 +118,13 @@ void makeLobeRow(Random& random, double lowest, float* in) {
     put(turnedTo(n, l), in + 7);
 }
 
-const char* const lobe_operations = "the operations of makeBrdf(), ggxDenominator() and specularLobe()";
+const char* const lobe_operations = "rounding in makeBrdf(), ggxDenominator() and specularLobe()";
 
 Probe lobeProbe() {
-    Probe p =
-        brdfProbe("D V, the specular lobe", 1,
-                  "roughness 0.045 to 1 and both ends; n anywhere; n.v and n.l 1e-6 to 1; half of l within "
-                  "30 widths of the mirrored view; |l + v| from 1e-3 on",
-                  lobe_operations);
+    Probe p = brdfProbe("D V, the specular lobe", 1,
+                        "roughness 0.045 to 1 including both ends; any n; n.v and n.l 1e-6 to 1; half of l "
+                        "within 30 lobe widths of the mirrored view; |l + v| at least 1e-3",
+                        lobe_operations);
     p.ins = 10;
     p.rows = 1u << 17;
     p.make = [](Random& random, std::size_t, float* in) { makeLobeRow(random, 1e-6, in); };
@@ -140,8 +139,8 @@ Probe lobeProbe() {
 
 Probe reciprocityProbe() {
     Probe p = brdfProbe("D V of l and v exchanged", 1,
-                        "as of the lobe, n.v and n.l from 1e-4 on, below which n.v is raised",
-                        "what both may be off by: mathematics has them equal");
+                        "as for the lobe, with n.v and n.l at least 1e-4, where n.v is clamped",
+                        "the allowed errors of both, which are equal in exact arithmetic");
     p.ins = 10;
     p.outs = 2;
     p.make = [](Random& random, std::size_t, float* in) { makeLobeRow(random, 1.001e-4, in); };
@@ -196,11 +195,10 @@ EnergyRow energyRow(std::size_t row) {
 }
 
 Probe energyProbe() {
-    Probe p =
-        brdfProbe("energy of the lobe, F = 1", 1,
-                  "64 roughnesses x 64 n.v (1e-4 to 1), 64 half vectors each: their mean, and that it is at "
-                  "most 1",
-                  "the mean of what each lobe may be off by");
+    Probe p = brdfProbe(
+        "energy of the lobe, F = 1", 1,
+        "64 roughnesses x 64 n.v (1e-4 to 1), 64 half vectors each: the mean, which must not exceed 1",
+        "the mean of each lobe's allowed error");
     p.ins = 10;
     p.line = energy_line;
     p.rows = energy_side * energy_side * energy_line;
@@ -239,8 +237,8 @@ Probe energyProbe() {
 }
 
 Probe schlickProbe() {
-    Probe p = brdfProbe("F, Schlick's weight", 2, "v.h in 0 to 1, both ends; lines of 256",
-                        "a difference and three products; it only falls, on any device");
+    Probe p = brdfProbe("F, Schlick's weight", 2, "v.h from 0 to 1 including both ends; sequences of 256",
+                        "a difference and three products; it decreases monotonically on any device");
     p.line = 256;
     p.make = [](Random&, std::size_t row, float* in) { in[0] = onLine(row, 256, 0, 1); };
     p.definition = [](const float* in, double* out) { out[0] = std::pow(1 - double{in[0]}, 5); };
@@ -254,9 +252,10 @@ Probe schlickProbe() {
 }
 
 Probe lightProbe() {
-    Probe p = brdfProbe("one light, base and lobe", 3,
-                        "as of the lobe, n.l from 1e-3 on; metallic, albedo, F0 and F90 0 to 1 and both ends",
-                        "the operations of addLight(); vectors of float32 are as long as 1 only nearly");
+    Probe p = brdfProbe(
+        "one light, base and lobe", 3,
+        "as for the lobe, with n.l at least 1e-3; metallic, albedo, F0 and F90 0 to 1 including both ends",
+        "rounding in addLight(); float32 vectors are only nearly of length 1");
     p.ins = 14;
     p.outs = 2;
     p.make = [](Random& random, std::size_t, float* in) {

@@ -70,14 +70,12 @@ Vec<double> foldedDirection(Random& random) {
     return length(n) > 0.01 ? unit(n) : Vec<double>{0, 0, -1};
 }
 
-const char* const directions =
-    "directions anywhere; half of them on or near the axes, the edges and the folds";
+const char* const directions = "any direction; half of them on or near axes, edges and folds";
 
 Probe octahedralProbe(std::uint32_t bits) {
-    Probe p =
-        codeProbe(fmt::format("octahedral, {} bits", bits), bits, directions,
-                  "half a step, and the operations of encodeOctahedral(); the angle: half a step in both "
-                  "coordinates at the middle of a face");
+    Probe p = codeProbe(fmt::format("octahedral, {} bits", bits), bits, directions,
+                        "half a step, and rounding in encodeOctahedral(); for the angle, half a step in both "
+                        "coordinates at the middle of a face");
     p.ins = 3;
     p.outs = 5;
     p.make = [](Random& random, std::size_t, float* in) { put(foldedDirection(random), in); };
@@ -115,8 +113,8 @@ Probe octahedralProbe(std::uint32_t bits) {
 
 Probe decodedProbe(std::uint32_t bits) {
     Probe p = codeProbe(fmt::format("octahedral from {} bits", bits), 100 + bits,
-                        bits == 8 ? "every code" : "codes anywhere, both ends and the folds",
-                        "the operations of decodeOctahedral()");
+                        bits == 8 ? "every code" : "any code, including both ends and the folds",
+                        "rounding in decodeOctahedral()");
     p.unit = "ULP of 1";
     p.ins = 2;
     p.outs = 3;
@@ -151,8 +149,8 @@ Probe decodedProbe(std::uint32_t bits) {
 
 Probe unormProbe(std::uint32_t bits) {
     Probe p = codeProbe(fmt::format("unorm, {} bits", bits), 200 + bits,
-                        "-0.1 to 1.1, lines of 256: evenly, or float after float",
-                        "half a step, a product and a sum; codes only grow, on any device");
+                        "-0.1 to 1.1 in sequences of 256: evenly spaced, or consecutive floats",
+                        "half a step, a product and a sum; codes increase monotonically on any device");
     p.line = 256;
     p.monotone = 1;
     p.strict = true;
@@ -174,7 +172,7 @@ Probe unormProbe(std::uint32_t bits) {
 
 Probe unormBackProbe(std::uint32_t bits) {
     Probe p = codeProbe(fmt::format("unorm from {} bits", bits), 300 + bits, "every code",
-                        "a product with a constant; codes only grow, on any device");
+                        "a product with a constant; codes increase monotonically on any device");
     const double top = topOf(bits);
     p.rows = std::size_t{1} << bits;
     p.line = p.rows;
@@ -189,8 +187,8 @@ Probe unormBackProbe(std::uint32_t bits) {
 }
 
 Probe rootCodeProbe() {
-    Probe p = codeProbe("square root, 8 bits", 400, "0 to 1, half of them small; lines of 256",
-                        "half a step, and the root that Vulkan allows");
+    Probe p = codeProbe("square root, 8 bits", 400, "0 to 1, half of them small; sequences of 256",
+                        "half a step, and Vulkan's error bound of sqrt()");
     p.line = 256;
     p.monotone = 1;
     p.make = [](Random&, std::size_t row, float* in) {
@@ -243,7 +241,7 @@ void makeRadiance(Random& random, float* in) {
 Probe radianceProbe() {
     Probe p =
         codeProbe("radiance, 9.9.9.e5", 402,
-                  "1e-11 to 1e5, all magnitudes; components from alike to 1e-4 of the largest; powers of two",
+                  "1e-11 to 1e5, all magnitudes; components from equal to 1e-4 of the largest; powers of two",
                   "half a step of the largest component's exponent; products with powers of two are exact");
     p.ins = p.outs = 3;
     p.rows = 1u << 17;
@@ -326,11 +324,10 @@ void judgeSurface(const Layout& layout, const float* in, const float* out, Tally
 
 Probe layoutProbe(const Layout& layout) {
     const bool full = layout.encoding == gpu::GBUFFER_full;
-    Probe p =
-        codeProbe(layout.name, 0,
-                  "surfaces: normals anywhere and on the folds, shares 0 to 1 and both ends, radiance of all "
-                  "magnitudes, every material's number",
-                  full ? "float32: the same bits" : "half a step of each field's bits");
+    Probe p = codeProbe(layout.name, 0,
+                        "surfaces: any normal, including on the folds, fractions 0 to 1 including both ends, "
+                        "radiance of all magnitudes, every material index",
+                        full ? "float32: bitwise equal" : "half a step of each field's bits");
     p.shader = "gbuffer.comp";
     p.unit = full ? "ULP" : "steps";
     p.ins = 23;

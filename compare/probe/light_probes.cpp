@@ -42,10 +42,10 @@ float randomRange(Random& random, double distance) {
 }
 
 Probe pointProbe() {
-    Probe p =
-        lightsProbe("a point's irradiance, direction", 0,
-                    "distances 1e-9 to 1e17 m; no range, one of 1 to 1000 distances, or within 10 % of it",
-                    "the operations of fromPointLight()");
+    Probe p = lightsProbe(
+        "a point's irradiance, direction", 0,
+        "distances 1e-9 to 1e17 m; no range, a range of 1 to 1000 distances, or within 10 % of the distance",
+        "rounding in fromPointLight()");
     p.ins = 4;
     p.outs = 4;
     p.rows = 1u << 17;
@@ -74,9 +74,10 @@ Probe pointProbe() {
 }
 
 Probe fallOffProbe() {
-    Probe p = lightsProbe("irradiance falls with distance", 0,
-                          "1 mm to 1 km along an axis; no range, or one of 1 to 1000 distances; lines of 256",
-                          "the operations of fromPointLight()");
+    Probe p = lightsProbe(
+        "irradiance falls with distance", 0,
+        "1 mm to 1 km along an axis; no range, or a range of 1 to 1000 distances; sequences of 256",
+        "rounding in fromPointLight()");
     p.ins = 4;
     p.line = 256;
     p.monotone = -1;
@@ -97,11 +98,10 @@ Probe fallOffProbe() {
 }
 
 Probe spotProbe() {
-    Probe p =
-        lightsProbe("a spot's irradiance", 1,
-                    "as of a point, up to 1e9 m; cones of 0.1 to 180 degrees, soft edges of 1e-4 to 1 of the "
-                    "cosines between",
-                    "the operations of fromSpotLight()");
+    Probe p = lightsProbe("a spot's irradiance", 1,
+                          "as for a point light, up to 1e9 m; cones of 0.1 to 180 degrees, soft edges of "
+                          "1e-4 to 1 of the cosine range",
+                          "rounding in fromSpotLight()");
     p.ins = 9;
     p.make = [](Random& random, std::size_t, float* in) {
         const double distance = random.logarithmic(1e-6, 1e9);

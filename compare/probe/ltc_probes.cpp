@@ -35,7 +35,7 @@ N ratioSequence(N cosine, N sine) {
 Probe angleProbe() {
     Probe p =
         ltcProbe("angle of a cosine and sine", 0, "angles 0 to 3.14, half of them near an end, down to 1e-6",
-                 "the polynomial of arcRatio(): 6e-7, and its sums and products");
+                 "6e-7, the error bound of arcRatio()'s polynomial, and its sums and products");
     p.unit = "ULP";
     p.step = {};
     p.ins = p.outs = 2;
@@ -79,7 +79,7 @@ Vec<double> edgeByDefinition(Vec<double> from, Vec<double> to) {
 
 Probe edgeProbe() {
     Probe p = ltcProbe("an edge of an outline", 1, "directions of length 1e-6 to 1e6, from 1e-5 to 3.1 apart",
-                       "the operations of edgeFactor()");
+                       "rounding in edgeFactor()");
     p.ins = 6;
     p.outs = 3;
     p.make = [](Random& random, std::size_t, float* in) {
@@ -151,13 +151,11 @@ Vec<N> parallelogramSequence(const N* in) {
 }
 
 Probe parallelogramProbe(bool plain) {
-    Probe p =
-        ltcProbe(plain ? "parallelogram, cosine" : "parallelogram, transformed", 2,
-                 plain ? "0.1 to 10 m away, sides of 1 cm to 10 m, turned anyhow, half of them across the "
-                         "horizon"
-                       : "the same; M^-1 of roughness 0.2 to 1 and any view",
-                 "the operations of parallelogramFactor(), edge by edge; none so far that it is taken for a "
-                 "point");
+    Probe p = ltcProbe(
+        plain ? "parallelogram, cosine" : "parallelogram, transformed", 2,
+        plain ? "0.1 to 10 m away, sides of 1 cm to 10 m, any rotation, half of them across the horizon"
+              : "as for the cosine; M^-1 for roughness 0.2 to 1 and any view",
+        "rounding in parallelogramFactor(), edge by edge; none so far that it is treated as a point");
     p.ins = 12;
     p.outs = 3;
     p.make = [plain](Random& random, std::size_t, float* in) {

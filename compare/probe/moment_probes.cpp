@@ -43,8 +43,8 @@ N awaySequence(N depth, N nearest) {
 Probe warpProbe() {
     Probe p =
         momentProbe("EVSM, four moments of a depth", 0,
-                    "exponents 1 to 40 and 1 to 10; depths -0.1 to 1.1, both ends of 0 to 1; lines of 256",
-                    "the operations of warpedMoments(): two exp()");
+                    "exponents 1 to 40 and 1 to 10; depths -0.1 to 1.1 including 0 and 1; sequences of 256",
+                    "rounding in warpedMoments(): two exp()");
     p.ins = 7;
     p.outs = 4;
     p.line = 256;
@@ -68,11 +68,10 @@ Probe warpProbe() {
 
 // Cantelli 1928: the share of a distribution that lies so far above its mean is var / (var + far^2) at most.
 Probe chebyshevProbe() {
-    Probe p = momentProbe(
-        "Chebyshev's bound", 1,
-        "behind in 1e-12 to 1e12 times the deviation, before the mean, and on it; variances 1e-20 "
-        "to 1e20",
-        "the operations of chebyshev()");
+    Probe p = momentProbe("Chebyshev's bound", 1,
+                          "receivers behind the mean by 1e-12 to 1e12 standard deviations, in front of it, "
+                          "and on it; variances 1e-20 to 1e20",
+                          "rounding in chebyshev()");
     p.ins = 2;
     p.make = [](Random& random, std::size_t, float* in) {
         in[1] = static_cast<float>(random.logarithmic(1e-20, 1e20));
@@ -90,8 +89,9 @@ Probe chebyshevProbe() {
 }
 
 Probe quantisedProbe() {
-    Probe p = momentProbe("MSM, d to d^4 and back", 2, "depths 0 to 1, both ends; lines of 256",
-                          "the operations of both matrices, whose terms are up to 82, and their ten digits");
+    Probe p =
+        momentProbe("MSM, d to d^4 and back", 2, "depths 0 to 1 including both ends; sequences of 256",
+                    "rounding in both matrices, whose terms are up to 82, and their ten decimal digits");
     p.outs = 4;
     p.line = 256;
     p.unit = "ULP of 1";
@@ -135,10 +135,10 @@ Filter makeFilter(Random& random) {
 }
 
 Probe visibilityProbe(bool four) {
-    Probe p =
-        momentProbe(four ? "EVSM, four moments: visibility" : "EVSM, two moments: visibility", 3,
-                    "filters of two depths, 1e-6 to 1 apart, any shares; receivers anywhere and near them",
-                    "the operations of momentVisibility(): a variance is what cancelling leaves of it");
+    Probe p = momentProbe(
+        four ? "EVSM, four moments: visibility" : "EVSM, two moments: visibility", 3,
+        "filters over two depths, 1e-6 to 1 apart, with any weights; receivers anywhere and near them",
+        "rounding in momentVisibility(); the variance suffers from cancellation");
     p.ins = 11;
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
@@ -213,9 +213,9 @@ double leastBefore(const std::array<double, 4>& b, double depth) {
 Probe hamburgerProbe() {
     Probe p = momentProbe(
         "MSM, least shadow of four moments", 4,
-        "filters of three depths, at least 0.3 apart, shares of at least 0.2, whose moments tell them "
-        "well; receivers at least 0.05 from them; biases 3e-5 to 1e-2",
-        "the operations of threePlaces(), by intervals");
+        "filters over three depths, at least 0.3 apart, with weights of at least 0.2, so that the moments "
+        "are well conditioned; receivers at least 0.05 from them; biases 3e-5 to 1e-2",
+        "rounding in threePlaces(), by interval arithmetic");
     p.ins = 6;
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
@@ -258,11 +258,10 @@ Probe hamburgerProbe() {
 
 // Whatever is stored and filtered, also what no distribution has: a share.
 Probe anyMomentsProbe(const char* name, std::uint32_t shadows) {
-    Probe p =
-        momentProbe(name, 3,
-                    "moments of no distribution: 0, 1, any number of 0 to 1 and of all magnitudes, four at a "
-                    "time; receivers 0 to 1 and both ends",
-                    "a share: 0 to 1, never no number");
+    Probe p = momentProbe(name, 3,
+                          "moments of no distribution: 0, 1, numbers from 0 to 1 and of all magnitudes, four "
+                          "at a time; receivers 0 to 1 including both ends",
+                          "visibility is from 0 to 1, never NaN");
     p.ins = 11;
     p.rows = 1u << 15;
     p.features = {{gpu::FEATURE_shadows, shadows}};

@@ -49,7 +49,7 @@ void binary(Probe& p, Exact exact, Sequence sequence) {
     follow(p, [sequence](const auto* in, auto* out) { out[0] = sequence(in[0], in[1]); });
 }
 
-const char* const magnitudes = "|a|, |b| in 2^-60 to 2^60, every magnitude alike, half of them cancelling";
+const char* const magnitudes = "|a|, |b| from 2^-60 to 2^60, log-uniform, half of them cancelling";
 const char* const correct = "Vulkan: correctly rounded, up or down";
 
 Probe sumProbe() {
@@ -74,8 +74,9 @@ Probe divisionProbe() {
 }
 
 Probe fmaProbe() {
-    Probe p = operation("fma(a, b, c)", 11, "|a|, |b| in 2^-20 to 2^20; c of their product's size, or any",
-                        "Vulkan: as a * b + c: once or twice correctly rounded");
+    Probe p =
+        operation("fma(a, b, c)", 11, "|a|, |b| from 2^-20 to 2^20; c as large as their product, or any",
+                  "Vulkan: as a * b + c, correctly rounded once or twice");
     p.ins = 3;
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = signedMagnitude(random, 0x1p-20, 0x1p20);
@@ -96,7 +97,7 @@ Probe fmaProbe() {
 }
 
 Probe dotProbe() {
-    Probe p = operation("dot(a, b)", 16, "components in -1 to 1, half of them nearly at right angles",
+    Probe p = operation("dot(a, b)", 16, "components from -1 to 1, half of the vectors nearly perpendicular",
                         "Vulkan: three products and two sums in any order");
     p.ins = 6;
     p.make = [](Random& random, std::size_t, float* in) {
@@ -116,7 +117,7 @@ Probe dotProbe() {
 }
 
 Probe inverseRootProbe() {
-    Probe p = operation("inversesqrt(a)", 1, "a in 2^-100 to 2^100, every magnitude alike", "Vulkan: 2 ULP");
+    Probe p = operation("inversesqrt(a)", 1, "a from 2^-100 to 2^100, log-uniform", "Vulkan: 2 ULP");
     positive(p);
     unary(
         p, [](double a) { return 1 / std::sqrt(a); }, [](auto a) { return inverseRoot(a); });
@@ -124,8 +125,7 @@ Probe inverseRootProbe() {
 }
 
 Probe rootProbe() {
-    Probe p = operation("sqrt(a)", 2, "a in 2^-100 to 2^100, every magnitude alike",
-                        "Vulkan: as 1 / inversesqrt(a)");
+    Probe p = operation("sqrt(a)", 2, "a from 2^-100 to 2^100, log-uniform", "Vulkan: as 1 / inversesqrt(a)");
     positive(p);
     unary(
         p, [](double a) { return std::sqrt(a); }, [](auto a) { return root(a); });
@@ -140,7 +140,7 @@ void exponents(Probe& p, double from, double to) {
 }
 
 Probe exp2Probe() {
-    Probe p = operation("exp2(a)", 3, "a in -126 to 127, half of them small", "Vulkan: 3 + 2 |a| ULP");
+    Probe p = operation("exp2(a)", 3, "a from -126 to 127, half of them small", "Vulkan: 3 + 2 |a| ULP");
     exponents(p, -126, 127);
     unary(
         p, [](double a) { return std::exp2(a); }, [](auto a) { return powerOfTwo(a); });
@@ -148,7 +148,7 @@ Probe exp2Probe() {
 }
 
 Probe expProbe() {
-    Probe p = operation("exp(a)", 4, "a in -87 to 88, half of them small", "Vulkan: 3 + 2 |a| ULP");
+    Probe p = operation("exp(a)", 4, "a from -87 to 88, half of them small", "Vulkan: 3 + 2 |a| ULP");
     exponents(p, -87, 88);
     unary(
         p, [](double a) { return std::exp(a); }, [](auto a) { return exponential(a); });
@@ -163,8 +163,8 @@ void aroundOne(Probe& p) {
 }
 
 Probe log2Probe() {
-    Probe p = operation("log2(a)", 5, "a in 2^-100 to 2^100, half of them in 0.5 to 2",
-                        "Vulkan: 3 ULP; 2^-21 for a in 0.5 to 2");
+    Probe p = operation("log2(a)", 5, "a from 2^-100 to 2^100, half of them from 0.5 to 2",
+                        "Vulkan: 3 ULP; 2^-21 for a from 0.5 to 2");
     aroundOne(p);
     unary(
         p, [](double a) { return std::log2(a); }, [](auto a) { return binaryLogarithm(a); });
@@ -172,8 +172,8 @@ Probe log2Probe() {
 }
 
 Probe logProbe() {
-    Probe p = operation("log(a)", 6, "a in 2^-100 to 2^100, half of them in 0.5 to 2",
-                        "Vulkan: 3 ULP; 2^-21 for a in 0.5 to 2");
+    Probe p = operation("log(a)", 6, "a from 2^-100 to 2^100, half of them from 0.5 to 2",
+                        "Vulkan: 3 ULP; 2^-21 for a from 0.5 to 2");
     aroundOne(p);
     unary(
         p, [](double a) { return std::log(a); }, [](auto a) { return naturalLogarithm(a); });
@@ -189,7 +189,7 @@ void angles(Probe& p) {
 }
 
 Probe sinProbe() {
-    Probe p = operation("sin(a)", 7, "a in -pi to pi", "Vulkan: 2^-11");
+    Probe p = operation("sin(a)", 7, "a from -pi to pi", "Vulkan: 2^-11");
     angles(p);
     unary(
         p, [](double a) { return std::sin(a); }, [](auto a) { return sine(a); });
@@ -197,7 +197,7 @@ Probe sinProbe() {
 }
 
 Probe cosProbe() {
-    Probe p = operation("cos(a)", 8, "a in -pi to pi", "Vulkan: 2^-11");
+    Probe p = operation("cos(a)", 8, "a from -pi to pi", "Vulkan: 2^-11");
     angles(p);
     unary(
         p, [](double a) { return std::cos(a); }, [](auto a) { return cosine(a); });
@@ -205,8 +205,8 @@ Probe cosProbe() {
 }
 
 Probe halfProbe() {
-    Probe p = operation("packHalf2x16 and back", 12, "|a| in 2^-24 to 65504, every magnitude alike",
-                        "Vulkan: to either neighbour; what is below 2^-14 may be 0");
+    Probe p = operation("packHalf2x16 and back", 12, "|a| from 2^-24 to 65504, log-uniform",
+                        "Vulkan: rounded to either neighbour; values below 2^-14 may be 0");
     p.unit = "ULP of half";
     // Of eleven bits, from 2^-14 on.
     const auto step = [](double x) { return std::max(ulpOf(x) * 0x1p13, 0x1p-24); };
@@ -221,7 +221,7 @@ Probe halfProbe() {
 }
 
 Probe floorProbe() {
-    Probe p = operation("floor(a)", 13, "|a| in 2^-20 to 2^30, every magnitude alike", "Vulkan: exact");
+    Probe p = operation("floor(a)", 13, "|a| from 2^-20 to 2^30, log-uniform", "Vulkan: exact");
     p.make = [](Random& random, std::size_t, float* in) { in[0] = signedMagnitude(random, 0x1p-20, 0x1p30); };
     unary(
         p, [](double a) { return std::floor(a); }, [](auto a) { return floorOf(a); });
@@ -229,7 +229,7 @@ Probe floorProbe() {
 }
 
 Probe integerProbe() {
-    Probe p = operation("uint to float", 14, "integers of up to 32 bits, every number of bits alike",
+    Probe p = operation("uint to float", 14, "integers of up to 32 bits, every bit count equally often",
                         "Vulkan: correctly rounded, up or down");
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = std::bit_cast<float>(static_cast<std::uint32_t>(random.logarithmic(1, 4294967295.0)));

@@ -51,11 +51,11 @@ N depthSequence(const N* in) {
 }
 
 const char* const planes =
-    "near planes of 0.1 mm to 1 km, far ones 1.01 to 1e9 times as far, or none; every kind of "
-    "projection; z in 1e-9 to 1 and both ends";
+    "near planes 0.1 mm to 1 km, far planes 1.01 to 1e9 times as far, or none; every type of projection; z "
+    "from 1e-9 to 1 including both ends";
 
 Probe depthProbe() {
-    Probe p = placeProbe("view depth of a depth", 0, planes, "the operations of viewDepth()");
+    Probe p = placeProbe("view depth of a depth", 0, planes, "rounding in viewDepth()");
     p.ins = 5;
     p.line = 256;
     p.monotone = -1;
@@ -73,7 +73,7 @@ Probe depthProbe() {
 
 Probe positionProbe(bool perspective) {
     Probe p = placeProbe(perspective ? "position, perspective" : "position, orthographic", 1, planes,
-                         "the operations of positionFromDepth()");
+                         "rounding in positionFromDepth()");
     p.ins = 25;
     p.outs = 3;
     p.features = {{gpu::FEATURE_orthographic, perspective ? 0 : 1}};
@@ -135,12 +135,11 @@ double floatOfCount(double count) {
 
 // Slices are so many floats each of depth + offset (shared/contract/light_list.h).
 Probe froxelProbe() {
-    Probe p =
-        placeProbe("froxel of a pixel and depth", 2,
-                   "offsets of 1 cm to 100 m, slices of 2^17 to 2^23 floats, 2 to 64 of them; depths from "
-                   "1e-3 m to beyond the last, and on the bounds; lines of 256",
-                   "depth + offset may be rounded up or down; sliceDepths() is wider by 1e-6; integers are "
-                   "exact; slices only grow, on any device");
+    Probe p = placeProbe("froxel of a pixel and depth", 2,
+                         "offsets 1 cm to 100 m, 2 to 64 slices of 2^17 to 2^23 floats; depths from 1e-3 m "
+                         "to beyond the last slice, and on the bounds; sequences of 256",
+                         "depth + offset may be rounded up or down; sliceDepths() is wider by 1e-6; integers "
+                         "are exact; slices increase monotonically on any device");
     p.ins = 9;
     p.outs = 5;
     p.line = 256;

@@ -36,13 +36,13 @@ std::vector<DeviceFact> roundingFacts(Device& device) {
     const bool halves = gives(half_function, {1 + 0x1.8p-11f}, 1 + 0x1p-10f) &&
                         gives(half_function, {2049}, 2048) && gives(half_function, {2051}, 2052);
     const bool small_halves = gives(half_function, {0x1p-20f}, 0x1p-20f);
-    return {{"denormal results are kept", results, false, results ? "" : "they are 0"},
-            {"denormal operands are kept", operands, false, operands ? "" : "they are taken for 0"},
+    return {{"denormal results are kept", results, false, results ? "" : "they are flushed to 0"},
+            {"denormal operands are kept", operands, false, operands ? "" : "they are treated as 0"},
             {"sums are rounded to nearest, even", nearest, false, ""},
-            {"fma() is rounded once", once, false, once ? "" : "a product and a sum, each rounded"},
+            {"fma() is rounded once", once, false, once ? "" : "product and sum are each rounded"},
             {"packHalf2x16() rounds to nearest, even", halves, false,
-             halves ? "" : "no shader here packs halves"},
-            {"denormal halves are kept", small_halves, false, small_halves ? "" : "they are 0"}};
+             halves ? "" : "no effect here: no shader packs halves"},
+            {"denormal halves are kept", small_halves, false, small_halves ? "" : "they are flushed to 0"}};
 }
 
 }  // namespace diptych::probe

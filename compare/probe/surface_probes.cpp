@@ -28,11 +28,10 @@ Probe surfaceProbe(const char* group, const char* name, const char* shader, std:
 // as a lobe gets at most.
 Probe roughnessProbe() {
     constexpr float variance = 0.15915494f, limit = 0.18f;
-    Probe p = surfaceProbe(
-        "surfaces", "roughness, specular anti-aliasing", "surface.comp", 0,
-        "roughness 0 to 1, both ends; normals that change by 1e-6 to 10 a pixel, of which a share "
-        "is rounding; lines of 64, changing more and more",
-        "the operations of filteredRoughness(): two roots");
+    Probe p = surfaceProbe("surfaces", "roughness, specular anti-aliasing", "surface.comp", 0,
+                           "roughness 0 to 1 including both ends; normals that change by 1e-6 to 10 per "
+                           "pixel, partly by rounding; sequences of 64 with growing change",
+                           "rounding in filteredRoughness(), including two square roots");
     p.ins = 8;
     p.line = 64;
     p.monotone = 1;
@@ -70,8 +69,8 @@ Probe betweenProbe(bool energy) {
     Probe p = surfaceProbe(
         "surfaces", energy ? "between microfacets, energy" : "between microfacets, Fdez-Aguera",
         "surface.comp", 1,
-        "F0 and F90 0 to 1, both ends; lobes that send 0.3 to 1 of white light, in any two parts",
-        "the operations of specularFactors()");
+        "F0 and F90 0 to 1 including both ends; lobes that reflect 0.3 to 1 of white light, split in any way",
+        "rounding in specularFactors()");
     p.ins = 4;
     p.outs = 3;
     p.features = {{gpu::FEATURE_multiscatter, energy ? gpu::MULTISCATTER_ENERGY : gpu::MULTISCATTER_FDEZ}};
@@ -141,8 +140,9 @@ double meanWeight(double mu) {
 }
 
 Probe meanWeightProbe() {
-    Probe p = surfaceProbe("surfaces", "mean of Schlick's weight", "surface.comp", 2, "n.v 0 to 1, both ends",
-                           "its polynomial is within 5e-6 of the integral, the quadrature within 4e-7");
+    Probe p = surfaceProbe("surfaces", "mean of Schlick's weight", "surface.comp", 2,
+                           "n.v 0 to 1 including both ends",
+                           "the polynomial is within 5e-6 of the integral, the quadrature within 4e-7");
     p.rows = 1u << 12;
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
@@ -155,7 +155,7 @@ Probe meanWeightProbe() {
 Probe unitProbe() {
     Probe p =
         surfaceProbe("surfaces", "unit vector of any length", "surface.comp", 3,
-                     "1e-30 to 1e30 long, directions anywhere; nothing", "the operations of unitVector()");
+                     "lengths 1e-30 to 1e30, any direction; the zero vector", "rounding in unitVector()");
     p.ins = p.outs = 3;
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
@@ -197,8 +197,8 @@ void countTerms(Probe& p, std::size_t coefficients) {
 
 Probe environmentHarmonicsProbe() {
     Probe p = surfaceProbe("surfaces", "harmonics of an environment", "harmonics.comp", 0,
-                           "coefficients of both signs, 1e-3 to 1e3; normals anywhere",
-                           "the operations of environmentIrradiance()");
+                           "coefficients of both signs, 1e-3 to 1e3; any normal",
+                           "rounding in environmentIrradiance()");
     constexpr std::size_t texels = 32;
     p.ins = texels + 3;
     p.outs = 3;
@@ -238,8 +238,8 @@ Probe environmentHarmonicsProbe() {
 
 Probe objectHarmonicsProbe() {
     Probe p = surfaceProbe("surfaces", "harmonics of a draw's lights", "harmonics.comp", 1,
-                           "coefficients of both signs, 1e-3 to 1e3; normals anywhere",
-                           "the operations of harmonicIrradiance()");
+                           "coefficients of both signs, 1e-3 to 1e3; any normal",
+                           "rounding in harmonicIrradiance()");
     constexpr std::size_t coefficients = 27;
     p.ins = coefficients + 3;
     p.outs = 3;
@@ -273,7 +273,7 @@ Probe objectHarmonicsProbe() {
 Probe maskingProbe() {
     Probe p =
         surfaceProbe("surfaces", "Smith's Lambda", "harmonics.comp", 2,
-                     "alpha 0.002 to 1, cosines 1e-6 to 1 and both ends", "the operations of smithLambda()");
+                     "alpha 0.002 to 1, cosines 1e-6 to 1, including both ends", "rounding in smithLambda()");
     p.ins = 2;
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = static_cast<float>(std::pow(random.logarithmic(0.002, 1), 2));
@@ -295,8 +295,8 @@ Probe maskingProbe() {
 
 Probe levelProbe() {
     Probe p = surfaceProbe("surfaces", "level of a GGX width", "harmonics.comp", 3,
-                           "alpha from the least that is shaded to 1; lines of 256",
-                           "the operations of specularLevel(): three log2()");
+                           "alpha from the smallest shaded value to 1; sequences of 256",
+                           "rounding in specularLevel(), including three log2()");
     p.line = 256;
     p.monotone = 1;
     p.unit = "ULP of 1";
@@ -326,8 +326,8 @@ Probe levelProbe() {
 // Khronos PBR Neutral (Khronos Group 2024): host code, in float32.
 Probe toneProbe() {
     Probe p = surfaceProbe("pictures", "tone curve, on the host", "", 0,
-                           "radiance 1e-6 to 1e6, grey and coloured; lines of 256, brighter and brighter",
-                           "the operations of pbrNeutral(), in float32 of this machine");
+                           "radiance 1e-6 to 1e6, grey and coloured; sequences of 256 of growing brightness",
+                           "rounding in pbrNeutral(), in this machine's float32");
     p.ins = p.outs = 3;
     p.line = 256;
     p.monotone = 1;

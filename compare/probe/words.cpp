@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/probe/run.h"
 
+#include "shared/text/counted.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +24,7 @@ std::string rowText(std::span<const float> row) {
 }
 
 std::string worstText(const Worst& w, std::span<const float> input) {
-    return fmt::format("{} instead of {} ({} allowed), of {}", w.got, w.expected, number(w.allowed),
+    return fmt::format("{} instead of {} ({} allowed) for input {}", w.got, w.expected, number(w.allowed),
                        rowText(input));
 }
 
@@ -53,9 +55,9 @@ std::string tableOf(std::span<const Result> results, bool verbose) {
         failed += !r.passed;
         if (r.probe->group != group) text += fmt::format("     {}\n", group = r.probe->group);
         std::string notes;
-        if (t.backward > 0) notes += fmt::format("; {} steps back", t.backward);
-        if (t.unpromised > 0) notes += fmt::format("; {} unpromised", t.unpromised);
-        if (t.nonfinite > 0) notes += fmt::format("; {} no numbers", t.nonfinite);
+        if (t.backward > 0) notes += fmt::format("; {} not monotonic", t.backward);
+        if (t.unpromised > 0) notes += fmt::format("; {} without a bound", t.unpromised);
+        if (t.nonfinite > 0) notes += fmt::format("; {} NaN or infinite", t.nonfinite);
         text += fmt::format("       {:<32} {:>8} {:>8} {:>8} {:>8} {:<10} {:>8}  {}{}\n", r.probe->name,
                             t.results, number(r.median), number(r.p999), number(t.worst.error), r.probe->unit,
                             number(t.tightest.error), r.passed ? "pass" : "FAIL", notes);
@@ -67,8 +69,8 @@ std::string tableOf(std::span<const Result> results, bool verbose) {
         }
     }
     const std::string verdict = failed ? fmt::format("FAIL: {} of {} probes", failed, results.size())
-                                       : fmt::format("pass: all {} probes", results.size());
-    return text + fmt::format("     {}, {} results\n", verdict, all);
+                                       : fmt::format("pass: {0} of {0} probes", results.size());
+    return text + fmt::format("     {}, {}\n", verdict, counted(all, "result"));
 }
 
 nlohmann::ordered_json jsonOf(std::span<const Result> results) {

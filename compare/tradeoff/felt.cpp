@@ -59,12 +59,12 @@ public:
     Unfelt(Settings row, std::span<const Light> lights, const Reflectors& surfaces) : row_(std::move(row)) {
         const auto any = [&](const auto& of) { return std::ranges::any_of(lights, of); };
         if (!any(hasPlace)) {
-            constexpr std::string_view why = "no light has a place: each reaches every pixel";
+            constexpr std::string_view why = "no light has a position: every light reaches every pixel";
             if (row_.assign != Assignment::per_object) reset("assign", why);
             reset("light-kernel", why);
             reset("light-cutoff", why);
         } else if (!any([](const Light& light) { return hasPlace(light) && std::isinf(light.range); })) {
-            reset("light-cutoff", "every light has a range of its own");
+            reset("light-cutoff", "every light has its own range");
         }
         if (lights.empty()) reset("pixel-lights", "there is no light");
         if (!any([](const Light& light) { return isArea(light.kind); }))
@@ -73,16 +73,17 @@ public:
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
         if (std::ranges::all_of(lights, [](const Light& light) { return isArea(light.kind); }))
-            reset("shading-precision", "no point, spot or sun lights anything");
+            reset("shading-precision", "there is no point, spot or directional light");
         noteShadows(lights);
         noteEnvironment(surfaces);
         if (row_.multiscatter == Multiscatter::off && row_.ambient == Settings().ambient &&
             (!surfaces.environment || row_.ibl_intensity == 0 || row_.ibl == Ibl::sampled))
-            reset("specular-albedo", "nothing asks what is reflected of light from everywhere");
-        if (!surfaces.deformed) reset("skinning", "no joint and no morph target moves a vertex");
+            reset("specular-albedo",
+                  "no ambient, split-sum or multiply scattered light uses the directional albedo");
+        if (!surfaces.deformed) reset("skinning", "no vertex is skinned or morphed");
         if (!surfaces.blended)
             for (const std::string_view option : {"transparency", "transparency-layers"})
-                reset(option, "no material has alphaMode BLEND or lets light through");
+                reset(option, "no material has alphaMode BLEND or transmits light");
         noteHaze();
     }
     const Settings& row() const { return row_; }
@@ -90,7 +91,8 @@ public:
 
 private:
     void noteEnvironment(const Reflectors& surfaces) {
-        constexpr std::string_view none = "nothing of the environment is drawn", dull = "nothing is specular";
+        constexpr std::string_view none = "the environment contributes no light",
+                                   dull = "no surface is specular";
         if (row_.ibl_intensity == 0)
             for (const std::string_view option : {"ibl", "ibl-diffuse", "ibl-samples", "ibl-bias"})
                 reset(option, none);
@@ -100,10 +102,11 @@ private:
                 reset(option, dull);
         // Between facets irradiance is reflected too.
         if (!surfaces.base && row_.multiscatter != Multiscatter::fdez)
-            reset("ibl-diffuse", "every surface is a metal: none reflects irradiance");
+            reset("ibl-diffuse", "every surface is a metal, without diffuse reflection");
         if (!surfaces.windowed && row_.ibl_diffuse == IblDiffuse::sh_windowed) {
             row_.ibl_diffuse = IblDiffuse::sh;
-            reasons_.emplace("ibl-diffuse", "no harmonic irradiance is negative: there is no window");
+            reasons_.emplace("ibl-diffuse",
+                             "no spherical-harmonics irradiance is negative: sh-windowed equals sh");
         }
     }
     void noteHaze() {
@@ -114,14 +117,15 @@ private:
     void noteShadows(std::span<const Light> lights) {
         const std::optional<std::size_t> sun = brightestSun(lights);
         if (castingLights(lights, row_.shadow_lights).empty()) {
-            constexpr std::string_view why = "nothing casts: no sun, and no point or spot that is asked for";
+            constexpr std::string_view why =
+                "no light casts shadows: no sun, and no point or spot light selected by --shadow-lights";
             for (const Field& field : settingFields())
                 if (field.option.starts_with("shadow") || field.option.starts_with("clipmap") ||
                     field.option.starts_with("evsm"))
                     reset(field.option, why);
         } else if (row_.shadows == Shadows::pcss && !(sun && lights[*sun].angle > 0)) {
             row_.shadows = Shadows::pcf;
-            reasons_.emplace("shadows", "the sun has no angle: its soft shadow is that of pcf");
+            reasons_.emplace("shadows", "the sun has no angular size: pcss equals pcf");
         }
     }
     void reset(std::string_view option, std::string_view why) {

@@ -32,8 +32,8 @@ std::string optionOf(const std::string& key) {
         if (!field.sweep.empty()) all += (all.empty() ? "" : ", ") + std::string(field.option);
     }
     if (content)
-        throw std::runtime_error(fmt::format(
-            "\"{}\": is no choice between speed and accuracy; --{} says it for every row", key, key_));
+        throw std::runtime_error(
+            fmt::format("\"{}\": does not trade time for accuracy; --{} sets it for every row", key, key_));
     if (option.empty())
         throw std::runtime_error(fmt::format("\"{}\": no such setting; there are {}", oneLine(key), all));
     return option;
@@ -52,17 +52,17 @@ std::string valueFrom(const std::string& key, const std::string& option, const J
 
 Grid gridOf(const Json& json, const Settings& given) {
     if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object())
-        throw std::runtime_error(quotedLine(json) + " is no object with \"settings\", an object");
+        throw std::runtime_error(quotedLine(json) + " is not an object that holds a \"settings\" object");
     for (const auto& [key, value] : json.items())
         if (key != "settings")
-            throw std::runtime_error(fmt::format("\"{}\": unknown beside \"settings\"", oneLine(key)));
+            throw std::runtime_error(fmt::format("\"{}\": unknown key beside \"settings\"", oneLine(key)));
     Grid grid;
     for (const auto& [key, json_values] : json["settings"].items()) {
         const std::string option = optionOf(key);
         const Json list = json_values.is_array() ? json_values : Json::array({json_values});
-        if (list.empty()) throw std::runtime_error(fmt::format("\"{}\": no value", key));
+        if (list.empty()) throw std::runtime_error(fmt::format("\"{}\": has no value", key));
         if (std::ranges::any_of(grid, [&](const auto& axis) { return axis.first == option; }))
-            throw std::runtime_error(fmt::format("\"{}\": stands twice", key));
+            throw std::runtime_error(fmt::format("\"{}\": appears twice", key));
         std::vector<std::string> words;
         for (const Json& value : list)
             if (std::string word = valueFrom(key, option, value, given); std::ranges::count(words, word) == 0)
@@ -82,7 +82,7 @@ std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given
         std::vector<Grid> grids;
         if (!json.is_array()) return {gridOf(json, given)};
         for (const Json& one : json) grids.push_back(gridOf(one, given));
-        if (grids.empty()) throw std::runtime_error("asks for nothing");
+        if (grids.empty()) throw std::runtime_error("is an empty list; give objects with \"settings\"");
         return grids;
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(name + ": " + oneLine(error.what(), 350));

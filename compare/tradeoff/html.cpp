@@ -7,6 +7,7 @@
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/shadow_rows.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,11 +44,12 @@ std::string header(const Tradeoff& tradeoff) {
     std::vector<std::string> cameras;
     for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
     return fmt::format(
-        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} Settings "
-        "at {}x{} on {} ({}), {} timed frame{} each; {}; errors of lit against the reference</p></header>\n",
-        page::isolated(tradeoff.scene), tradeoff.rows.size(), size.width, size.height,
-        markup(tradeoff.device.name), markup(tradeoff.device.driver), tradeoff.runs,
-        tradeoff.runs == 1 ? "" : "s", page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
+        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} at {}x{} "
+        "on {} ({}), {} each; {}; errors of lit against the reference</p></header>\n",
+        page::isolated(tradeoff.scene), counted(tradeoff.rows.size(), "row"), size.width, size.height,
+        markup(tradeoff.device.name), markup(tradeoff.device.driver),
+        counted(static_cast<std::uint64_t>(tradeoff.runs), "timed frame"),
+        page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
 }
 
 std::string switches() {
@@ -59,8 +61,8 @@ std::string switches() {
             errorFigures[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorFigures[i].means),
             markup(errorFigures[i].title));
     return out +
-           "</span><span class=\"soft\">A filled mark with its row's number is on the front: no other row is "
-           "both faster and closer to the reference. A bar spans the timed frames and the "
+           "</span><span class=\"soft\">A filled mark with its row's number is on the Pareto front: no other "
+           "row is both faster and closer to the reference. A bar spans all timed frames and "
            "cameras.</span></div>\n";
 }
 
@@ -102,9 +104,9 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     for (const std::string& warning : row.warnings)
         out += fmt::format("<p class=\"warn\">{}</p>", markup(warning));
     const std::string comparing = comparingCommand(tradeoff, row);
-    return out + again("Measure it again", measuringCommand(tradeoff, row)) +
-           (row.renderer.empty() ? again("Its picture", renderingCommand(tradeoff, row)) : "") +
-           (comparing.empty() ? "" : again("Its errors, beside the other path's", comparing)) +
+    return out + again("Measure this row again", measuringCommand(tradeoff, row)) +
+           (row.renderer.empty() ? again("Draw its picture", renderingCommand(tradeoff, row)) : "") +
+           (comparing.empty() ? "" : again("Compare its errors with the other path's", comparing)) +
            "</article>\n";
 }
 
@@ -125,7 +127,7 @@ std::string table(const Tradeoff& tradeoff) {
         "<h2>Every row</h2>\n<div class=\"box scroll rows\" id=\"rows\"><table "
         "class=\"stack\"><thead><tr><th><button type=\"button\">row</button></th><th><button "
         "type=\"button\">settings</button></th>";
-    std::vector<std::string> heads{"ms", "least", "most"};
+    std::vector<std::string> heads{"ms", "min", "max"};
     for (const ErrorFigure& figure : errorFigures) heads.emplace_back(figure.title);
     heads.emplace_back("memory");
     for (const std::string& head : heads)
@@ -166,22 +168,23 @@ std::string skips(const Tradeoff& tradeoff) {
 
 std::string how(const Tradeoff& tradeoff) {
     const char* const visits =
-        tradeoff.runs > 1 ? "A row is visited several times: when it is drawn, and once all are, in rounds "
-                            "of all rows, each in a random order, six rows in turn: what disturbs the device "
-                            "for a while falls on all alike. Its time is the mean of its visits' medians"
-                          : "Of each row one frame is timed";
+        tradeoff.runs > 1
+            ? "Each row is timed in several blocks: one when it is drawn, more in later rounds over all rows "
+              "in random order, six rows interleaved. A temporary disturbance of the device thus affects all "
+              "rows alike. A row's time is the mean of its blocks' medians"
+            : "Each row has one timed frame";
     std::string out =
-        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "
-        "unsplit, from culling to linear lit, the scene already uploaded, after one frame that is not "
-        "counted. ";
+        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, not "
+        "split into passes, from culling to linear lit, with the scene already uploaded. One uncounted frame "
+        "comes first. ";
     out += visits;
     out +=
-        "; of several cameras the mean of theirs. Passes come from a separate, profiled run.</li><li>Errors "
-        "are of lit, linear, over the pixels that show a surface in the reference: the mean of HDR-FLIP; "
-        "root of the mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean luminance). Of "
-        "several cameras all pixels count alike.</li><li>A row of another size is enlarged to the "
-        "reference's between pixel centres, bilinearly; where the nearest pixel is background, it is "
-        "background.</li>";
+        "; with several cameras, the mean over them. Pass times come from a separate, profiled "
+        "run.</li><li>Errors are those of linear lit over the pixels that show a surface in the reference: "
+        "the mean HDR-FLIP, and the root mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the "
+        "mean luminance). Pixels of all cameras count equally.</li><li>A row of another size is resized "
+        "bilinearly to the reference's size. A resized pixel is background if its nearest source pixel "
+        "is.</li>";
     for (const std::string& line : howItWent(tradeoff)) out += "<li>" + markup(line) + "</li>";
     for (const std::string& line : tradeoff.notes) out += "<li>" + markup(line) + "</li>";
     out += "</ul></div>\n<footer><p>";

@@ -7,6 +7,7 @@
 #include "compare/tradeoff/upsample.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
@@ -61,14 +62,16 @@ Image8 small(Image8 image) {
 }
 
 void warn(TradeoffRow& row, const Frame& frame) {
-    const auto add = [&](std::uint64_t count, const char* what) {
-        if (count > 0) row.warnings.push_back(fmt::format("{}: {} {}", cameraTitle(frame), count, what));
+    const auto add = [&](std::uint64_t count, const char* noun, const char* what) {
+        if (count > 0)
+            row.warnings.push_back(fmt::format("{}: {} {}", cameraTitle(frame), counted(count, noun), what));
     };
-    add(frame.counters.nonfinite_pixels, "pixel(s) of lit are NaN or infinite");
-    add(frame.counters.overflowed_lists, "light list(s) found no room: every light was evaluated there");
-    add(frame.counters.shadow_pages.fallback, "shadow page(s) found no room: a coarser level serves there");
-    add(frame.counters.unsorted.fragments, "blended fragment(s) found no room: blended as one layer");
-    add(frame.counters.unreproduced_pixels, "pixel(s) of the capture are not the timed pipeline's");
+    add(frame.counters.nonfinite_pixels, "pixel", "of lit with NaN or infinity");
+    add(frame.counters.overflowed_lists, "light list", "overflowed: every light was evaluated there");
+    add(frame.counters.shadow_pages.fallback, "shadow page", "did not fit: a coarser level was used there");
+    add(frame.counters.unsorted.fragments, "blended fragment", "overflowed the list: blended as one layer");
+    add(frame.counters.unreproduced_pixels, "pixel",
+        "of the captured channels did not match the timed pipeline");
 }
 
 }  // namespace
@@ -217,7 +220,8 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const ReferenceFrames& refere
         measured.errors = small(errorPicture(errors.flip, 1));
     }
     row.errors = references.frames.size() == 1 ? row.cameras.front().errors : all_errors.errors();
-    row.warnings.push_back("its time is its whole command's, from start to end: it stands on no front");
+    row.warnings.push_back(
+        "its time is its whole command's, from start to end: it is left out of the fronts");
     return measured;
 }
 
@@ -251,8 +255,9 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
                          shadowErrorsOf(reference, frame),
                          choiceOfSamples(renderer, frame, with_samples)};
         if (camera.samples && camera.samples->back() > 0)
-            row.warnings.push_back(cameraTitle(frame) +
-                                   ": pixels differ from --msaa-edges exact where as much is shaded");
+            row.warnings.push_back(
+                cameraTitle(frame) +
+                ": pixels differ from --msaa-edges exact although as many samples are shaded");
         frame = upsampled(std::move(frame), reference.settings.size);
         const FrameErrors errors = (*references.errors[i])(frame.channels.at(LIT));
         camera.errors = errors.errors;

@@ -22,7 +22,7 @@ struct ErrorFigure {
 };
 inline constexpr std::array errorFigures{
     ErrorFigure{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
-    ErrorFigure{"relative_rmse", "relative RMSE", "root of the mean squared relative error"},
+    ErrorFigure{"relative_rmse", "relative RMSE", "root mean square of the relative error"},
     ErrorFigure{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
 };
 using Errors = std::array<double, errorFigures.size()>;

@@ -40,11 +40,9 @@ std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& fram
 
 FigureTable sampleTable(const Tradeoff& tradeoff) {
     FigureTable table{"Samples that deferred lighting shades",
-                      "With several samples a pixel, --msaa-edges says which of them are shaded each for "
-                      "itself. Exact shades "
-                      "whatever differs in any bit of the G-buffer, and has the picture of all samples; what "
-                      "the others leave "
-                      "out, and where, is held against it.",
+                      "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
+                      "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
+                      "is that of all samples. The other modes are compared with exact.",
                       {},
                       {}};
     for (const SampleFigure& figure : sampleFigures) table.columns.push_back({figure.title, figure.means});

@@ -13,12 +13,12 @@ struct SampleFigure {
 // Shares are of the pixels that show a surface. Exact: the same Settings with --msaa-edges exact.
 inline constexpr std::array sampleFigures{
     SampleFigure{"shaded", "shaded",
-                 "Surfaces that are shaded at such a pixel, at the mean: 1 + 3 f at most, with 4 samples"},
-    SampleFigure{"edges", "edges", "f: share of the pixels where more than one is shaded"},
-    SampleFigure{"differing", "differ", "share of the pixels whose lit is not exact's, by any bit"},
+                 "mean number of shaded sample groups per pixel: at most 1 + 3 f with 4 samples"},
+    SampleFigure{"edges", "edges", "f: fraction of pixels with more than one shaded group"},
+    SampleFigure{"differing", "differ", "fraction of pixels whose lit differs from exact's in any bit"},
     SampleFigure{"elsewhere", "elsewhere",
-                 "share that differs although no fewer Surfaces are shaded there than by exact: 0, unless "
-                 "something is wrong"},
+                 "fraction of pixels that differ although no fewer groups are shaded than with exact: 0 "
+                 "unless something is wrong"},
 };
 using SampleShares = std::array<double, sampleFigures.size()>;
 

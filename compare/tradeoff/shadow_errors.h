@@ -18,16 +18,15 @@ struct ShadowFigure {
 // V: how much of the sun a pixel sees in the path; R: in the reference, 0 or 1; E: the irradiance that the
 // sun would give unshadowed.
 inline constexpr std::array shadowFigures{
-    ShadowFigure{"error", "error", "sum of |V - R| E over the sum of R E: by what the paths are ranked"},
-    ShadowFigure{"false_lit", "false lit",
-                 "share of the pixels away from edges that see more of the sun than is right"},
-    ShadowFigure{"false_dark", "false dark", "share of the pixels away from edges that see less"},
+    ShadowFigure{"error", "error", "sum of |V - R| E divided by the sum of R E; ranks the paths"},
+    ShadowFigure{"false_lit", "false lit", "fraction of pixels away from edges that see too much of the sun"},
+    ShadowFigure{"false_dark", "false dark",
+                 "fraction of pixels away from edges that see too little of the sun"},
     ShadowFigure{"leak", "leak",
-                 "sum of max(0, V - R) E over the sum of R E: light that should not be, of what should"},
-    ShadowFigure{
-        "gap", "gap",
-        "texels from the traced edge, across the light, within which 99 in 100 of the dark pixels lie that "
-        "are shown more than half lit: where a shadow begins at what casts it, the gap between them"},
+                 "sum of max(0, V - R) E divided by the sum of R E: false light relative to correct light"},
+    ShadowFigure{"gap", "gap",
+                 "99th percentile of the distance from the traced edge, across the light, of dark pixels "
+                 "shown more than half lit, in texels: the peter-panning gap between caster and shadow"},
 };
 using ShadowErrors = std::array<double, shadowFigures.size()>;
 

@@ -31,13 +31,13 @@ std::string beatenIn(const ShadowRow& row) {
 
 FigureTable tableOf(const Tradeoff& tradeoff) {
     FigureTable table{
-        "Shadow of the sun, against traced rays",
-        "V: how much of the sun a pixel sees; R: in the reference; E: what the sun would give unshadowed. "
-        "Near a traced edge, within the filter's reach and a texel, a pixel is neither false lit nor false "
-        "dark. A row is beaten where another has no more error and takes no more time, or memory.",
+        "Sun shadow, compared with traced rays",
+        "V: fraction of the sun a pixel sees; R: the same in the reference; E: irradiance of the unshadowed "
+        "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
+        "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
         {},
         {},
-        "beaten in"};
+        "dominated in"};
     for (const ShadowFigure& figure : shadowFigures) table.columns.push_back({figure.title, figure.means});
     for (const ShadowRow& row : shadowRowsOf(tradeoff))
         table.rows.push_back({row.row,

@@ -62,24 +62,21 @@ public:
         for (const auto& [option, value] : choices) requested.set(option, value);
         const std::vector<Choice> tried = changed(requested);
         if (requested.path == Path::reference)
-            return skip({{"path", "reference"}}, "is what the others are measured against");
+            return skip({{"path", "reference"}}, "is the reference that all rows are compared with");
         for (const auto& [option, value] : tried)
             if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
                 skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
         // Light between microfacets is another model than the others are held against.
         if (given_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
-            return skip(tried,
-                        "is tried where the command line asks for light between microfacets: give "
-                        "--multiscatter energy");
+            return skip(tried, "needs a reference with multiple scattering: add --multiscatter energy");
         // Against the surfaces that one sample a pixel shows, what is filtered is an error and nothing else.
         if (given_.reference_mode == ReferenceMode::surface && filterOf(requested) != filterOf(given_))
             return skip(tried,
-                        "is tried against samples of the scene: give --reference-mode scene and --spp");
+                        "needs a reference that samples the scene: add --reference-mode scene and --spp");
         const Settings row = effectiveSettings(requested);
         if (row.msaa > 1 && row.resolve != given_.resolve)
-            return skip(tried,
-                        fmt::format("is tried where the truth's samples are resolved so: give --resolve {}",
-                                    nameOf(row.resolve)));
+            return skip(tried, fmt::format("needs a reference with the same resolve: add --resolve {}",
+                                           nameOf(row.resolve)));
         if (const std::string why = samplesProblem(referenceSettings(given_), row); !why.empty())
             return skip({{"path", std::string(nameOf(row.path))}, {"msaa", row.valueOf("msaa")}}, why);
         if (const auto problem = row.problem()) return skip(tried, *problem);
@@ -166,14 +163,14 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
         combinations += product;
     }
     if (combinations > static_cast<double>(mostCombinations))
-        throw std::runtime_error(
-            fmt::format("--grid: {:.4g} combinations, and one sweep tries up to {}; divide it into several",
-                        combinations, mostCombinations));
+        throw std::runtime_error(fmt::format(
+            "--grid: {:.4g} combinations, more than the {} of one sweep; split it into several sweeps",
+            combinations, mostCombinations));
     SweepBuilder builder(given);
     for (const Grid& grid : grids) addProduct(grid, builder);
     SweepRows sweep = builder.done();
     if (sweep.rows.empty())
-        throw std::runtime_error(sweep.skips.empty() ? "--grid: asks for nothing"
+        throw std::runtime_error(sweep.skips.empty() ? "--grid: holds no combination of settings"
                                                      : fmt::format("nothing to sweep: {}: {}",
                                                                    inWords(sweep.skips.front().tried),
                                                                    sweep.skips.front().reason));

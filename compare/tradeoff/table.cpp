@@ -29,8 +29,8 @@ struct Number {
 constexpr std::array numbers{
     Number{"row", 4, 0},
     Number{"ms", 8, 0},
-    Number{"least", 8, 4},
-    Number{"most", 8, 5},
+    Number{"min", 8, 4},
+    Number{"max", 8, 5},
     Number{errorFigures[0].title, 8, 0},
     Number{errorFigures[1].title, 13, 1},
     Number{errorFigures[2].title, 12, 3},
@@ -93,14 +93,14 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
         "them and writing files",
         cost.whole / 1e3, cost.reading / 1e3, cost.reference / 1e3, cost.drawing / 1e3, cost.beyond() / 1e3));
     if (tradeoff.kept > 0)
-        lines.push_back(fmt::format("{} of {} rows were measured by a run that was cut short, with its times",
+        lines.push_back(fmt::format("{} of {} rows come from an interrupted run and keep its times",
                                     tradeoff.kept, tradeoff.rows.size()));
     if (const std::optional<Spread> drift = driftOf(tradeoff))
-        lines.push_back(fmt::format(
-            "the frames that were timed once all rows were drawn, in a random order, took {:.3g} times as "
-            "long as the first of each row ({:.3g} to {:.3g} of single rows); between two rows, a smaller "
-            "difference than that may be chance",
-            drift->value, drift->low, drift->high));
+        lines.push_back(
+            fmt::format("Frames timed after all rows were drawn, in random order, took {:.3g} times as long "
+                        "as each row's first frames ({:.3g} to {:.3g} for single rows): a smaller difference "
+                        "between two rows may be chance",
+                        drift->value, drift->low, drift->high));
     return lines;
 }
 
@@ -109,13 +109,17 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
         std::vector<std::size_t> numbers;
         for (const std::size_t row : frontOf(tradeoff, figure)) numbers.push_back(row + 1);
-        out += fmt::format("front of time and {}: row {}\n", errorFigures[figure].title,
-                           numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")));
+        out += fmt::format("Pareto front of time and {}: {}\n", errorFigures[figure].title,
+                           numbers.empty() ? "none"
+                                           : fmt::format("row{} {}", numbers.size() == 1 ? "" : "s",
+                                                         fmt::join(numbers, ", ")));
     }
     out += shadowTable(tradeoff);
     out += inText(tradeoff, sampleTable(tradeoff));
     if (driftOf(tradeoff))
-        out += "note: times above are of a row's first visit; those of the files are of all its frames\n";
+        out +=
+            "note: times above are from each row's first timing block; times in the files are from all its "
+            "frames\n";
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         for (const std::string& warning : tradeoff.rows[i].warnings)
             out += fmt::format("warning: row {}: {}\n", i + 1, warning);

@@ -51,7 +51,7 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
 
 std::string inWords(const TradeoffRow& row, const Settings& given) {
     return row.renderer.empty() ? inWords(choicesOf(row.settings, given))
-                                : fmt::format("{}, another renderer", row.renderer);
+                                : fmt::format("{}, external renderer", row.renderer);
 }
 
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path) {

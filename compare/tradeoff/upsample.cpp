@@ -37,8 +37,8 @@ std::vector<Between> betweenCentres(int from, int to) {
 const Image& channelOf(const Frame& frame, gpu::uint mode) {
     const auto found = frame.channels.find(static_cast<int>(mode));
     if (found == frame.channels.end())
-        throw std::runtime_error(frame.name + ": has no " +
-                                 std::string(debugMode(static_cast<int>(mode)).name) + " to be enlarged");
+        throw std::runtime_error(frame.name + ": has no channel " +
+                                 std::string(debugMode(static_cast<int>(mode)).name) + " to resize");
     return found->second;
 }
 

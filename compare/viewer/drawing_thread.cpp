@@ -306,7 +306,7 @@ struct DrawingThread::State {
 
     void needDevice() {
         if (device) return;
-        at(0, "start the device");
+        at(0, "starting the device");
         device.emplace(options.device);
         const std::lock_guard lock(mutex);
         device_name = device->info().name;
@@ -332,7 +332,7 @@ struct DrawingThread::State {
         dropRenderer();
         device.reset();
         const std::lock_guard lock(mutex);
-        status.error = why + "; the device is started again";
+        status.error = why + "; restarting the device";
         return true;
     }
 

@@ -186,7 +186,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
              static_cast<float>(place.rect.y + place.rect.height)});
         if (place.panel == 2) {
             const std::string kind = fmt::format(
-                "{} difference of {}: {} (right) from {} (left)", viewer::nameOf(state.look.difference),
+                "{} difference of {}: {} (right) and {} (left)", viewer::nameOf(state.look.difference),
                 debugMode(shown.order.look.channel()).name, shown.panels[1].name, shown.panels[0].name);
             drawOutlined(x, y, white, kind);
             if (shown.difference && !shown.difference->missing.empty())
@@ -270,7 +270,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
         legend(
             canvas, scale, [](double t) { return heatColor(t); },
             {"0", fmt::format("{:g}", 0.5 * shown.heat_top), fmt::format("{:g}", shown.heat_top)},
-            "lights a pixel");
+            "lights per pixel");
     } else if (shown.order.look.channel() != static_cast<int>(gpu::DEBUG_lit)) {
         drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
                      static_cast<float>(canvas.y + canvas.height) - 24 * scale, white, shown.scale);
@@ -400,10 +400,11 @@ void help(InterfaceState& state, int width, int height, float scale) {
             for (const auto& [name, does] :
                  {std::pair{"left drag",
                             "looks around; in zoom moves the picture; on the wipe's line moves the line"},
-                  std::pair{"right click", "looks into a pixel: both surfaces, its lights, the tolerance"},
-                  std::pair{"wheel", "how fast the camera moves; in zoom how large pixels are"},
-                  std::pair{"drop a file",
-                            "a scene, an environment (.hdr, .exr) or a stored picture (.exr of ours)"}}) {
+                  std::pair{"right click", "inspects a pixel: both surfaces, its lights, the tolerance"},
+                  std::pair{"wheel", "changes the camera's speed; in zoom, the size of pixels"},
+                  std::pair{
+                      "drop a file",
+                      "opens a scene, an environment (.hdr, .exr) or a stored picture (.exr by Diptych)"}}) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
                 ImGui::TextColored({1, 0.9f, 0.4f, 1}, "%s", name);

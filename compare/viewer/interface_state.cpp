@@ -108,7 +108,7 @@ std::string compareCommand(const InterfaceState& state) {
 
 void setOption(InterfaceState& state, const std::string& option, const std::string& word) {
     if (state.subject.sides.names(option)) {
-        state.problem = fmt::format("--deferred and --forward-plus say what {} is", option);
+        state.problem = fmt::format("--deferred or --forward-plus sets {} for each path", option);
         return;
     }
     try {
@@ -119,7 +119,7 @@ void setOption(InterfaceState& state, const std::string& option, const std::stri
         return;
     }
     if (std::ranges::count(drawn_paths, state.edited.path) == 0) {
-        state.problem = "the right panel is a path's; T puts the reference into the left one";
+        state.problem = "the right panel always shows a path; press T to show the reference on the left";
         state.edited.path = state.subject.settings.path;
         return;
     }

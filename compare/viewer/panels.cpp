@@ -119,7 +119,7 @@ void comparisonTable(InterfaceState& state, const Report& report, const Comparis
     for (const std::string& failure : comparison.failures) wrapped(failure, &bad);
     const std::string id = fmt::format("channels{}", index);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {3, 2});  // so that all five columns fit
-    if (!beginTable(id.c_str(), {"channel", "judged by", "measured", "limit", "verdict"}, 1))
+    if (!beginTable(id.c_str(), {"channel", "metric", "measured", "limit", "verdict"}, 1))
         return ImGui::PopStyleVar();
     for (const ChannelDiff* channel : failuresFirst(comparison))
         channelRow(state, report, comparison, *channel);
@@ -137,8 +137,8 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
                 &faint);
     else
         wrapped(
-            "A click shows a channel's difference at its worst pixel; pointing at it shows the tolerance's "
-            "reason.",
+            "Click a channel to show its difference at its worst pixel; hover over it for its tolerance and "
+            "the reason.",
             &faint);
     std::size_t index = 0;
     for (const Comparison& comparison : contents.judged->report.comparisons)
@@ -198,12 +198,12 @@ void settingRow(InterfaceState& state, const Field& field) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(32 * ImGui::GetFontSize());
         ImGui::TextUnformatted(std::string(field.help).c_str());
-        ImGui::TextColored(faint, "--%s %s; usually %s", option.c_str(), accepted.c_str(),
+        ImGui::TextColored(faint, "--%s %s; default: %s", option.c_str(), accepted.c_str(),
                            Settings().valueOf(option).empty() ? "empty" : Settings().valueOf(option).c_str());
         if (!unread.empty()) ImGui::TextColored(faint, "%s", unread.c_str());
         if (state.subject.sides.names(option))
             for (const Path path : drawn_paths)
-                ImGui::TextColored(faint, "%s has %s", std::string(nameOf(path)).c_str(),
+                ImGui::TextColored(faint, "%s uses %s", std::string(nameOf(path)).c_str(),
                                    state.subject.sides.of(state.edited, path).valueOf(option).c_str());
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
@@ -222,7 +222,7 @@ void settingRow(InterfaceState& state, const Field& field) {
 void settingsTab(InterfaceState& state) {
     if (!state.problem.empty()) wrapped("not drawn: " + state.problem, &bad);
     ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
-    ImGui::InputTextWithHint("##filter", "part of a name", state.filter.data(), state.filter.size());
+    ImGui::InputTextWithHint("##filter", "filter by name", state.filter.data(), state.filter.size());
     ImGui::SameLine();
     if (ImGui::SmallButton("reset to defaults")) {
         Settings settings;
@@ -275,9 +275,9 @@ void lightRows(InterfaceState& state, const Contents& contents) {
         if (!rig) state.rig = named;
         setOption(state, "lights", rig ? named : "none");
     }
-    ImGui::Checkbox("show where they are and how far they reach (Q)", &state.light_debug);
+    ImGui::Checkbox("show positions and ranges (Q)", &state.light_debug);
     if (!contents.shown) return;
-    if (!beginTable("lights", {"light", "kind", "intensity", "range, m"}, 0, ImGuiTableFlags_ScrollY,
+    if (!beginTable("lights", {"light", "type", "intensity", "range, m"}, 0, ImGuiTableFlags_ScrollY,
                     {0, ImGui::GetFontSize() *
                             std::min(14.0f, 2 * static_cast<float>(contents.shown->lights.size() + 1))}))
         return;
@@ -315,8 +315,8 @@ void planRows(const Contents& contents) {
 void sceneTab(InterfaceState& state, const Contents& contents) {
     wrapped(sceneOf(state));
     if (sceneOf(state) != state.subject.scene)
-        wrapped(contents.status.loading ? "being read: " + state.subject.scene
-                                        : "could not be read: " + state.subject.scene,
+        wrapped(contents.status.loading ? "reading: " + state.subject.scene
+                                        : "cannot read: " + state.subject.scene,
                 contents.status.loading ? &faint : &bad);
     if (ImGui::SmallButton("read again (R)")) state.requests.reload = true;
     ImGui::SameLine();
@@ -358,8 +358,8 @@ void sceneTab(InterfaceState& state, const Contents& contents) {
 void pixelTab(InterfaceState& state, const Contents& contents) {
     if (!state.pixel) {
         wrapped(
-            "A right click on a picture looks into a pixel: both surfaces, each light's term in both paths "
-            "and the reference, the first step that differs, the tolerance and its reason.",
+            "Right-click a picture to inspect a pixel: both surfaces, each light's term in both paths and "
+            "the reference, the first step that differs, and the tolerance with its reason.",
             &faint);
         return;
     }
@@ -406,15 +406,16 @@ void passTable(const PathFacts& facts, const History& history, float scale) {
 }
 
 void costTab(const Contents& contents, float scale) {
-    wrapped(fmt::format("drawn by {}; the window by {}", contents.drawn_by, contents.shown_by), &faint);
+    wrapped(fmt::format("rendering device: {}; window device: {}", contents.drawn_by, contents.shown_by),
+            &faint);
     if (!contents.shown || !contents.history) return;
     for (std::size_t i = 0; i < 2; ++i) {
         const PathFacts& facts = contents.shown->paths.at(i);
         if (facts.name.empty()) continue;
         ImGui::Separator();
-        ImGui::Text("%s: %.2f ms a frame", facts.name.c_str(), facts.ms);
+        ImGui::Text("%s: %.2f ms per frame", facts.name.c_str(), facts.ms);
         constexpr double mib = 1 << 20;
-        ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; %llu bytes per pixel for geometry",
+        ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; geometry buffers %llu bytes per pixel",
                            static_cast<double>(facts.bytes.images) / mib,
                            static_cast<double>(facts.bytes.buffers) / mib,
                            static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
@@ -434,13 +435,13 @@ std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents)
     const ImVec4 usual = ImGui::GetStyleColorVec4(ImGuiCol_Text);
     std::vector<std::pair<std::string, ImVec4>> lines{{counted(facts.counters.lights, "light"), usual}};
     if (facts.mean_lights)
-        lines[0].first += fmt::format(", of which a pixel evaluates {:.1f} on average, {:.0f} at most",
+        lines[0].first += fmt::format("; a pixel evaluates {:.1f} on average, at most {:.0f}",
                                       *facts.mean_lights, *facts.most_lights);
     if (facts.counters.overflowed_lists > 0)
         lines.emplace_back(counted(facts.counters.overflowed_lists, "light list") + " overflowed",
                            ImVec4{1, 0.6f, 0.3f, 1});
     if (facts.counters.nonfinite_pixels > 0)
-        lines.emplace_back(counted(facts.counters.nonfinite_pixels, "pixel") + " were NaN or infinite",
+        lines.emplace_back(counted(facts.counters.nonfinite_pixels, "pixel") + " NaN or infinite",
                            ImVec4{1, 0.4f, 1, 1});
     if (contents.interface_ms > 0)
         lines.emplace_back(
@@ -459,7 +460,7 @@ void times(const Contents& contents) {
     const Shown& shown = *contents.shown;
     ImGui::Separator();
     const bool small = shown.size.width != shown.order.subject.settings.size.width;
-    ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", smaller while it moves" : "");
+    ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", reduced while moving" : "");
     if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingFixedFit)) {
         for (const char* column : {"path", "time", "memory"}) ImGui::TableSetupColumn(column);
         ImGui::TableSetupColumn("last frames", ImGuiTableColumnFlags_WidthStretch);

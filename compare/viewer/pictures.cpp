@@ -123,8 +123,8 @@ DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Ima
                 panel.values = flip->error;
                 panel.words = fmt::format("FLIP, mean {:.4g}", flip->mean);
             } else {
-                panel.missing =
-                    fmt::format("FLIP is of colours, and {} is none: choose another difference", mode.name);
+                panel.missing = fmt::format(
+                    "FLIP needs a colour channel, and {} is not one: choose another difference", mode.name);
             }
             break;
         }
@@ -155,7 +155,7 @@ DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& 
     const Image *const baseline = imageOf(left, look.channel()), *const test = imageOf(right, look.channel());
     DifferencePanel panel;
     if (!baseline || !test) {
-        panel.missing = fmt::format("only one side has {}", mode.name);
+        panel.missing = fmt::format("only one of the two pictures has {}", mode.name);
         return panel;
     }
     if (baseline->width != test->width || baseline->height != test->height ||

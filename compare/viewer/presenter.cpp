@@ -68,7 +68,7 @@ std::span<const char* const> windowExtensions() {
     const char** const names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr)
         throw std::runtime_error(
-            "view: this display has no surfaces for Vulkan; render draws without a window");
+            "view: this display does not support Vulkan surfaces; use diptych render, which needs no window");
     return {names, count};
 }
 
@@ -151,7 +151,7 @@ struct Presenter::State {
             return;
         }
         throw std::runtime_error(
-            "view: no Vulkan device shows anything in a window here; render draws without one");
+            "view: no Vulkan device can present to this window; use diptych render, which needs no window");
     }
 
     void makeDevice() {
@@ -192,7 +192,7 @@ struct Presenter::State {
                     format = candidate;
                     return;
                 }
-        throw std::runtime_error("view: the window has no 8-bit colours (B8G8R8A8 or R8G8B8A8)");
+        throw std::runtime_error("view: the window offers no 8-bit colour format (B8G8R8A8 or R8G8B8A8)");
     }
 
     void makeRenderPass() {
@@ -582,8 +582,8 @@ Presenter::Presenter(GLFWwindow* window, ValidationLog* log) {
         state_ = std::make_unique<State>(window, log);
     } catch (const Lost&) {
         throw std::runtime_error(
-            "view: the device that shows the window was lost as it was started; run it again, or render "
-            "without a window");
+            "view: the device that shows the window was lost as it was started; try again, or use diptych "
+            "render, which needs no window");
     }
 }
 Presenter::~Presenter() = default;

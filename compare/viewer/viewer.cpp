@@ -346,7 +346,7 @@ private:
                 change([&](Settings& s) { s.env = file.string(); });
                 tell("environment: " + file.string());
             } else {
-                tell(fmt::format("{}: is no .gltf, .glb, .exr or .hdr", file.string()));
+                tell(fmt::format("{}: not a .gltf, .glb, .exr or .hdr file", file.string()));
             }
         }
     }
@@ -381,7 +381,7 @@ private:
             case Action::sink:
             case Action::flicker:
                 if (pressed.action != Action::flicker && !camera_.canMove() && contents_.shown)
-                    tell("this camera is orthographic, and --camera describes none that is: N takes another");
+                    tell("this camera is orthographic and cannot move: press N for another camera");
                 break;
             case Action::orbit:
                 state_.orbiting = !state_.orbiting;
@@ -449,7 +449,7 @@ private:
                 break;
             case Action::rig:
                 if (state_.rig.empty() && state_.subject.settings.lights.empty())
-                    tell("there are no lights of --lights: the settings' panel takes some, as point:32");
+                    tell("no lights from --lights: add some in the settings panel, such as point:32");
                 else if (state_.subject.settings.lights.empty())
                     setOption(state_, "lights", state_.rig);
                 else {
@@ -526,7 +526,7 @@ private:
 
     void worstPixel() {
         if (!contents_.judged || contents_.judged->subject != ofBothPaths(state_.subject))
-            return tell("there is no verdict of this view yet");
+            return tell("no verdict for this view yet");
         for (const Comparison& comparison : contents_.judged->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
                 if (channel.mode->number == state_.look.channel() && channel.stats.worst_x >= 0)

@@ -36,7 +36,7 @@ Window::Window(int width, int height, const std::string& title) : title_(title) 
     if (glfwInit() == GLFW_FALSE) failWindow("there is no display to open a window on");
     if (glfwVulkanSupported() == GLFW_FALSE) {
         glfwTerminate();
-        failWindow("this display shows nothing of Vulkan");
+        failWindow("this display does not support Vulkan");
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);

@@ -56,7 +56,7 @@ TEST(ChooseTool, WhereNothingFitsTheNearestIsNamedWithItsGap) {
         runTool(folder, fmt::format("choose builtin:spots --size 64x36 --max-error 1e-9 {}", grid));
     EXPECT_EQ(ran.code, 1) << ran.err;
     EXPECT_NE(ran.out.find("nothing fits; the nearest is"), ran.out.npos) << ran.out;
-    EXPECT_NE(ran.out.find("over the error of 1e-09"), ran.out.npos) << ran.out;
+    EXPECT_NE(ran.out.find("over the error budget of 1e-09"), ran.out.npos) << ran.out;
     const Ran little =
         runTool(folder, fmt::format("choose builtin:spots --size 64x36 --max-bytes 1KiB {} --json", grid));
     EXPECT_EQ(little.code, 1) << little.err;
@@ -134,7 +134,7 @@ TEST(ChooseTool, OneForAllScenesOfAFolderIsWithinTheErrorInEach) {
     const Ran none =
         runTool(folder, fmt::format("choose scenes builtin:spots --size 64x36 --max-error 1e-9 {}", grid));
     EXPECT_EQ(none.code, 1) << none.err;
-    EXPECT_NE(none.out.find("nothing fits all; the nearest is"), none.out.npos) << none.out;
+    EXPECT_NE(none.out.find("nothing fits all scenes; the nearest is"), none.out.npos) << none.out;
 }
 
 TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {

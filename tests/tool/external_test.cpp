@@ -376,7 +376,7 @@ TEST(External, ARendererHasARowOfATradeoff) {
     for (const Json& front : sweep["fronts"])
         EXPECT_EQ(front["rows"], Json({1})) << "a command's time is no frame's";
     EXPECT_TRUE(fs::exists(folder / "diptych-tradeoff/row-003.png"));
-    EXPECT_NE(contentsOf(folder / "diptych-tradeoff/index.html").find("same, another renderer"),
+    EXPECT_NE(contentsOf(folder / "diptych-tradeoff/index.html").find("same, external renderer"),
               std::string::npos);
 }
 

@@ -21,10 +21,10 @@ case "$BROKEN $*" in
         printf '    "type": "discrete"\n  }\n}\n' ;;
     *devices\ --json) echo '{}' ;;
     inexact\ *--probe) echo '     FAIL: 1 of 75 probes: a / b'; exit 1 ;;
-    *--probe) echo '     pass: all 75 probes' ;;
+    *--probe) echo '     pass: 75 of 75 probes' ;;
     *devices) printf '0  Fake GPU 1 (discrete)\n     yes  one thing\n     no   another thing\n' ;;
-    related\ audit*) echo 'FAIL: 25 relations hold, 1 is broken, 0 do not apply'; exit 1 ;;
-    *audit*) echo 'pass: 26 relations hold, 0 are broken, 0 do not apply' ;;
+    related\ audit*) echo 'FAIL: 25 of 26 relations hold, 1 broken, 0 not applicable'; exit 1 ;;
+    *audit*) echo 'pass: 26 of 26 relations hold, 0 broken, 0 not applicable' ;;
     bench\ bench*) echo "diptych: the device was lost" >&2; exit 2 ;;
     message\ compare*) echo "diptych: --validate: 3 messages, the first: a | b" >&2; exit 2 ;;
     differs\ compare*)
@@ -116,7 +116,7 @@ TEST_F(GpuFirstRun, AStepThatFailsIsNamedAndStopsNoOther) {
         const char *broken, *step, *says;
     } controls[] = {
         {"inexact", "arithmetic", "FAIL: 1 of 75 probes: a / b"},
-        {"related", "relations", "FAIL: 25 relations hold, 1 is broken"},
+        {"related", "relations", "FAIL: 25 of 26 relations hold, 1 broken"},
         {"bench", "bench-spheres", "the device was lost"},
         {"differs", "validation", "`builtin:points`: exit code 1: differs: lit\n"},
         {"message", "validation", "`builtin:triangle`: exit code 2: diptych: --validate: 3 messages"},

@@ -74,7 +74,7 @@ TEST(BenchSamples, WhatSamplesAreForIsLeftToThem) {
 }
 
 TEST(BenchSamples, WhatTheTableHasNoRowForIsRefused) {
-    EXPECT_TRUE(refusal({"--assign", "tiled,clustered"}).starts_with("--table msaa: is of one --assign"));
+    EXPECT_TRUE(refusal({"--assign", "tiled,clustered"}).starts_with("--table msaa: takes one --assign"));
     EXPECT_TRUE(refusal({"--transparencies", "sorted"}).starts_with("--transparencies: "));
     EXPECT_TRUE(refusal({"--kernels", "only"}).starts_with("--kernels only: "));
     EXPECT_TRUE(refusal({"--paths", "deferred", "--assign", "per_object"}).starts_with("nothing to time"));
@@ -145,10 +145,11 @@ TEST(BenchSamples, MemoryStandsBesideThePapers) {
     const std::vector<std::string> words = memoryInWords(sampleTables(sampledBench())[0]);
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0],
-              "deferred keeps 32, 32 B per sample of G-buffer and depth with 1, 4 per pixel: 63, 253 MiB at "
-              "1920x1080; Billeter, Olsson and Assarsson's keeps 32 B per sample, 63, 253 MiB");
-    EXPECT_EQ(words[1],
-              "forward_plus keeps 4, 4 B per sample of depth with 1, 4 per pixel: 8, 32 MiB at 1920x1080");
+              "deferred stores 32, 32 B of G-buffer and depth per sample with 1, 4 samples per pixel: 63, "
+              "253 MiB at 1920x1080; Billeter, Olsson and Assarsson store 32 B per sample: 63, 253 MiB");
+    EXPECT_EQ(
+        words[1],
+        "forward_plus stores 4, 4 B of depth per sample with 1, 4 samples per pixel: 8, 32 MiB at 1920x1080");
     Bench eight;
     eight.options.table = BenchTable::msaa;
     eight.rows = {sampledRow(Path::deferred, Transparency::off, 8, 9, 8 * 32)};

@@ -240,7 +240,7 @@ TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
             EXPECT_EQ(byte, std::lround(255 * static_cast<double>(i) / 4)) << i;
     const auto [normals, axes] =
         shown(gpu::DEBUG_normals, {rowFrame(gpu::DEBUG_normals, {0, 0, 1, -1, 0, 0, 0.6f, -0.5f, 0})});
-    EXPECT_EQ(axes, "x y z as red green blue, -1 to 1");
+    EXPECT_EQ(axes, "x, y, z as red, green, blue, -1 to 1");
     EXPECT_EQ(pixelOf(normals, 0), (Rgb{128, 128, 255}));
     EXPECT_EQ(pixelOf(normals, 1), (Rgb{0, 128, 128}));
     EXPECT_EQ(pixelOf(normals, 2), (Rgb{204, 64, 128})) << "255 x 0.8, 255 x 0.25, 127.5";
@@ -260,7 +260,7 @@ constexpr Rgb heatStops[] = {{20, 20, 90},   {20, 130, 190},  {40, 190, 90},
 TEST(HeatPicture, CountsHaveTheLegendsColours) {
     const auto [picture, words] =
         shown(gpu::DEBUG_light_count, {rowFrame(gpu::DEBUG_light_count, {0, 4, 8, 12, 16, 20, 2, 10})});
-    EXPECT_EQ(words, "heat, 0 to 20 lights");
+    EXPECT_EQ(words, "heat map, 0 to 20 lights");
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pixelOf(picture, i), heatStops[i]) << 4 * i << " of 20";
     EXPECT_EQ(pixelOf(picture, 6), (Rgb{20, 75, 140})) << "a tenth: half way from dark blue to cyan";
     EXPECT_EQ(pixelOf(picture, 7), (Rgb{138, 203, 75})) << "half: between green and yellow";

@@ -49,8 +49,8 @@ TEST(TradeoffFelt, ASunAloneFeelsNoListsAndNoAreaLights) {
     EXPECT_EQ(valuesOf(sweep, "shadow-lights").size(), 1u);
     EXPECT_FALSE(valuesOf(sweep, "shadows").contains("pcss"));
     EXPECT_GT(valuesOf(sweep, "shadows").size(), 4u);
-    EXPECT_EQ(reasonOf(sweep, "assign", "tiled"), "no light has a place: each reaches every pixel");
-    EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angle: its soft shadow is that of pcf");
+    EXPECT_EQ(reasonOf(sweep, "assign", "tiled"), "no light has a position: every light reaches every pixel");
+    EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angular size: pcss equals pcf");
 }
 
 TEST(TradeoffFelt, ASunWithADiscFeelsPcss) {
@@ -60,7 +60,7 @@ TEST(TradeoffFelt, ASunWithADiscFeelsPcss) {
 TEST(TradeoffFelt, TheCutoffIsFeltByALightWithoutARange) {
     EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff").size(), 1u);
     EXPECT_EQ(reasonOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff"),
-              "every light has a range of its own");
+              "every light has its own range");
     EXPECT_GT(
         valuesOf(feltBy({lightOf(LightKind::point, 3), lightOf(LightKind::spot)}), "light-cutoff").size(),
         1u);
@@ -77,7 +77,8 @@ TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
     EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
     EXPECT_EQ(valuesOf(none, "shadow-size").size(), 1u);
     EXPECT_EQ(valuesOf(none, "evsm-exponent").size(), 1u);
-    EXPECT_EQ(reasonOf(none, "shadow-size"), "nothing casts: no sun, and no point or spot that is asked for");
+    EXPECT_EQ(reasonOf(none, "shadow-size"),
+              "no light casts shadows: no sun, and no point or spot light selected by --shadow-lights");
     EXPECT_GT(valuesOf(feltBy({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
@@ -118,11 +119,11 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
                     << nameOf(ibl) << " " << samples << " " << bias;
     EXPECT_EQ(reasonOf(all, "textures"), "no material reads a texture");
     EXPECT_EQ(reasonOf(feltUnder(mixed, true), "ibl-diffuse"),
-              "no harmonic irradiance is negative: there is no window");
+              "no spherical-harmonics irradiance is negative: sh-windowed equals sh");
     const SweepRows of_matte = feltUnder(matte, false);
     for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"}) {
         EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;
-        EXPECT_EQ(reasonOf(of_matte, option), "nothing is specular") << option;
+        EXPECT_EQ(reasonOf(of_matte, option), "no surface is specular") << option;
     }
     EXPECT_EQ(valuesOf(of_matte, "ibl-diffuse").size(), 3u);
     // But for rows in which light between facets is irradiance.
@@ -142,7 +143,7 @@ TEST(TradeoffFelt, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     primitive.material = 0;
     const auto felt = [&] { return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), {}, &scene); };
     EXPECT_EQ(valuesOf(felt(), "skinning"), std::set<std::string>{"compute"});
-    EXPECT_EQ(reasonOf(felt(), "skinning", "vertex"), "no joint and no morph target moves a vertex");
+    EXPECT_EQ(reasonOf(felt(), "skinning", "vertex"), "no vertex is skinned or morphed");
     primitive.targets.resize(1);
     EXPECT_EQ(valuesOf(felt(), "skinning"), (std::set<std::string>{"compute", "vertex"}));
     primitive.targets.clear();
@@ -161,7 +162,7 @@ TEST(TradeoffFelt, TransparencyIsVariedWhereSomethingIsBlended) {
     EXPECT_EQ(valuesOf(felt(), "transparency"), std::set<std::string>{"sorted"});
     EXPECT_EQ(valuesOf(felt(), "transparency-layers").size(), 1u);
     EXPECT_EQ(reasonOf(felt(), "transparency", "weighted"),
-              "no material has alphaMode BLEND or lets light through");
+              "no material has alphaMode BLEND or transmits light");
     material.alpha_mode = AlphaMode::blend;
     material.unlit = true;
     EXPECT_GT(valuesOf(felt(), "transparency").size(), 3u);

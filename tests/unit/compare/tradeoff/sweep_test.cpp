@@ -100,7 +100,7 @@ TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
 
 TEST(TradeoffSweep, TheReferenceIsNoRow) {
     const SweepRows sweep = usualSweep();
-    EXPECT_EQ(reasonsOf(sweep, "path").front(), "is what the others are measured against");
+    EXPECT_EQ(reasonsOf(sweep, "path").front(), "is the reference that all rows are compared with");
     for (const Settings& row : sweep.rows) EXPECT_NE(row.path, Path::reference);
 }
 
