@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "forward_plus/forward_plus.h"
 
-#include "shared/contract/encoded_surface.h"
 #include "shared/draw/background.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace diptych {
@@ -30,7 +28,7 @@ std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const 
 
 // Draws whose fragments are shaded.
 void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
-                    const LightBatch& batch, const KeyOf& keyOf, gpu::uint surface = gpu::SURFACE_DECODED) {
+                    const LightBatch& batch, const KeyOf& keyOf) {
     const auto stored = storedDepth(passes, inputs, images);
     if (stored) pass.samples(images.depth, inFragment);
     batch.read(pass);
@@ -45,7 +43,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
             key.variant.set(gpu::FEATURE_stored_depth, stored != nullptr);
             return key;
         },
-        batch, stored, surface));
+        batch, stored));
 }
 
 }  // namespace
@@ -90,49 +88,33 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
                                                  const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    const auto capture = [&](const std::vector<int>& modes, std::optional<gpu::uint> surface) {
-        const bool encoded = surface.has_value();
-        gpu::uint shaded = surface.value_or(gpu::SURFACE_DECODED);
+    const auto capture = [&](const std::vector<int>& modes, bool encoded) {
         if (modes.empty()) return;
-        const bool whole =
-            shaded != gpu::SURFACE_DECODED && inputs.variant.get(gpu::FEATURE_half_shading) != 0;
-        if (whole) shaded += gpu::SURFACE_OF_HALF;
         const auto keyOf = [&](PipelineKey key) {
-            if (whole) key.variant.set(gpu::FEATURE_half_shading, 0);
-            return quantised(std::move(key), inputs, encoded);
+            return encoded ? throughGBuffer(std::move(key), inputs) : key;
         };
         const LightBatch last =
             addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
                 pass.depthTest(frame.depth);
-                addShadedDraws(
-                    pass, passes, inputs, frame, batch,
-                    [&](const DrawItem& item) { return keyOf(forwardBatchKey(inputs, item, batch)); },
-                    shaded);
+                addShadedDraws(pass, passes, inputs, frame, batch, [&](const DrawItem& item) {
+                    return keyOf(forwardBatchKey(inputs, item, batch));
+                });
             });
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
             for (CapturedImage image : addCaptureImages(passes, pass, group, lit, inputs.samples)) {
-                image.surface = surface;
+                image.through_gbuffer = encoded;
                 images.push_back(image);
             }
-            addShadedDraws(
-                pass, passes, inputs, frame, last,
-                [&](const DrawItem& item) { return keyOf(forwardCaptureKey(inputs, item, group, last)); },
-                shaded);
+            addShadedDraws(pass, passes, inputs, frame, last, [&](const DrawItem& item) {
+                return keyOf(forwardCaptureKey(inputs, item, group, last));
+            });
             addTransparentCapture(passes, inputs, frame.depth, images);
         }
     };
-    capture(request.modes, {});
-    capture(request.through_gbuffer, gpu::SURFACE_DECODED);
-    // The same channels again, because all surfaces are drawn by one set of pipelines then.
-    for (gpu::uint surface = gpu::SURFACE_RAISED; surface < gpu::SURFACE_END && !request.bounded.empty();
-         ++surface)
-        capture(request.through_gbuffer, surface);
-    std::erase_if(images, [&](const CapturedImage& image) {
-        return image.surface.value_or(gpu::SURFACE_DECODED) != gpu::SURFACE_DECODED &&
-               std::ranges::find(request.bounded, image.mode) == request.bounded.end();
-    });
+    capture(request.modes, false);
+    capture(request.through_gbuffer, true);
     return images;
 }
 

@@ -19,7 +19,7 @@ std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings&
 // The passes of a frame as it is timed. `inputs` must outlive the list.
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs);
 
-// The passes that write channels, over the depth that the frame left. With request.through_gbuffer every
+// The passes that write channels, over the depth that the frame left. For request.through_gbuffer every
 // surface is encoded as inputs.gbuffer does and decoded again before it is shaded.
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
                                                  const FrameImages& frame, const CaptureRequest& request);

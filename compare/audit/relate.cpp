@@ -3,6 +3,7 @@
 
 #include "compare/audit/relations.h"
 #include "compare/metrics/channel.h"
+#include "compare/metrics/pixel.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -64,13 +66,9 @@ bool anyBlends(const Scene& scene) {
 
 // By how much a component of a channel may be off, decoded from a G-buffer; emission: a part of the largest.
 std::map<int, double> packedBounds(const Settings& settings) {
-    if (settings.gbuffer == GBufferEncoding::full || settings.path == Path::reference) return {};
+    if (settings.gbuffer == GBufferEncoding::full || settings.path != Path::deferred) return {};
     const bool compact = settings.gbuffer == GBufferEncoding::compact;
     const auto normal = [](unsigned bits) { return glm::radians(octahedralBound(bits)); };
-    // Forward+ rounds a triangle's normal as deferred does, by which shadows are offset.
-    if (settings.path == Path::forward_plus)
-        return {{gpu::DEBUG_geometric_normal,
-                 normal(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)}};
     return {
         {gpu::DEBUG_albedo, squareBound(gpu::ALBEDO_BITS)},
         {gpu::DEBUG_normals, normal(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
@@ -171,18 +169,31 @@ void RelationMeasurer::addReference(Drawn& drawn, const Case& of, std::span<cons
     }
 }
 
-const Image* RelationMeasurer::packedLight(const Case& of, bool own) {
-    if (of.settings.gbuffer == GBufferEncoding::full) return nullptr;
-    if (!own && !packed_light_.empty()) return &packed_light_;
+Frame RelationMeasurer::packedLight(const Case& of) {
     Settings settings = of.settings;
     settings.path = Path::forward_plus;
     SceneViews views(of.scene);
     Renderer renderer(device_, views, pipelines_);
     Frame frame = renderer.draw(withoutReference(settings), drawingRelated(true));
-    const auto found = frame.encoding_bound.find(relatedLit);
-    if (found == frame.encoding_bound.end()) return nullptr;
-    packed_light_ = std::move(found->second);
-    return &packed_light_;
+    const Image& through = frame.through_gbuffer.at(relatedLit);
+    Image& own = frame.channels.at(relatedLit);
+    Image change(own.width, own.height, 1);
+    for (std::size_t i = 0; i < own.pixels(); ++i)
+        *change.pixel(i) =
+            static_cast<float>(metrics::distance(std::as_const(own).pixel(i), through.pixel(i), own.components));
+    own = std::move(change);
+    return frame;
+}
+
+Image RelationMeasurer::packedLight(const Related& related) {
+    Image sum = related.own_base || packed_light_.empty()
+                    ? std::move(packedLight(related.base).channels.at(relatedLit))
+                    : packed_light_;
+    if (!related.own_base) packed_light_ = sum;
+    const Frame changed = mappedBack(packedLight(related.changed), related.map);
+    const Image& other = changed.channels.at(relatedLit);
+    std::ranges::transform(sum.data, other.data, sum.data.begin(), std::plus());
+    return sum;
 }
 
 Grant RelationMeasurer::grantOf(const Relation& relation, const Related& related,
@@ -273,8 +284,11 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
             addReference(changed, related.changed, after);
         }
         of.grant = grantOf(relation, related, after[i]);
-        if (series_[i].path == Path::deferred && !of.grant.packed.empty())
-            of.grant.packed_light = packedLight(related.base, own);
+        Image packed;
+        if (series_[i].path == Path::deferred && !of.grant.packed.empty()) {
+            packed = packedLight(related);
+            of.grant.packed_light = &packed;
+        }
         if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
             of.grant.blended = &reference->blended;
         for (const std::string& failed : {given.failed[i], changed.failed[i]})

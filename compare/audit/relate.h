@@ -63,8 +63,10 @@ private:
     Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
     // What draw() left out.
     static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
-    // What the bits of the given G-buffer may change of lit, by forward+, of a case; empty without bits.
-    const Image* packedLight(const Case& of, bool own);
+    // What the G-buffer's encoding changes in lit, as forward+ shades it, W x H x 1: of a case, in the place
+    // of its lit; and the sum of both cases, as the base shows them.
+    Frame packedLight(const Case& of);
+    Image packedLight(const Related& related);
     Grant grantOf(const Relation& relation, const Related& related, const Settings& settings) const;
 
     Device& device_;

@@ -167,7 +167,7 @@ private:
         if (const auto packed = grant_.packed.find(mode); packed != grant_.packed.end())
             allowed += 2 * packed->second * (mode == static_cast<int>(gpu::DEBUG_emission) ? size : 1);
         if (mode == lightMode) allowed += size * lightPerNormal(pixel) * normalApart(pixel);
-        if (mode == lightMode && grant_.packed_light) allowed += 2 * double{grant_.packed_light->data[pixel]};
+        if (mode == lightMode && grant_.packed_light) allowed += double{grant_.packed_light->data[pixel]};
         return allowed;
     }
     bool isWithinRounding(int mode, std::size_t pixel) const {

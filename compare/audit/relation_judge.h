@@ -38,8 +38,8 @@ struct Grant {
     // rounding: W x H x 1, the share of each pixel that blended surfaces hide; nullptr: nothing blends. Their
     // edges are in no channel.
     const Image* blended = nullptr;
-    // rounding: what a packed G-buffer may move each of the two pictures by, by channel, in units of its
-    // components; and of lit at each pixel (W x H x 1, W/(sr m^2); nullptr: nothing).
+    // rounding: what a packed G-buffer may change in each picture, by channel, in units of its components;
+    // and what it changes in lit of both (W x H x 1, W/(sr m^2); nullptr: nothing).
     std::map<int, double> packed;
     const Image* packed_light = nullptr;
 

@@ -78,7 +78,7 @@ void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, Again
             note(a, device);
             note(b, against.device);
             b.name += "-on-" + shortName(against.device.info().name);
-            across.relit = relit(device, renderer, scene, b);
+            across.relit = relit(device, renderer, b);
             drawn.across.push_back(across);
         }
         for (std::vector<Frame>* of : {&drawn.frames, &there})

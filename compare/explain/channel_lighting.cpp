@@ -11,6 +11,7 @@ namespace diptych {
 namespace {
 
 constexpr int lightmapMode = static_cast<int>(gpu::DEBUG_lightmap),
+              lightmappedMode = static_cast<int>(gpu::DEBUG_lightmapped),
               emissionMode = static_cast<int>(gpu::DEBUG_emission);
 
 // clang-format off
@@ -27,28 +28,14 @@ std::span<const std::string_view> settingsInChannels() {
     return carried;
 }
 
-std::vector<std::uint8_t> lightmappedPixels(const Frame& frame, const Scene& scene) {
-    const Image& ids = channelOf(frame, gpu::DEBUG_material_id);
-    std::vector<std::uint8_t> has(ids.pixels());
-    for (std::size_t i = 0; i < has.size(); ++i) {
-        const int id = materialOf(ids.pixel(i), scene);
-        has[i] = id >= 0 && scene.materials[static_cast<std::size_t>(id)].lightmap_texture.texture >= 0;
-    }
-    return has;
-}
-
-ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Scene& scene,
-                                 const Frame& baseline, const Frame& test)
+ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Frame& baseline, const Frame& test)
     : renderer_(renderer), frames_{&baseline, &test}, images_(device, baseline.settings.size) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
         const int mode = surfaceChannels()[c];
-        const Image &a = channelOf(baseline, mode), &b = channelOf(test, mode);
-        const bool same = sameBits(a, b);
-        for (std::size_t side = 0; side < (same ? 1u : 2u); ++side)
-            images_.set(side, c, side == 0 ? a : b,
-                        mode == lightmapMode ? lightmappedPixels(*frames_.at(side), scene)
-                                             : std::vector<std::uint8_t>{});
-        if (!same) differing_.push_back(c);
+        const auto same = [&](int of) { return sameBits(channelOf(baseline, of), channelOf(test, of)); };
+        const bool alike = same(mode) && (mode != lightmapMode || same(lightmappedMode));
+        for (std::size_t side = 0; side < (alike ? 1u : 2u); ++side) images_.set(side, c, *frames_.at(side));
+        if (!alike) differing_.push_back(c);
     }
 }
 

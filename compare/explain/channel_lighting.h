@@ -29,16 +29,12 @@ constexpr std::uint32_t allChannelsOf(std::size_t side) {
     return side == 0 ? 0u : ~0u;
 }
 
-// 1 per pixel whose material has a lightmap.
-std::vector<std::uint8_t> lightmappedPixels(const Frame& frame, const Scene& scene);
-
 // What it is made of must outlive it.
 class ChannelLighting {
 public:
     // Uploads the channels of both, which are of one size. Throws std::runtime_error, one line, where a
     // Frame lacks one.
-    ChannelLighting(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
-                    const Frame& test);
+    ChannelLighting(Device& device, Renderer& renderer, const Frame& baseline, const Frame& test);
 
     // Places in surfaceChannels() of those that the Frames differ in, by a bit; ascending.
     const std::vector<std::size_t>& differing() const { return differing_; }

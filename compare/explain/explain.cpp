@@ -217,6 +217,7 @@ std::vector<int> explainedChannels() {
     std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
     modes.push_back(static_cast<int>(gpu::DEBUG_lit));
     modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
+    modes.push_back(static_cast<int>(gpu::DEBUG_lightmapped));  // beside lightmap
     std::ranges::sort(modes);
     return modes;
 }
@@ -231,7 +232,7 @@ Explanation explain(Device& device, Renderer& renderer, const Scene& scene, cons
     found.nonfinite = nonfinitePixels(a, b);
     found.dominant = Image(a.width, a.height, 1, -1.0f);
     found.unexplained_map = imageOf(errors, a);
-    ChannelLighting lighting(device, renderer, scene, baseline, test);
+    ChannelLighting lighting(device, renderer, baseline, test);
     ExplainedSides sides(baseline, test, lighting);
     found.reproduction = {sides.reproduction(0), sides.reproduction(1)};
     if (found.distance > 0) {

@@ -88,6 +88,15 @@ RenderOptions drawingOf(const Stage& progress) {
     return drawing;
 }
 
+Coverage pixelAlone(Coverage coverage, const PixelQuestion& question) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(question.y) * static_cast<std::size_t>(question.baseline.size.width) +
+        static_cast<std::size_t>(question.x);
+    for (std::size_t i = 0; i < coverage.covered.size(); ++i) coverage.covered[i] &= i == pixel ? 1 : 0;
+    coverage.count = coverage.covered.at(pixel) ? 1 : 0;
+    return coverage;
+}
+
 class Teller {
 public:
     Teller(Renderer& renderer, SceneViews& views, const PixelQuestion& question)
@@ -98,6 +107,7 @@ public:
           frames_{renderer.draw(question.baseline, drawingOf(question.progress.part(0, 0.3))),
                   renderer.draw(question.test, drawingOf(question.progress.part(0.3, 0.6)))},
           covered_(coverage(frames_[0], frames_[1])),
+          this_one_(pixelAlone(covered_, question)),
           pair_{frames_[0], frames_[1], view_.needs, covered_, question.device.bitExact(),
                 nullptr,    nullptr,    nullptr,     nullptr,  question.light_differs},
           pixel_(static_cast<std::size_t>(question.y) *
@@ -172,13 +182,9 @@ private:
                          : rule->origin + " sets no limit for a single pixel: " + conditionText(rule->fail)};
         }
         if (isInformative(mode, pair_)) return informativeTolerance(pair_);
-        Tolerance tolerance = derivedTolerance(mode, pair_);
-        if (const auto allowed = encodingAllowed(mode, pair_, pixel_);
-            allowed && question_.baseline.gbuffer != GBufferEncoding::full) {
-            // Where nothing is lit anywhere, nothing is allowed either.
-            tolerance.max = std::isfinite(allowed->in_metric) ? allowed->in_metric : 0;
-            tolerance.because = "this pixel's own bound: " + tolerance.because;
-        }
+        FramePair here{frames_[0], frames_[1], view_.needs, this_one_, question_.device.bitExact()};
+        Tolerance tolerance = derivedTolerance(mode, here);
+        if (const auto use = encodingUse(mode, here)) tolerance.max = use->most;
         return tolerance;
     }
 
@@ -430,7 +436,7 @@ private:
     const Scene& scene_;
     const SceneView& view_;
     const std::array<Frame, 2> frames_;  // baseline, test
-    const Coverage covered_;
+    const Coverage covered_, this_one_;  // pixels with a surface; the pixel alone
     const FramePair pair_;
     const std::size_t pixel_;
     reference::PixelLight reference_;

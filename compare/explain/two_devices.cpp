@@ -84,14 +84,9 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
     return across;
 }
 
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& there) {
+std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there) {
     SurfaceImages surfaces(device, there.settings.size);
-    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
-        const int mode = surfaceChannels()[c];
-        surfaces.set(0, c, channelOf(there, mode),
-                     mode == static_cast<int>(gpu::DEBUG_lightmap) ? lightmappedPixels(there, scene)
-                                                                   : std::vector<std::uint8_t>{});
-    }
+    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) surfaces.set(0, c, there);
     Settings settings = there.settings;
     settings.transparency = Transparency::off;
     settings.assign = Assignment::every;

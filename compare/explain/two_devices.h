@@ -22,6 +22,6 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
 // AcrossDevices::relit: what `device` makes of the surfaces of `there`, a Frame of another device with one
 // sample a pixel: by every light, since a list is of a cell, and places may lie in its neighbour; and without
 // what is blended. Throws std::runtime_error, one line, where a channel is missing.
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Scene& scene, const Frame& there);
+std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there);
 
 }  // namespace diptych

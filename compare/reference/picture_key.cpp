@@ -138,8 +138,9 @@ std::uint64_t keyOf(const Request& request) {
         key.addAll(sky.data);
         for (const Material& m : materialsOf(request.scene, request.pose)) key.add(hasLightmap(m));
     }
-    if (request.surfaces)
-        for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);
+    for (const auto* channels : {request.surfaces, request.decoded})
+        if (channels)
+            for (const auto& [mode, image] : *channels) key.addAll(image.data);
     if (request.mode == ReferenceMode::scene || request.shadows()) addScene(key, request);
     return key.value();
 }

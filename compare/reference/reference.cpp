@@ -117,6 +117,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return s.tangent_normal;
         case gpu::DEBUG_dielectric_f0:
             return s.dielectric_f0;
+        case gpu::DEBUG_lightmapped:
+            return glm::dvec3(s.lightmapped);
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -130,7 +132,11 @@ public:
     bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
     double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
 
-    Surface surface(std::size_t pixel, const PixelRays& rays) const {
+    int material(std::size_t pixel) const {
+        return static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
+    }
+
+    Surface surface(std::size_t pixel, const PixelRays& rays, int material) const {
         Surface s;
         s.position = value(gpu::DEBUG_position, pixel);
         s.to_viewer = rays.toViewer(s.position);
@@ -144,7 +150,7 @@ public:
         s.emission = value(gpu::DEBUG_emission, pixel);
         s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
-        s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
+        s.material = material;
         s.lightmapped = hasLightmap(materials_.at(static_cast<std::size_t>(s.material)));
         s.dielectric_f0 = value(gpu::DEBUG_dielectric_f0, pixel);
         return s;
@@ -195,6 +201,25 @@ public:
         if (request.residual && request.scene.environment)
             background_.emplace(*request.scene.environment, request.environment_factor,
                                 request.environment_turned);
+    }
+
+    // The pixel of render() with light from the surface of Request::decoded in place of the captured one.
+    Pixel withDecoded(int x, int y, Pixel pixel) const {
+        const std::uint64_t seed = seedOf(x, y);
+        const std::optional<Standing> standing = capturedAt(x, y);
+        if (!standing) return pixel;
+        Surface s = Captured(*request_.decoded, materialsOf(request_.scene, request_.pose))
+                        .surface(seed, rays_, standing->surface.material);
+        s.position = standing->surface.position;
+        s.to_viewer = standing->surface.to_viewer;
+        s.base_layer = request_.base_layer;
+        const glm::dvec3 own = pixel.shading.all() + standing->surface.emission;
+        Visibility visible;
+        if (request_.shadows() || request_.surroundings) visible = visibilityFrom(standing->foot);
+        pixel.shading = lighting_(s, visible, seed);
+        pixel.lit +=
+            (pixel.shading.all() + s.emission - own) * pixel.haze.transmittance * (1 - pixel.hidden);
+        return pixel;
     }
 
     Pixel render(int x, int y) const {
@@ -374,7 +399,7 @@ private:
         const Captured captured(*request_.surfaces, materialsOf(request_.scene, request_.pose));
         const std::uint64_t pixel = seedOf(x, y);
         if (!captured.isSurface(pixel)) return {};
-        Surface s = captured.surface(pixel, rays_);
+        Surface s = captured.surface(pixel, rays_, captured.material(pixel));
         s.base_layer = request_.base_layer;
         const double depth = captured.depth(pixel);
         Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
@@ -572,6 +597,11 @@ public:
             drawn_.push_back(&mode);
             floats_ += mode.width;
         }
+        if (request.decoded)
+            for (const int mode : litModes) {
+                picture_.decoded[mode] = Image(request.view.width, request.view.height, 3);
+                floats_ += 3;
+            }
         picture_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
         const auto cast = [&](const auto& which) {
@@ -659,9 +689,15 @@ private:
         std::vector<float> values{0};
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = renderer.render(x, y);
-            for (const DebugMode* mode : drawn_) {
-                const glm::dvec3 value = channelValue(mode->number, pixel);
-                for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
+            const auto takeChannel = [&](int mode, const Pixel& of) {
+                const glm::dvec3 value = channelValue(mode, of);
+                for (int c = 0; c < debugMode(mode).width; ++c)
+                    values.push_back(static_cast<float>(value[c]));
+            };
+            for (const DebugMode* mode : drawn_) takeChannel(mode->number, pixel);
+            if (request_.decoded) {
+                const Pixel decoded = renderer.withDecoded(x, y, pixel);
+                for (const auto& [mode, image] : picture_.decoded) takeChannel(mode, decoded);
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty + pixel.blended.uncertainty));
             const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
@@ -689,6 +725,8 @@ private:
                 Image& image = picture_.channels[mode->number];
                 for (int c = 0; c < mode->width; ++c) image.at(x, y, c) = *next++;
             }
+            for (auto& [mode, image] : picture_.decoded)
+                for (int c = 0; c < image.components; ++c) image.at(x, y, c) = *next++;
             picture_.uncertainty.at(x, y) = *next++;
             for (Image* const image : besides(picture_))
                 for (int c = 0; c < image->components; ++c) image->at(x, y, c) = *next++;

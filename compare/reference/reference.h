@@ -16,6 +16,8 @@ namespace diptych::reference {
 
 struct Picture {
     std::map<int, Image> channels;  // by debug mode number, all that it can make; background as in a Frame
+    // litModes shaded from Request::decoded, with positions, visibility and what is blended as in `channels`.
+    std::map<int, Image> decoded;
     // Of lit, in its unit: half the 95 % confidence interval of what was sampled, plus the error that
     // quadrature left. Empty if it is 0 everywhere.
     Image uncertainty;

@@ -57,6 +57,8 @@ struct Request {
     int samples = 1;                                 // per pixel; mode scene only
     Resolve resolve = Resolve::linear;               // of their light; mode scene only
     const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()
+    // Mode surface only: the same channels as a G-buffer gives them back, for Picture::decoded; or nullptr.
+    const std::map<int, Image>* decoded = nullptr;
     // Called once, with the key of the picture and the number of floats in a tile; returns where finished
     // tiles are kept. The caller owns the Checkpoint, and removes it once the picture has been written.
     // Empty: nothing is kept. `program` is this program's version: tiles kept by another version are not

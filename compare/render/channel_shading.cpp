@@ -3,11 +3,14 @@
 
 #include "compare/render/prepared_view.h"
 #include "deferred/channel_lighting.h"
+#include "shared/contract/gbuffer.h"
 #include "shared/contract/surface_channels.h"
 #include "shared/frame/debug_modes.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -33,16 +36,49 @@ Settings litBy(Settings settings) {
     return settings;
 }
 
-// RGBA32F texels of an image of 1 or 3 components.
-std::vector<float> texelsOf(const Image& image, std::span<const std::uint8_t> lightmapped) {
+const Image& channelOf(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    if (found == frame.channels.end())
+        throw std::logic_error(
+            fmt::format("{} has no {} to light", frame.name, debugMode(static_cast<int>(mode)).name));
+    return found->second;
+}
+
+// To how many bits per coordinate the path quantises geometric normals before lighting; 0: none, or the
+// channel shows it after that.
+float quantisedTo(const Frame& frame) {
+    if (frame.settings.path != Path::forward_plus) return 0;
+    switch (frame.settings.gbuffer) {
+        case GBufferEncoding::full:
+            return 0;
+        case GBufferEncoding::standard:
+            return gpu::STANDARD_NORMAL_BITS;
+        case GBufferEncoding::compact:
+            return gpu::COMPACT_GEOMETRIC_NORMAL_BITS;
+    }
+    return 0;
+}
+
+// RGBA32F texels of an image of 1 or 3 components. `fourth`: of each pixel.
+template <class Fourth>
+std::vector<float> texelsOf(const Image& image, const Fourth& fourth) {
     std::vector<float> texels(image.pixels() * 4);
     const auto components = static_cast<std::size_t>(image.components);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
-        const float* const pixel = image.pixel(i);
-        for (std::size_t c = 0; c < components; ++c) texels[4 * i + c] = pixel[c];
-        if (!lightmapped.empty()) texels[4 * i + 3] = lightmapped[i] != 0 ? 1.0f : 0.0f;
+        std::copy_n(image.pixel(i), components, &texels[4 * i]);
+        texels[4 * i + 3] = fourth(i);
     }
     return texels;
+}
+
+std::vector<float> texelsOf(const Frame& frame, int mode) {
+    const Image& image = channelOf(frame, static_cast<gpu::uint>(mode));
+    if (mode == static_cast<int>(gpu::DEBUG_lightmap)) {
+        const Image& has = channelOf(frame, gpu::DEBUG_lightmapped);
+        return texelsOf(image, [&](std::size_t i) { return *has.pixel(i); });
+    }
+    const float bits = mode == static_cast<int>(gpu::DEBUG_geometric_normal) ? quantisedTo(frame) : 0;
+    return texelsOf(image, [&](std::size_t) { return bits; });
 }
 
 }  // namespace
@@ -70,18 +106,18 @@ SurfaceImages::SurfaceImages(Device& device, const Size& size)
 SurfaceImages::SurfaceImages(SurfaceImages&&) noexcept = default;
 SurfaceImages::~SurfaceImages() = default;
 
-void SurfaceImages::set(std::size_t side, std::size_t channel, const Image& image,
-                        std::span<const std::uint8_t> lightmapped) {
-    if (image.width != state_->size.width || image.height != state_->size.height)
+void SurfaceImages::set(std::size_t side, std::size_t channel, const Frame& frame) {
+    const int mode = channelModes.at(channel);
+    const std::vector<float> texels = texelsOf(frame, mode);
+    if (texels.size() != 4 * static_cast<std::size_t>(state_->size.width) * state_->size.height)
         throw std::logic_error("a channel of surfaces has another size");
     std::optional<GpuImage>& target = state_->images.at(side).at(channel);
     target.emplace(state_->device,
-                   GpuImageInfo{.name = std::string(debugMode(channelModes.at(channel)).name),
+                   GpuImageInfo{.name = std::string(debugMode(mode).name),
                                 .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                .width = static_cast<std::uint32_t>(image.width),
-                                .height = static_cast<std::uint32_t>(image.height),
+                                .width = static_cast<std::uint32_t>(state_->size.width),
+                                .height = static_cast<std::uint32_t>(state_->size.height),
                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    const std::vector<float> texels = texelsOf(image, lightmapped);
     state_->uploader.level(*target, 0, std::as_bytes(std::span(texels)));
     state_->uploader.flush();
 }

@@ -3,7 +3,7 @@
 // paths share.
 #pragma once
 
-#include "shared/frame/settings.h"
+#include "shared/frame/frame.h"
 #include "shared/image/image.h"
 #include "shared/scene/scene_view.h"
 
@@ -28,10 +28,10 @@ public:
     SurfaceImages(SurfaceImages&&) noexcept;
     ~SurfaceImages();
 
-    // Image `side` (0, 1) of channel number `channel` of surfaceChannels(): W x H x its width, float32.
-    // `lightmapped`: of channel lightmap, pixels whose material has one; otherwise empty.
-    void set(std::size_t side, std::size_t channel, const Image& image,
-             std::span<const std::uint8_t> lightmapped = {});
+    // Image `side` (0, 1) of channel number `channel` of surfaceChannels().
+    // With it what else lighting reads of the Frame (SURFACE_CHANNELS): lightmapped beside lightmap.
+    // Throws std::logic_error where the Frame lacks one.
+    void set(std::size_t side, std::size_t channel, const Frame& frame);
 
 private:
     friend class ChannelShading;

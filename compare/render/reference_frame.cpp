@@ -133,11 +133,12 @@ reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& vi
 }
 
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
-                         const Frame* surfaces, const RenderOptions& options) {
+                         const Frame* surfaces, const RenderOptions& options, const Frame* decoded) {
     const auto start = std::chrono::steady_clock::now();
     std::string step = settings.reference_mode == ReferenceMode::surface ? "reference: shade every surface"
                                                                          : "reference: trace every pixel";
     reference::Request request = requestOf(scene, view, settings, surfaces);
+    request.decoded = decoded ? &decoded->channels : nullptr;
     request.environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0;
     request.surroundings = options.environment_errors && isLitFromEverywhere(scene, settings);
     request.shadow_edges = options.shadow_edges;
@@ -161,6 +162,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     for (auto& [mode, image] : frame.channels)
         if (auto repaired = repairNonfinite(image); !repaired.empty())
             frame.repaired[mode] = std::move(repaired);
+    frame.through_gbuffer = std::move(picture.decoded);
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
     frame.blended = std::move(picture.blended);
@@ -179,6 +181,9 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     }
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
+    });
+    std::erase_if(frame.through_gbuffer, [&](const auto& entry) {
+        return std::ranges::count(options.channels, entry.first) == 0;
     });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (picture.kept_share > 0)

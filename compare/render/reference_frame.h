@@ -19,9 +19,10 @@
 namespace diptych {
 
 // `view` is the one that the Settings ask for. `surfaces` is the Frame of surfaceSettings() with
-// reference::surfaceChannels(); nullptr in mode scene.
+// reference::surfaceChannels(); nullptr in mode scene. `decoded`: the same of deferred, for
+// Frame::through_gbuffer; or nullptr.
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
-                         const Frame* surfaces, const RenderOptions& options);
+                         const Frame* surfaces, const RenderOptions& options, const Frame* decoded = nullptr);
 
 // One pixel of that Frame and what each light adds to it, as reference::drawPixel() has it.
 reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& view, const Settings& settings,

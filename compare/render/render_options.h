@@ -3,12 +3,14 @@
 #pragma once
 
 #include "compare/run/progress.h"
+#include "shared/frame/settings.h"
 #include "shared/image/image.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,10 @@ struct RenderOptions {
     std::vector<int> channels;
     std::vector<int> requested;  // of these, Frame::requested; empty: all
     int runs = 5;                // timed frames, beside which passes are timed; 0: no times
-    // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding, and what its
-    // bits may change of them.
+    // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer): forward+
+    // encodes and decodes its own; renderAll() gives the reference those of the deferred Frame beside it.
     bool through_gbuffer = false;
+    std::optional<Settings> decoded;  // reference in mode surface: that Frame's Settings
     // reference: also what approximations of an environment cost (Frame::environment_costs), and what of its
     // light and of ambient light geometry hides (Frame::hidden_light).
     bool environment_errors = false;

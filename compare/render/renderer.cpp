@@ -3,7 +3,6 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
-#include "compare/render/encoding_bound.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/host_memory.h"
 #include "compare/render/prepared_view.h"
@@ -114,39 +113,15 @@ private:
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
-                if (isRequested(mode)) {
-                    request.through_gbuffer.push_back(mode);
-                    if (settings_.gbuffer != GBufferEncoding::full && isLightable(mode))
-                        request.bounded.push_back(mode);
-                }
+                if (isRequested(mode)) request.through_gbuffer.push_back(mode);
         return request;
-    }
-
-    // Whether the scene can light the channel at all.
-    bool isLightable(int mode) const {
-        const Variant& variant = prepared_.view.inputs.variant;
-        if (isOfEnvironment(mode)) return variant.get(gpu::FEATURE_environment) != 0;
-        return !isAmbient(mode) || variant.get(gpu::FEATURE_ambient) != 0 ||
-               variant.get(gpu::FEATURE_lightmap) != 0;
-    }
-
-    // Keeps an image of surfaces other than the path's own.
-    void takeEncoded(const CapturedImage& read, Image image) {
-        if (*read.surface == gpu::SURFACE_DECODED) {
-            keepInFile(image.data);
-            frame_.through_gbuffer[read.mode] = std::move(image);
-            return;
-        }
-        if (*read.surface == gpu::SURFACE_RAISED)
-            bounds_.try_emplace(read.mode, std::as_const(frame_).channels.at(read.mode));
-        bounds_.at(read.mode).add(*read.surface, std::move(image));
     }
 
     // Keeps lit as it was before something was blended over it, where lit is wanted at all.
     void takeUnblended(const CapturedImage& read, Image image) {
         if (!isRequested(lit)) return;
         keepInFile(image.data);
-        (read.surface ? frame_.unblended_through_gbuffer : frame_.unblended) = std::move(image);
+        (read.through_gbuffer ? frame_.unblended_through_gbuffer : frame_.unblended) = std::move(image);
     }
 
     // Draws every channel from the timed frame's images. lit itself stays the timed pipeline's.
@@ -159,7 +134,11 @@ private:
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured, [this](const CapturedImage& read, Image image, Repaired repaired) {
             if (read.before_blending) return takeUnblended(read, std::move(image));
-            if (read.surface) return takeEncoded(read, std::move(image));
+            if (read.through_gbuffer) {
+                keepInFile(image.data);
+                frame_.through_gbuffer[read.mode] = std::move(image);
+                return;
+            }
             if (read.mode == lit) {
                 frame_.counters.unreproduced_pixels =
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
@@ -169,12 +148,6 @@ private:
             keepInFile(image.data);
             frame_.channels[read.mode] = std::move(image);
         });
-        for (auto& [mode, bound] : bounds_) {
-            frame_.encoding_bound[mode] = bound.take();
-            keepInFile(frame_.encoding_bound[mode].data);
-            letGo(std::as_const(frame_).channels.at(mode).data);
-        }
-        bounds_.clear();
         if (options_.twice != Twice::none) {
             announce("second run");
             step("second run", 1);
@@ -187,8 +160,8 @@ private:
         }
         if (options_.twice == Twice::all) {
             step("second capture", captureFrames);
-            // What the encoding makes comes last, and is drawn once.
-            std::erase_if(captured, [](const CapturedImage& read) { return read.surface.has_value(); });
+            // They come last, and are drawn once.
+            std::erase_if(captured, &CapturedImage::through_gbuffer);
             readCaptured(first, captured,
                          [this](const CapturedImage& read, const Image& image, const Repaired&) {
                              if (read.mode != lit) addNoise(read.mode, image);
@@ -252,8 +225,18 @@ private:
     Frame frame_;
     Image lit_;
     std::map<std::string, std::size_t> kernels_;  // what they left, by buffer, if all is drawn twice
-    std::map<int, EncodingBound> bounds_;         // by debug mode, while they are gathered
 };
+
+// The Settings of the deferred picture of the same view that loses bits, for a reference that lights
+// captured surfaces.
+std::optional<Settings> decodedBeside(const Settings& reference, const std::vector<Settings>& all) {
+    if (reference.path != Path::reference || reference.reference_mode != ReferenceMode::surface) return {};
+    for (const Settings& s : all)
+        if (s.path == Path::deferred && s.gbuffer != GBufferEncoding::full && s.msaa == 1 &&
+            viewRequest(s) == viewRequest(reference))
+            return s;
+    return {};
+}
 
 }  // namespace
 
@@ -316,19 +299,20 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
     const SceneView& view = state_->views.at(viewRequest(settings));
     if (settings.reference_mode == ReferenceMode::scene)
         return drawReferenceFrame(scene, view, settings, nullptr, options);
-    const Frame surfaces = surfacesFor(settings, options);
-    return drawReferenceFrame(scene, view, settings, &surfaces, options);
+    const Frame surfaces = surfacesFor(surfaceSettings(settings), options);
+    std::optional<Frame> decoded;
+    if (options.decoded) decoded = surfacesFor(*options.decoded, options);
+    return drawReferenceFrame(scene, view, settings, &surfaces, options, decoded ? &*decoded : nullptr);
 }
 
-// What the reference shades in mode surface.
+// What the reference shades in mode surface, drawn under a path's Settings.
 Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
     capture.channels = reference::surfaceChannels();
     capture.recheck = options.recheck;
     capture.runs = 0;
     capture.on_step = options.on_step;
-    return FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture)
-        .make();
+    return FrameMaker(state_->device, state_->shared, state_->views, settings, capture).make();
 }
 
 reference::PixelLight Renderer::referencePixel(const Settings& settings, int x, int y) {
@@ -336,7 +320,7 @@ reference::PixelLight Renderer::referencePixel(const Settings& settings, int x, 
     const SceneView& view = state_->views.at(viewRequest(settings));
     if (settings.reference_mode == ReferenceMode::scene)
         return drawReferencePixel(scene, view, settings, nullptr, x, y);
-    const Frame surfaces = surfacesFor(settings, {});
+    const Frame surfaces = surfacesFor(surfaceSettings(settings), {});
     return drawReferencePixel(scene, view, settings, &surfaces, x, y);
 }
 
@@ -426,6 +410,7 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
         const auto place = [&](double done) { return timing + (1 - timing) * done / count; };
         const auto done = static_cast<double>(i);
         each.progress = options.progress.part(place(done), place(done + 1));
+        each.decoded = options.through_gbuffer ? decodedBeside(settings[i], settings) : std::nullopt;
         frames.push_back(renderer.draw(settings[i], each));
         addTimes(times[i], frames.back());
         if (pipelines) continue;

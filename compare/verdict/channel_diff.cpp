@@ -3,6 +3,7 @@
 
 #include "compare/verdict/device_bounds.h"
 #include "compare/verdict/domain.h"
+#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
@@ -27,12 +28,9 @@ std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
 
 // What the derived tolerance is a limit on.
 Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const Measurement& measurement) {
-    if (channel.unexplained_pixels) {
-        const std::uint64_t pixels =
-            std::max(*channel.unexplained_pixels, channel.encoding_use ? channel.encoding_use->beyond : 0);
-        return {.figure = "pixels unexplained", .measured = static_cast<double>(pixels), .pixels = pixels};
-    }
-    if (const auto& use = channel.device_use)
+    if (const auto& pixels = channel.unexplained_pixels)
+        return {.figure = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
+    if (const auto& use = channel.device_use ? channel.device_use : channel.encoding_use)
         return {.figure = "times the bounds", .measured = use->used, .limit = 1, .pixels = use->beyond};
     if (const auto& f = channel.footprints) {
         if (f->used >= f->flip / detailFlip)
@@ -59,12 +57,12 @@ std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("the encoding does not explain the difference at {} ({})",
                            counted(*channel.unexplained_pixels, "pixel"), share);
-    if (channel.encoding_use && channel.encoding_use->beyond > 0)
-        return fmt::format(
-            "the encoding explains the difference, but it exceeds the G-buffer's quantization bound at {} "
-            "({}): {:.3g} times the bound at {},{}",
-            counted(channel.encoding_use->beyond, "pixel"), share, channel.encoding_use->used,
-            channel.encoding_use->x, channel.encoding_use->y);
+    if (const auto& use = channel.encoding_use)
+        return use->beyond == 0
+                   ? std::string()
+                   : fmt::format("the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times "
+                                 "their bound at {},{}",
+                                 counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
     if (const auto& use = channel.device_use)
         return use->beyond == 0 ? std::string()
                                 : fmt::format(
@@ -88,7 +86,7 @@ std::string faultOf(const ChannelDiff& channel) {
                ? fmt::format("{} of the pixels exceed {:.4g}, and at most 0.1 % may: {} is {:.4g}{}", share,
                              c.limit, c.figure, c.measured,
                              channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
-                                                    "and the G-buffer's quantization bound"
+                                                    "and the encoding's change"
                                                   : "")
                : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
 }
@@ -113,7 +111,7 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
 }
 
 // Shows the errors that are judged where those are not the metric's own, and their largest: what exceeds what
-// the reference leaves open and the bits allow.
+// the reference leaves open.
 void showExcess(ChannelDiff& channel, const FramePair& pair) {
     const std::optional<std::vector<double>> excess = certainErrors(*channel.mode, pair);
     if (!excess) return;
@@ -149,13 +147,15 @@ void setShare(Criterion& criterion, const Coverage& coverage) {
 void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
-    if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
+    const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0;
+    if (noise > 0) {
         channel.tolerance.max += noise;
         channel.tolerance.because +=
             fmt::format("; plus {:.3g}, the difference of two runs of one path", noise);
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
-    channel.encoding_use = encodingUse(mode, pair);
+    channel.encoding_use = encodingUse(
+        mode, pair, noise + (pair.cpu ? 0 : gpuSlack(mode, pair.baseline.channels.at(mode.number))));
     channel.footprints = footprints(mode, pair);
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
@@ -233,7 +233,6 @@ double usedShare(const ChannelDiff& channel) {
     constexpr double endless = std::numeric_limits<double>::infinity();
     if (!isCompared(channel.verdict) || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0) return endless;
-    if (channel.encoding_use) return channel.encoding_use->used;
     return channel.criterion ? usedOf(*channel.criterion) : 0;
 }
 

@@ -4,7 +4,7 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/verdict/criterion.h"
-#include "compare/verdict/encoding_use.h"
+#include "compare/verdict/bound_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
 #include "compare/verdict/rules.h"
@@ -37,9 +37,9 @@ struct ChannelDiff {
     Tolerance tolerance;
     std::optional<std::uint64_t>
         unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
-    std::optional<Footprints> footprints;     // of a reference in mode scene
-    std::optional<EncodingUse> encoding_use;  // of what the G-buffer's bits allow a lit channel
-    std::optional<EncodingUse> device_use;    // of one path on two devices: of what their precision allows
+    std::optional<Footprints> footprints;  // of a reference in mode scene
+    std::optional<BoundUse> encoding_use;  // of a surface channel: of what the G-buffer's bits allow
+    std::optional<BoundUse> device_use;    // of one path on two devices: of what their precision allows
     std::optional<double>
         certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
     Verdict verdict = Verdict::pass;

@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/across_devices.h"
+#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/one_sided.h"
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
@@ -128,11 +129,33 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
     for (const Frame& frame : report.frames) {
         // Which deferred ignores.
         wanted.prepass = frame.settings.prepass;
-        if (!frame.encoding_bound.empty() && frame.scene == right.scene &&
+        if (frame.settings.path == Path::forward_plus && !frame.through_gbuffer.empty() &&
+            frame.scene == right.scene &&
             effectiveSettings(frame.settings) == effectiveSettings(wanted))
             return &frame;
     }
     return nullptr;
+}
+
+// The surface channels that nobody asked for and that a judged lit channel rests on: where deferred decodes
+// them to within their bits, lit differs by what the bits allow.
+std::vector<int> provingChannels(const Comparison& comparison, const FramePair& pair,
+                                 std::span<const Rule> rules) {
+    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    if (!deferred || !forward || deferred->settings.gbuffer == GBufferEncoding::full) return {};
+    const bool judgesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
+        const DebugMode& mode = *channel.mode;
+        return isLit(mode.number) && isCompared(channel.verdict) && !isInformative(mode, pair) &&
+               !ruleFor(rules, mode.name);
+    });
+    if (!judgesLit) return {};
+    std::vector<int> modes;
+    for (const int mode : lightingFields())
+        if (deferred->channels.contains(mode) && forward->channels.contains(mode) &&
+            std::ranges::none_of(comparison.channels,
+                                 [&](const ChannelDiff& c) { return c.mode->number == mode; }))
+            modes.push_back(mode);
+    return modes;
 }
 
 // Counts pixels that show another surface on the other device, and leaves them out of the comparison.
@@ -320,6 +343,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         comparison.notes.push_back(fmt::format("{} does not have {}: not compared",
                                                (left.origin.external ? left : right).name,
                                                fmt::join(lacking_channels, ", ")));
+    const std::vector<int> proving = provingChannels(comparison, pair, options.rules);
+    for (const int mode : proving) comparison.channels.emplace_back().mode = &debugMode(mode);
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
@@ -330,6 +355,12 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
                             "compare " + std::string(channel.mode->name));
     });
+
+    // Of those the failing ones are shown.
+    std::erase_if(comparison.channels, [&](const ChannelDiff& channel) {
+        return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->number) > 0;
+    });
+    std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->number; });
 
     // Two devices blend surfaces that they have sampled and placed each in its own way.
     if (!options.across) readBlending(pair, options.rules, comparison);

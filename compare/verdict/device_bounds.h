@@ -3,7 +3,7 @@
 // promises of both.
 #pragma once
 
-#include "compare/verdict/encoding_use.h"
+#include "compare/verdict/bound_use.h"
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/tolerance.h"
 
@@ -81,9 +81,9 @@ private:
 };
 
 // How much a channel uses of its tolerance at each covered pixel.
-EncodingUse deviceUse(const DebugMode& mode, const FramePair& pair);
+BoundUse deviceUse(const DebugMode& mode, const FramePair& pair);
 
 // The largest tolerance of a pixel, with the reason.
-Tolerance deviceTolerance(const DebugMode& mode, const FramePair& pair, const EncodingUse& use);
+Tolerance deviceTolerance(const DebugMode& mode, const FramePair& pair, const BoundUse& use);
 
 }  // namespace diptych

@@ -4,9 +4,9 @@
 #include "compare/metrics/flip.h"
 #include "compare/metrics/pixel.h"
 #include "compare/verdict/encoding_bits.h"
-#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/neighbours.h"
+#include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
 
@@ -245,11 +245,14 @@ private:
         return isLit(mode_.number) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
     }
 
-    // What the bits of a packed path allow, in the channel's metric.
+    // What a packed encoding allows, of light what it changes, in the channel's metric.
     double encoding(std::size_t i, double unit) const {
         if (!isLit(mode_.number)) return encodingBound(mode_, pair_);
-        const Image* const bits = allowedByBits(mode_, pair_);
-        return (bits ? double{*bits->pixel(i)} : 0) / unit;
+        const Frame* const shown = encodingShownBy(mode_, pair_);
+        return shown ? metrics::distance(shown->channels.at(mode_.number).pixel(i),
+                                         shown->through_gbuffer.at(mode_.number).pixel(i), mode_.width) /
+                           unit
+                     : 0;
     }
 
     // FLIP of the pixels with detail.

@@ -21,8 +21,8 @@ struct FramePair {
     const Requirements& needs;
     const Coverage& coverage;
     bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
-    // In a comparison with the reference: the Frame of forward+ of the same view and Settings that has bounds
-    // of the encoding; or nullptr.
+    // In a comparison with the reference: the Frame of forward+ of the same view and Settings that has
+    // through_gbuffer; or nullptr.
     const Frame* explaining = nullptr;
 
     // Against a reference in mode scene: what the device makes of texels of 8 bits, where the scene has

@@ -4,6 +4,7 @@
 #include "compare/render/channel_shading.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
+#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/neighbours.h"
 #include "compare/verdict/surface_pixels.h"
@@ -33,12 +34,23 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
         helpers = surfacePixelChannels();
         helpers.insert(helpers.end(), surfaceChannels().begin(), surfaceChannels().end());
         helpers.push_back(static_cast<int>(gpu::DEBUG_texcoords));
+        helpers.push_back(static_cast<int>(gpu::DEBUG_lightmapped));
     }
     // How far the shadow filter reaches at a pixel follows from these.
     if (across)
         for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
             helpers.push_back(static_cast<int>(mode));
-    if (std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; }))
+    // Light is judged by the fields that it is made of (lightingFields()).
+    const auto packed = [](const Settings& of) {
+        return of.path == Path::deferred && of.gbuffer != GBufferEncoding::full;
+    };
+    const bool shadows =
+        std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; });
+    if (std::ranges::any_of(render.channels, isLit) && std::ranges::any_of(settings, packed))
+        std::ranges::copy_if(lightingFields(), std::back_inserter(helpers), [&](int mode) {
+            return shadows || mode != static_cast<int>(gpu::DEBUG_geometric_normal);
+        });
+    if (shadows)
         for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
             helpers.push_back(static_cast<int>(mode));
     for (const int mode : helpers)
@@ -162,8 +174,6 @@ void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
                 then->second.width == now->second.width && then->second.height == now->second.height &&
                 unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0) {
                 baseline.through_gbuffer[mode] = through;
-                if (const auto bound = frame.encoding_bound.find(mode); bound != frame.encoding_bound.end())
-                    baseline.encoding_bound[mode] = bound->second;
             }
         }
 }

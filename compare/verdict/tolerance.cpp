@@ -5,7 +5,6 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
-#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/shadow_edges.h"
 #include "shared/contract/constants.h"
@@ -84,28 +83,21 @@ const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     return found == forward->through_gbuffer.end() ? nullptr : &found->second;
 }
 
-// What the bits allow at each pixel is judged pixel by pixel (encodingUse()); here is the largest.
 Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
-    if (!throughGBuffer(mode, pair))
+    const Image* const through = throughGBuffer(mode, pair);
+    if (!through)
         return {0,
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
-    const std::optional<EncodingUse> use = encodingUse(mode, pair);
-    if (!use)
-        return {0,
-                "forward+ was not rendered from surfaces perturbed by this G-buffer's quantization, so it "
-                "explains no difference"};
-    const std::string used =
-        use->x < 0 || use->beyond > 0
-            ? ""
-            : fmt::format("; the largest error is {:.0f} % of its pixel's bound, at {},{}", 100 * use->used,
-                          use->x, use->y);
-    return {
-        use->most,
-        fmt::format(
-            "quantization by the {} G-buffer changes lit by up to {:.3g} (mean {:.3g}), as forward+ measures "
-            "by shading perturbed surfaces{}{}; deferred must equal forward+ on the decoded surfaces {}",
-            nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, use->beside, used,
-            pair.cpu ? "bit for bit" : "within 16 ULP")};
+    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
+    const bool first = pair.baseline.settings.path == Path::forward_plus;
+    const ChannelStats moved = channelStats(mode.metric, mode.kind, first ? own : *through,
+                                            first ? *through : own, pair.coverage);
+    return {moved.max,
+            fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
+                        "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
+                        "surface channel must be within its bits",
+                        moved.max, moved.mean, nameOf(pair.of(Path::forward_plus)->settings.gbuffer),
+                        pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
@@ -142,6 +134,8 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return {squareBound(gpu::SPECULAR_BITS), "square root in 8 bits"};
         case gpu::DEBUG_material_id:
             return {0, "the index is stored exactly"};
+        case gpu::DEBUG_lightmapped:
+            return {0, "it is stored exactly"};
         case gpu::DEBUG_light_count:
         case gpu::DEBUG_list_overflow:
             return {0, "both paths use one list, chosen by the same function of pixel and depth"};
@@ -153,7 +147,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_transmittance:
             return {0, "the same function of pixel and depth in both paths"};
         case gpu::DEBUG_geometric_normal:
-            return {0, "both paths quantise it in the same way"};
+            return {octahedralBound(encoding == GBufferEncoding::compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
+                                                                         : gpu::STANDARD_NORMAL_BITS),
+                    "octahedral: half a step in both coordinates at a face's centre, degrees"};
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_cascade:
         case gpu::DEBUG_page_residency:
@@ -161,35 +157,6 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return {0, "the same maps, read at the same positions along the same normals"};
     }
     return {0, "no loss of precision is known here"};
-}
-
-// gpuUlps of the pixel's largest component in the channel's metric. Relative: that share, for the denominator
-// is no smaller than the component. Absolute: of the largest value there is. Angular: all three components
-// off by so much turn a vector by sqrt(3) times the share. Indices are exact.
-double gpuSlack(const DebugMode& mode, const Image& baseline) {
-    constexpr double share = gpuUlps * 0x1p-23;
-    switch (mode.metric) {
-        case Metric::relative:
-            return share;
-        case Metric::absolute: {
-            float largest = 0;
-            for (const float v : baseline.data)
-                if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
-            return share * double{largest};
-        }
-        case Metric::angular:
-            return std::sqrt(3.0) * share * degrees;
-        case Metric::exact:
-            return 0;
-    }
-    return 0;
-}
-
-// Both paths quantise it.
-double geometricNormalBound(const Frame& path) {
-    return octahedralBound(path.settings.gbuffer == GBufferEncoding::compact
-                               ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
-                               : gpu::STANDARD_NORMAL_BITS);
 }
 
 // Of the light that haze scatters, times the number of steps: what a march was off by, at most 0.03, in
@@ -220,11 +187,9 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
-        if (allowedByBits(mode, pair))
-            result.because += fmt::format(
-                "; plus the quantization bound of the {} G-buffer at each pixel, as forward+ measures by "
-                "shading perturbed surfaces",
-                nameOf(path.settings.gbuffer));
+        if (const Frame* const shown = encodingShownBy(mode, pair))
+            result.because += fmt::format("; on the surfaces that the {} G-buffer decodes, as {} shades them",
+                                          nameOf(path.settings.gbuffer), shown->name);
         if (ShadowEdges(pair).any())
             result.because +=
                 "; plus a shadow-casting light's contribution where its shadow boundary lies within the "
@@ -253,8 +218,6 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
             result = {shadingRounding,
                       "float32 weights against double, 1e-4; farther than the filter radius and one texel "
                       "from a shadow boundary, a light's visibility is 0 or 1"};
-        if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
-            result = {geometricNormalBound(path), "both paths pack it in the same way, octahedral"};
     }
     if (path.settings.haze && path.settings.haze_march_steps > 0 &&
         (mode.number == static_cast<int>(gpu::DEBUG_lit) ||
@@ -267,6 +230,38 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 }
 
 }  // namespace
+
+const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
+    if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
+    const bool first = isReferenceFrame(pair.baseline);
+    const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
+    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
+    if (reference.through_gbuffer.contains(mode.number)) return &reference;
+    const Frame* const forward = pair.explaining;
+    return forward && forward->settings.gbuffer == path.settings.gbuffer &&
+                   forward->through_gbuffer.contains(mode.number)
+               ? forward
+               : nullptr;
+}
+
+double gpuSlack(const DebugMode& mode, const Image& baseline) {
+    constexpr double share = gpuUlps * 0x1p-23;
+    switch (mode.metric) {
+        case Metric::relative:
+            return share;
+        case Metric::absolute: {
+            float largest = 0;
+            for (const float v : baseline.data)
+                if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+            return share * double{largest};
+        }
+        case Metric::angular:
+            return std::sqrt(3.0) * share * degrees;
+        case Metric::exact:
+            return 0;
+    }
+    return 0;
+}
 
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame* deferred = pair.of(Path::deferred);
@@ -296,7 +291,6 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 double encodingBound(const DebugMode& mode, const FramePair& pair) {
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     if (isLit(mode.number) || path.settings.gbuffer == GBufferEncoding::full) return 0;
-    if (mode.number == static_cast<int>(gpu::DEBUG_geometric_normal)) return geometricNormalBound(path);
     return path.settings.path == Path::deferred ? encodingTolerance(mode, pair, path.settings.gbuffer).max
                                                 : 0;
 }
@@ -306,7 +300,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;
-    if (reference.uncertainty.empty() && !allowedByBits(mode, pair) && !ShadowEdges(pair).any() &&
+    if (reference.uncertainty.empty() && !encodingShownBy(mode, pair) && !ShadowEdges(pair).any() &&
         !EnvironmentCost(pair).any() && !marched && !BlendedPixels(pair).any())
         return {};
     return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
@@ -315,7 +309,8 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
                                const Image& test) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    const Image* const bits = allowedByBits(mode, pair);
+    const Frame* const encoded = encodingShownBy(mode, pair);
+    const bool first = isReferenceFrame(pair.baseline);
     const ShadowEdges edges(pair);
     const EnvironmentCost environment(pair);
     const BlendedPixels blended(pair);
@@ -324,7 +319,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
-        double open = bits ? double{*bits->pixel(i)} : 0;
+        double open = 0;
         if (edges.any()) open += edges.allowed(mode, i);
         open += environment.allowed(mode, i) + blended.allowed(mode, i);
         open += marchAllowed(mode, pair, i);
@@ -332,7 +327,18 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
-        const double e = error(test.pixel(i), p);
+        // The encoding's change of the light, taken out of the path's pixel.
+        std::array<float, 3> moved{};
+        const float* q = test.pixel(i);
+        if (encoded) {
+            const float *before = encoded->channels.at(mode.number).pixel(i),
+                        *after = encoded->through_gbuffer.at(mode.number).pixel(i);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float change = after[c] - before[c];
+                moved.at(c) = first ? q[c] - change : p[c] - change;
+            }
+        }
+        const double e = !encoded ? error(q, p) : first ? error(moved.data(), p) : error(q, moved.data());
         // What is infinite, as a NaN against a number is, stays so whatever the reference knows.
         errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));
     }

@@ -12,7 +12,6 @@
 #include "shared/contract/clipmap.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/encoded_surface.h"
 #include "shared/contract/environment.h"
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"

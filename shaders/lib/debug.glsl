@@ -23,7 +23,7 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_texcoords: return vec4(s.texcoord, 0.0, 1.0);
         case DEBUG_depth: return vec4(viewDepth(z));
         case DEBUG_position: return vec4(s.position, 1.0);
-        case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
+        case DEBUG_geometric_normal: return vec4(s.triangle_normal, 1.0);
         case DEBUG_light_count: return vec4(float(lightCount(lights)));
         case DEBUG_list_overflow: return vec4(listOverflowed(lights) ? 1.0 : 0.0);
         case DEBUG_shaded_samples: return vec4(float(shaded));
@@ -42,6 +42,7 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_tangent: return vec4(s.tangent, 1.0);
         case DEBUG_handedness: return vec4(s.handedness);
         case DEBUG_tangent_normal: return vec4(s.tangent_normal, 1.0);
+        case DEBUG_lightmapped: return vec4(s.lightmapped ? 1.0 : 0.0);
         case DEBUG_dielectric_f0: return vec4(s.dielectric_f0, 1.0);
     }
     return vec4(0.0);

@@ -106,6 +106,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
             s.dielectric_f0 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].xyz);
             s.dielectric_f90 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].w);
         }
+        s.triangle_normal = s.geometric_normal;
         if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
         return s;
     }
@@ -127,6 +128,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
         s.metallic = unpackUnorm(params, 12, STANDARD_METALLIC_BITS);
         s.material_id = params >> 20;
     }
+    s.triangle_normal = s.geometric_normal;
     if (on(feature_gbuffer_wide_material_id)) s.material_id = t.attachments[GBUFFER_IDS].x;
     if (on(feature_emission))
         s.emission = decodeRadiance(t.attachments[GBUFFER_EMISSION], on(feature_gbuffer_wide_emission));

@@ -203,6 +203,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.position = positionFromDepth(shadedPixel(), fragmentDepth());
     vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
     s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
+    s.triangle_normal = s.geometric_normal;
     s.normal = shadingNormal(towards);
     s.material_id = constants.material;
     s.texcoord = shaded_texcoord;

@@ -7,7 +7,7 @@
 #include "shaders/lib/area.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/environment.glsl"
-#include "shaders/lib/encoded_surface.glsl"
+#include "shaders/lib/multiscatter.glsl"
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/haze.glsl"
@@ -111,7 +111,9 @@ Radiance shade(Surface s, PixelLights lights) {
     // anything after it, of RDNA 2 80 instead of 128 (compare/bench/COMPILED.md).
     if (has_suns) radiance.sun_visibility = sunVisibility(s);
     vec3 v = viewVector(s.position);
-    Shading shading = Shading(s, v, shadedBrdf(s, v));
+    Brdf brdf = makeBrdf(s, v);
+    if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
+    Shading shading = Shading(s, v, brdf);
     radiance.emission = s.emission;
     if (feature_light_batch == BATCH_LATER) {
         vec4 diffuse = partialDiffuse(), specular = partialSpecular();

@@ -9,7 +9,8 @@
 struct Surface {
     vec3 position;          // world axes, camera as origin, m
     vec3 normal;            // unit, shading
-    vec3 geometric_normal;  // unit, of the triangle, towards the viewer
+    vec3 geometric_normal;  // unit, of the triangle, towards the viewer; where shadows begin
+    vec3 triangle_normal;   // the same before forward+ quantises it; for the channel alone
     vec3 albedo;            // base colour, linear Rec.709
     float metallic;
     float roughness;        // perceptual

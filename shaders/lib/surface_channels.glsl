@@ -4,6 +4,7 @@
 #define SURFACE_CHANNELS_GLSL
 
 #include "shaders/lib/contract.glsl"
+#include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shared/contract/surface_channels.h"
 
@@ -15,7 +16,11 @@ Surface surfaceFromChannels(ivec2 p) {
     Surface s;
     s.position = texelFetch(channel_position, p, 0).xyz;
     s.normal = texelFetch(channel_normals, p, 0).xyz;
-    s.geometric_normal = texelFetch(channel_geometric_normal, p, 0).xyz;
+    vec4 geometric_normal = texelFetch(channel_geometric_normal, p, 0);
+    s.triangle_normal = geometric_normal.xyz;
+    uint bits = uint(geometric_normal.w);
+    s.geometric_normal = bits == 0u ? s.triangle_normal
+                                    : decodeOctahedral(encodeOctahedral(s.triangle_normal, bits), bits);
     s.albedo = texelFetch(channel_albedo, p, 0).rgb;
     s.metallic = texelFetch(channel_metallic, p, 0).r;
     s.roughness = texelFetch(channel_roughness, p, 0).r;

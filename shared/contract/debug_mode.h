@@ -50,7 +50,8 @@
     X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent of the normal map, world; 0 without a normal map") \
     X(53, handedness,       1, exact,    scalar, any,      forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map") \
     X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "normal map's normal, tangent space, unit; 0 without a normal map") \
-    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer")
+    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer") \
+    X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light")
 // clang-format on
 
 // name  image  component: where a channel stands in the images of four components that captures draw, its
@@ -81,6 +82,7 @@
     X(tangent,            9, 0) \
     X(handedness,         9, 3) \
     X(tangent_normal,    10, 0) \
+    X(lightmapped,       10, 3) \
     X(shaded_samples,    11, 0) \
     X(lit,               12, 0) \
     X(lit_diffuse,       13, 0) \

@@ -39,7 +39,7 @@
     X(17, gbuffer_wide_emission,      gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
     /* more materials than the packed bits can name */                                                      \
     X(18, gbuffer_wide_material_id,   gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
-    /* shade DrawConstants::surface of encoded_surface.h */                                                 \
+    /* forward+ shades what the G-buffer would give back */                                                 \
     X(19, encoded_surface,            pass,    PASSES_SHADE)                                                \
     /* of a capture pass: which images of CAPTURES (debug_mode.h) it draws, a bit each */                   \
     X(20, captures,                   pass,    PASSES_SHADE | PASS_SAMPLES)                                 \

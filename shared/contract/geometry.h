@@ -33,7 +33,6 @@ struct DrawConstants {
     uint material;  // its number: the channel material_id
     uint light_first;
     uint light_end;
-    uint surface;  // SURFACE_*, with FEATURE_encoded_surface
     // Of blended draws: the number of the draw's first triangle among those of all blended surfaces, in the
     // scene's order.
     uint triangle;

@@ -8,7 +8,8 @@
 #include "types.h"
 
 // number of the binding of SET_GBUFFER, where another table has an image as well; name of the debug mode.
-// lightmap: its fourth component is 1 where the material has a lightmap, which may be black.
+// Fourth components: of lightmap the channel lightmapped; of geometric_normal the bits per coordinate that
+// lighting quantises it to, 0: none.
 // clang-format off
 #define SURFACE_CHANNELS(X)  \
     X(0,  albedo)            \

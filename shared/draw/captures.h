@@ -7,7 +7,6 @@
 #include "shared/vulkan/pipelines.h"
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,15 +35,14 @@ struct CapturedImage {
     ImageRef image;                         // which other channels may share
     int component = 0;                      // its first one there
     std::size_t pass = 0;                   // the number of its group's
-    std::optional<gpu::uint> surface = {};  // forward+: SURFACE_*, where it is not of the path's own
-    bool before_blending = false;           // lit as it is before something is blended over it
+    bool through_gbuffer = false;  // forward+: shaded from the surface that the G-buffer would give back
+    bool before_blending = false;  // lit before something is blended over it
 };
 
-// The channels that a capture makes: of surfaces as they are; and, forward+ only, of surfaces that went
-// through the G-buffer's encoding, which the deferred path has to show, and of those that bound its effect
-// (SURFACE_RAISED and all after it, in this order): `bounded`, some of `through_gbuffer`.
+// The channels to capture. `through_gbuffer`, forward+ only: lit channels of surfaces that went through the
+// G-buffer's encoding, which deferred has to show.
 struct CaptureRequest {
-    std::vector<int> modes, through_gbuffer, bounded;
+    std::vector<int> modes, through_gbuffer;
 };
 
 // Adds the group's images to the list's last pass, cleared to what the background holds (0; material_id -1).

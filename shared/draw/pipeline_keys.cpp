@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/pipeline_keys.h"
 
-#include "shared/contract/debug_mode.h"
 #include "shared/contract/object_lights.h"
 #include "shared/contract/shadow.h"
 #include "shared/draw/pipeline_parts.h"
@@ -87,12 +86,9 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
     return key;
 }
 
-PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface) {
-    const gpu::uint image = placeInCaptures(static_cast<int>(gpu::DEBUG_geometric_normal)).image;
-    const bool normals = (key.variant.get(gpu::FEATURE_captures) >> image & 1) != 0;
-    if (!surface && !normals) return key;
+PipelineKey throughGBuffer(PipelineKey key, const FrameInputs& inputs) {
     key.variant.take(inputs.variant, featuresSetBy(FeatureSource::gbuffer));
-    key.variant.set(gpu::FEATURE_encoded_surface, surface);
+    key.variant.set(gpu::FEATURE_encoded_surface);
     return key;
 }
 

@@ -27,9 +27,7 @@ PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, con
 PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
                               const LightBatch& batch);
 
-// Lets a forward key quantise as the frame's G-buffer would. With `surface` a surface that the encoding may
-// make is shaded (gpu::DrawConstants::surface); without, only the geometric normal is quantised, as both
-// paths must have the same one, and keys of other channels stay the same for every encoding.
-PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface);
+// A forward key whose surface goes through the frame's G-buffer encoding and back.
+PipelineKey throughGBuffer(PipelineKey key, const FrameInputs& inputs);
 
 }  // namespace diptych

@@ -275,9 +275,8 @@ void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const Dra
 
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch,
-                                                 std::shared_ptr<const DescriptorSets> gbuffer,
-                                                 gpu::uint surface) {
-    return [&inputs, batch, surface, gbuffer = std::move(gbuffer),
+                                                 std::shared_ptr<const DescriptorSets> gbuffer) {
+    return [&inputs, batch, gbuffer = std::move(gbuffer),
             pipelines = pipelinesOf(inputs, inputs.draws.solids(), keyOf, true)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
@@ -285,7 +284,6 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                         gpu::DrawConstants constants = constantsOf(inputs, item);
                         constants.light_first = batch.first;
                         constants.light_end = batch.end;
-                        constants.surface = surface;
                         return constants;
                     });
     };

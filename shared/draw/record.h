@@ -2,7 +2,6 @@
 // Records the commands that draw the scene or a full-screen triangle.
 #pragma once
 
-#include "shared/contract/encoded_surface.h"
 #include "shared/contract/transparency.h"
 #include "shared/draw/light_batches.h"
 
@@ -13,13 +12,11 @@ namespace diptych {
 
 // What records the draws of every item that is not blended, in the list's order, each with the pipeline of
 // its key. Pipelines that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders
-// that read stored depth. `surface`: of keys with FEATURE_encoded_surface. `inputs` must outlive what is
-// returned.
+// that read stored depth. `inputs` must outlive what is returned.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch = {},
-                                                 std::shared_ptr<const DescriptorSets> gbuffer = {},
-                                                 gpu::uint surface = gpu::SURFACE_DECODED);
+                                                 std::shared_ptr<const DescriptorSets> gbuffer = {});
 // The same of those that are blended. `gbuffer`: SET_GBUFFER of shaders that read TRANSPARENCY_BINDINGS.
 std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf,
                                                    std::shared_ptr<const DescriptorSets> gbuffer = {},

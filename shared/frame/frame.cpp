@@ -8,7 +8,7 @@
 namespace diptych {
 
 void letGo(const Frame& frame, int mode) {
-    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
         if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
     if (mode == static_cast<int>(gpu::DEBUG_lit))
         for (const Image* image : {&frame.unblended, &frame.unblended_through_gbuffer})

@@ -116,13 +116,9 @@ struct Frame {
     // (exposure, background). Empty: all.
     std::vector<int> requested;
     bool isRequested(int mode) const { return requested.empty() || std::ranges::count(requested, mode) > 0; }
-    // Forward+ only: litModes, shaded from surfaces that were encoded
-    // as in settings.gbuffer and decoded again, as the deferred path shades them. Used to explain a
-    // difference of lit.
+    // litModes shaded from the surfaces that deferred decodes from a G-buffer of settings.gbuffer: by
+    // forward+, which has to equal deferred, and by the reference in mode surface. Empty elsewhere.
     std::map<int, Image> through_gbuffer;
-    // Forward+ only, of the same channels: how far the bits of settings.gbuffer may move them at each pixel,
-    // W x H x 1, W/(sr m^2). A channel that this scene leaves dark has none.
-    std::map<int, Image> encoding_bound;
     // Of a path or the reference in whose view something may be blended: lit before that, W x H x 3; and
     // forward+ only, the same of through_gbuffer. Else empty.
     Image unblended, unblended_through_gbuffer;

@@ -2,7 +2,6 @@
 #include "shared/transparent/transparent.h"
 
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/encoded_surface.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
@@ -217,11 +216,7 @@ void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef
     CapturedImage blended = *opaque;
     blended.image = addResolve(passes, inputs, drawn, Life::transient);
     blended.pass = passes.size() - 1;
-    // Of surfaces that bound an encoding nobody asks what lit was.
-    if (opaque->surface.value_or(gpu::SURFACE_DECODED) == gpu::SURFACE_DECODED)
-        opaque->before_blending = true;
-    else
-        images.erase(opaque);
+    opaque->before_blending = true;
     images.push_back(blended);
 }
 

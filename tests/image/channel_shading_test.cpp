@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,18 +20,9 @@ std::vector<int> shadedChannels() {
     std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
     modes.push_back(lit);
     modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
+    modes.push_back(static_cast<int>(gpu::DEBUG_lightmapped));
     for (const gpu::uint term : litTerms) modes.push_back(static_cast<int>(term));
     return modes;
-}
-
-// Pixels whose material has a lightmap.
-std::vector<std::uint8_t> lightmapped(const Scene& scene, const Image& ids) {
-    std::vector<std::uint8_t> has(ids.pixels());
-    for (std::size_t i = 0; i < has.size(); ++i) {
-        const int id = static_cast<int>(ids.pixel(i)[0]);
-        has[i] = id >= 0 && scene.materials.at(static_cast<std::size_t>(id)).lightmap_texture.texture >= 0;
-    }
-    return has;
 }
 
 class ChannelShadingOf : public testing::TestWithParam<const char*> {};
@@ -48,13 +38,7 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
             settings.ambient = {0.1f, 0.2f, 0.3f};
             const Frame frame = drawnBy(path, renderer, settings, shadedChannels());
             SurfaceImages images(device(), settings.size);
-            const Image& ids = frame.channels.at(static_cast<int>(gpu::DEBUG_material_id));
-            for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
-                const int mode = surfaceChannels()[i];
-                images.set(0, i, frame.channels.at(mode),
-                           mode == static_cast<int>(gpu::DEBUG_lightmap) ? lightmapped(scene, ids)
-                                                                         : std::vector<std::uint8_t>{});
-            }
+            for (std::size_t i = 0; i < surfaceChannels().size(); ++i) images.set(0, i, frame);
             ChannelShading shading = renderer.shadeChannels(settings, images);
             const ChannelTerms own_terms = shading.terms(0);
             const Image shaded = shading.shade(0);

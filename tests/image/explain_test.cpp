@@ -87,8 +87,8 @@ public:
                 if (fault.channel == debugMode(number).name)
                     for (std::size_t p = 0; p < image.pixels(); ++p)
                         if (covered(p)) fault.plant(image.pixel(p));
-            images.set(0, i, image);
         }
+        for (std::size_t i = 0; i < surfaceChannels().size(); ++i) images.set(0, i, frame);
         const Image shaded = renderer.shadeChannels(settings, images).shade(0);
         frame.channels.at(lit) = shaded;
         return frame;

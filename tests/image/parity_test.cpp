@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both paths draw the same picture: bit for bit with a float32 G-buffer; with a packed one they differ by
 // exactly the effect of its encoding.
+#include "compare/verdict/encoding_use.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
@@ -33,8 +34,14 @@ void expectExplainedLight(const std::vector<Frame>& frames) {
 
 void expectExplained(const std::vector<Frame>& frames) {
     expectExplainedLight(frames);
-    for (const int mode :
-         {8, 10, 11, 12})  // ids, depth, position, geometric normal do not depend on the encoding
+    const Requirements all{.emission = true, .lightmap = true, .dielectric_specular = true};
+    const Coverage covered = coverage(frames[0], frames[1]);
+    for (const int mode : lightingFields())
+        if (const auto use = encodingUse(debugMode(mode), FramePair{frames[0], frames[1], all, covered})) {
+            EXPECT_LE(use->used, 1) << debugMode(mode).name;
+        }
+    // ids, depth, position and whether there is a lightmap do not depend on the encoding.
+    for (const int mode : {8, 10, 11, 56})
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
 }

@@ -499,7 +499,7 @@ bool PlantedView::covered(std::size_t pixel) const {
 // lit and its terms of the Frame's channels.
 void PlantedView::shadeInto(Frame& frame, const Settings& drawn) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c)
-        images_.set(0, c, frame.channels.at(surfaceChannels()[c]));
+        images_.set(0, c, frame);
     std::optional<ChannelShading> other;
     if (!shading_)
         shading_.emplace(renderer.shadeChannels(settings, images_));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The precision of the G-buffer's encodings, measured on the shipped GLSL.
-#include "compare/verdict/encoding_bits.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -181,30 +180,6 @@ TEST(Encoding, PackedNumbersStayWithinTheirDomain) {
             EXPECT_GE(output[row * 8 + i], 0.0f) << input[row * 3];
             EXPECT_LE(output[row * 8 + i], 1.0f) << input[row * 3];
         }
-}
-
-// What shading propagates and what verdicts grant are the same bounds.
-TEST(Encoding, BoundsAreThoseOfTheVerdict) {
-    Probes probes;
-    std::vector<float> input;
-    for (const int bits : {6, 8, 12, 16})
-        for (const float x : {0.0f, 1e-9f, 1e-4f, 0.04f, 0.3f, 0.999f, 1.0f})
-            input.insert(input.end(), {x, static_cast<float>(bits)});
-    const std::vector<float> output = probes.run("encoding_bits", input, 2, 5);
-    for (std::size_t i = 0; i < input.size() / 2; ++i) {
-        const double x = input[2 * i];
-        const auto bits = static_cast<unsigned>(input[2 * i + 1]);
-        const float* row = &output[5 * i];
-        const bool own = x == 0 || x == 1;
-        EXPECT_NEAR(row[0], own ? 0 : unormBound(bits), 1e-6 * unormBound(bits)) << x << " " << bits;
-        EXPECT_NEAR(row[1], own ? 0 : squareBound(x, bits), 1e-6 * squareBound(bits)) << x << " " << bits;
-        EXPECT_NEAR(row[2], x == 0 ? 0 : std::max(x * radianceBound(), leastRadianceBound),
-                    1e-6 * radianceBound())
-            << x;
-        EXPECT_EQ(row[3], 0.0f) << "float32 loses nothing";
-        EXPECT_NEAR(row[4] * 180 / std::numbers::pi, octahedralBound(bits), 1e-6 * octahedralBound(bits))
-            << bits;
-    }
 }
 
 }  // namespace

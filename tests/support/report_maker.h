@@ -79,10 +79,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
             }
         }
     }
-    for (const int mode : litModes) {
-        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
-        frames[1].encoding_bound[mode] = Image(4, 3, 1, 0.5f);
-    }
+    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

@@ -30,15 +30,11 @@ inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
         Image& lit = frame.channels.at(gpu::DEBUG_lit);
         for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] = 0.1f + 1e-3f * static_cast<float>(i);
         frame.through_gbuffer.clear();
-        frame.encoding_bound.clear();
     }
     Image& roughness = frames[1].channels.at(gpu::DEBUG_roughness);
     roughness.at(40, 20) = 0.75f;
     roughness.at(80, 50) = 0.625f;
-    for (const int mode : litModes) {
-        const Image& lit = frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
-        frames[1].encoding_bound[mode] = Image(lit.width, lit.height, 1, 1.0f);
-    }
+    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

@@ -184,7 +184,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
         std::vector<Frame> frames = bothFrames();
         for (Frame& frame : frames) {
             frame.settings.size = {40, 5};
-            for (auto* images : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+            for (auto* images : {&frame.channels, &frame.through_gbuffer})
                 for (auto& [mode, image] : *images) {
                     Image wide(40, 5, image.components, images == &frame.channels && mode == idMode ? -1 : 0);
                     for (int x = 0; x < shown; ++x)
@@ -203,7 +203,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsLit) {
         std::vector<Frame> frames = bothFrames();
         for (Frame& frame : frames) {
             frame.settings.size = {40, 5};
-            for (auto* images : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+            for (auto* images : {&frame.channels, &frame.through_gbuffer})
                 for (auto& [mode, image] : *images) {
                     Image wide(40, 5, image.components);
                     for (int i = 0; i < 200; ++i)

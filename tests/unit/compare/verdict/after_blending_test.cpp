@@ -119,7 +119,6 @@ TEST(AfterBlending, OfAPackedGBufferWhatItExplainsIsNoDifference) {
     setPixel(deferred, 7, 1.01f, 2.005f);
     forward.through_gbuffer[litMode] = deferred.channels[litMode];
     forward.unblended_through_gbuffer = deferred.unblended;
-    forward.encoding_bound[litMode] = Image(blendWide, blendHigh, 1, 0.1f);
     EXPECT_TRUE(only(blendReport(deferred, forward)).passed());
     setPixel(deferred, 7, 1.01f, 2.004f);  // nearer to forward+'s own, and not what the encoding makes
     EXPECT_TRUE(isNamed(only(blendReport(deferred, forward)).failures));

@@ -18,7 +18,6 @@ std::vector<Frame> sampledFrames(int samples) {
     reference.settings.reference_mode = ReferenceMode::scene;
     reference.settings.spp = 64;
     reference.through_gbuffer.clear();
-    reference.encoding_bound.clear();
     std::erase_if(reference.channels,
                   [](const auto& channel) { return !isMadeByReference(debugMode(channel.first)); });
     for (Frame& frame : frames) {

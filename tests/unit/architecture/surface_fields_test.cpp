@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A lit channel of a packed G-buffer is judged by the fields that lighting reads. So each of them has a
+// channel that is judged, and nothing but the decoded surface sets the two variants of forward+ apart.
+#include "compare/verdict/encoding_use.h"
+#include "tests/support/sources.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace diptych {
+namespace {
+
+// The fields of struct Surface.
+std::set<std::string> fieldsOf(const std::string& source) {
+    const std::size_t begin = source.find("struct Surface {"), end = source.find("};", begin);
+    std::set<std::string> fields;
+    const std::regex declared(R"(\n\s+\w+ (\w+);)");
+    const std::string body = source.substr(begin, end - begin);
+    for (std::sregex_iterator i(body.begin(), body.end(), declared), none; i != none; ++i)
+        fields.insert((*i)[1]);
+    return fields;
+}
+
+const std::string& shader(const std::string& name) {
+    return sources().at("shaders/lib/" + name);
+}
+
+TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
+    // Where the channel has another name.
+    const std::map<std::string, std::string> names{{"normal", "normals"}};
+    // Read by no light of a surface that the G-buffer stores.
+    const std::map<std::string, std::string> unread{
+        {"triangle_normal", "shown as geometric_normal"},
+        {"material_id", "shown alone"},
+        {"texcoord", "shown alone"},
+        {"tangent", "shown alone"},
+        {"handedness", "shown alone"},
+        {"tangent_normal", "shown alone"},
+        {"transmission", "blended draws alone, which both paths share"},
+        {"object_irradiance", "--assign per_object, which deferred does not have"}};
+    const std::set<std::string> fields = fieldsOf(shader("surface.glsl"));
+    EXPECT_GE(fields.size(), 20u);
+    for (const std::string& field : fields) {
+        if (unread.contains(field)) continue;
+        const auto renamed = names.find(field);
+        const std::string& channel = renamed == names.end() ? field : renamed->second;
+        EXPECT_TRUE(std::ranges::any_of(lightingFields(),
+                                        [&](int mode) { return debugMode(mode).name == channel; }))
+            << field << " has no channel that judges it with lit: add it to lightingFields()";
+    }
+    for (const auto& [field, reason] : unread) {
+        EXPECT_TRUE(fields.contains(field)) << field << " is gone: strike it here";
+        if (reason != "shown alone" && reason != "shown as geometric_normal") continue;
+        for (const char* name :
+             {"shade.glsl", "brdf.glsl", "multiscatter.glsl", "environment.glsl", "ambient.glsl",
+              "shadow.glsl", "pcss.glsl", "local_shadow.glsl", "ltc.glsl", "area.glsl", "area_point.glsl",
+              "lights.glsl", "object_lights.glsl", "haze.glsl", "radiance.glsl"})
+            EXPECT_FALSE(std::regex_search(shader(name), std::regex("\\bs\\." + field + "\\b")))
+                << name << " reads " << field;
+    }
+}
+
+TEST(SurfaceFields, TheEncodingChangesNothingButTheSurface) {
+    std::set<std::string> readers;
+    for (const auto& [file, text] : sources())
+        if (file.starts_with("shaders/") && text.find("feature_encoded_surface") != std::string::npos)
+            readers.insert(file);
+    EXPECT_EQ(readers, std::set<std::string>{"shaders/lib/forward.glsl"});
+}
+
+}  // namespace
+}  // namespace diptych

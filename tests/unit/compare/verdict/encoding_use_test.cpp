@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Fields of surfaces are judged by what their bits allow at each pixel, and lit by them.
+#include "compare/verdict/encoding_use.h"
+
+#include "compare/verdict/encoding_bits.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/contract/gbuffer.h"
+#include "tests/support/report_maker.h"
+
+#include <cmath>
+#include <limits>
+
+namespace diptych::tests {
+namespace {
+
+constexpr GBufferEncoding packedEncoding = GBufferEncoding::standard;
+
+// bothFrames() with a packed G-buffer that stores all there is.
+struct PackedPair {
+    PackedPair() {
+        for (Frame& frame : frames) frame.settings.gbuffer = packedEncoding;
+        needs.emission = needs.lightmap = needs.dielectric_specular = true;
+    }
+    float* read(gpu::uint mode) { return &frames[0].channels.at(static_cast<int>(mode)).at(1, 2); }
+    float* own(gpu::uint mode) { return &frames[1].channels.at(static_cast<int>(mode)).at(1, 2); }
+    std::optional<BoundUse> use(gpu::uint mode, double slack = 0) const {
+        const Coverage covered = coverage(frames[0], frames[1]);
+        return encodingUse(debugMode(static_cast<int>(mode)),
+                           FramePair{frames[0], frames[1], needs, covered}, slack);
+    }
+    Report report(const std::vector<int>& requested = {}, const CompareOptions& options = {}) const {
+        std::vector<Frame> drawn = frames;
+        for (Frame& frame : drawn) frame.requested = requested;
+        return makeReport(drawn, {needs, needs}, {"a CPU", "1.0", "cpu"}, options);
+    }
+
+    std::vector<Frame> frames = bothFrames();
+    Requirements needs;
+};
+
+TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
+    PackedPair p;
+    *p.own(gpu::DEBUG_roughness) = 0.5f;
+    *p.read(gpu::DEBUG_roughness) = 0.5f + 0.75f * 0.5f / 4095;
+    EXPECT_NEAR(p.use(gpu::DEBUG_roughness)->used, 0.75, 1e-3);
+    EXPECT_EQ(p.use(gpu::DEBUG_roughness)->beyond, 0u);
+    EXPECT_EQ(p.use(gpu::DEBUG_roughness)->x, 1);
+    EXPECT_EQ(p.use(gpu::DEBUG_roughness)->y, 2);
+    *p.read(gpu::DEBUG_roughness) = 0.5f + 1.5f * 0.5f / 4095;
+    EXPECT_EQ(p.use(gpu::DEBUG_roughness)->beyond, 1u);
+    EXPECT_EQ(p.use(gpu::DEBUG_roughness, 0.5 / 4095)->beyond, 0u) << "slack is granted beside it";
+
+    // A dark albedo has a narrow bound, a bright one a wide one; the largest share counts.
+    const double h = 0.5 / 255;
+    for (const double x : {0.01, 0.25, 0.81}) {
+        const double bound = h * (2 * std::sqrt(x) + h);
+        for (int c = 0; c < 3; ++c) p.read(gpu::DEBUG_albedo)[c] = p.own(gpu::DEBUG_albedo)[c] = 0.9f;
+        p.own(gpu::DEBUG_albedo)[1] = static_cast<float>(x);
+        p.read(gpu::DEBUG_albedo)[1] = static_cast<float>(x + 0.9 * bound);
+        EXPECT_NEAR(p.use(gpu::DEBUG_albedo)->used, 0.9, 0.01) << x;
+        p.read(gpu::DEBUG_albedo)[1] = static_cast<float>(x + 1.1 * bound);
+        EXPECT_EQ(p.use(gpu::DEBUG_albedo)->beyond, 1u) << x;
+    }
+    // Both ends have codes of their own.
+    for (const float end : {0.0f, 1.0f}) {
+        *p.own(gpu::DEBUG_metallic) = end;
+        *p.read(gpu::DEBUG_metallic) = end == 0 ? 1e-5f : 1 - 1e-5f;
+        EXPECT_EQ(p.use(gpu::DEBUG_metallic)->beyond, 1u) << end;
+    }
+    // Radiance is bounded by its largest component, or by the least step.
+    for (const float size : {1e-6f, 3.0f}) {
+        const double bound = std::max(size * radianceBound(), leastRadianceBound);
+        for (const double share : {0.9, 1.1}) {
+            for (int c = 0; c < 3; ++c)
+                p.read(gpu::DEBUG_emission)[c] = p.own(gpu::DEBUG_emission)[c] = c == 2 ? size : 0;
+            p.read(gpu::DEBUG_emission)[0] = static_cast<float>(share * bound);
+            EXPECT_EQ(p.use(gpu::DEBUG_emission)->beyond, share > 1 ? 1u : 0u) << size << " " << share;
+        }
+    }
+    // Directions by their angle.
+    const double angle = octahedralBound(gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
+    for (const gpu::uint mode : {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal})
+        for (const double share : {0.9, 1.1}) {
+            float *n = p.own(mode), *m = p.read(mode);
+            n[0] = 1, n[1] = n[2] = 0;
+            m[0] = static_cast<float>(std::cos(share * angle)), m[1] = 0;
+            m[2] = static_cast<float>(std::sin(share * angle));
+            EXPECT_EQ(p.use(mode)->beyond, share > 1 ? 1u : 0u) << share;
+        }
+}
+
+TEST(EncodingUse, ANanIsBeyondEveryBound) {
+    for (const gpu::uint mode :
+         {gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_roughness, gpu::DEBUG_emission}) {
+        PackedPair p;
+        *p.read(mode) = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_EQ(p.use(mode)->beyond, 1u) << mode;
+    }
+}
+
+TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
+    PackedPair p;
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_position, gpu::DEBUG_material_id,
+                                 gpu::DEBUG_lightmapped, gpu::DEBUG_specular})
+        EXPECT_FALSE(p.use(mode)) << mode;
+    p.needs = {};
+    for (const gpu::uint mode : {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0,
+                                 gpu::DEBUG_dielectric_f90})
+        EXPECT_FALSE(p.use(mode)) << "nothing is stored of " << mode;
+    EXPECT_TRUE(p.use(gpu::DEBUG_albedo));
+    for (Frame& frame : p.frames) frame.settings.gbuffer = GBufferEncoding::full;
+    EXPECT_FALSE(p.use(gpu::DEBUG_albedo)) << "float32 is compared as it is";
+}
+
+// lit rests on the fields that it is made of: they are judged with it, shown where they fail, and alone
+// decide where nobody judges light.
+TEST(EncodingUse, LitIsJudgedWithItsFields) {
+    const std::vector<int> lit{static_cast<int>(gpu::DEBUG_lit)};
+    PackedPair sound;
+    EXPECT_TRUE(sound.report(lit).passed());
+    EXPECT_EQ(sound.report(lit).comparisons[0].channels.size(), 1u) << "what passes is not shown";
+    for (const int mode : lightingFields()) {
+        PackedPair p;
+        float* const value = p.read(static_cast<gpu::uint>(mode));
+        value[0] += debugMode(mode).domain == Domain::unit ? 0.01f : 0.1f;
+        const Report report = p.report(lit);
+        EXPECT_FALSE(report.passed()) << debugMode(mode).name;
+        ASSERT_EQ(report.comparisons[0].channels.size(), 2u) << debugMode(mode).name;
+        EXPECT_EQ(report.comparisons[0].channels[1].mode->number, mode);
+        EXPECT_EQ(report.comparisons[0].channels[1].verdict, Verdict::fail);
+        CompareOptions ruled;
+        ruled.rules = rulesFromJson(R"({"rules": [{"channel": "lit", "max": 9, "because": "so"}]})", "t.json");
+        EXPECT_TRUE(p.report(lit, ruled).passed()) << "a rule judges lit by itself";
+        const std::vector<int> other{static_cast<int>(gpu::DEBUG_depth)};
+        EXPECT_TRUE(p.report(other).passed()) << "nobody judges light";
+    }
+}
+
+// Against a reference that shaded the decoded surfaces, and against one that did not but for forward+.
+TEST(EncodingUse, AgainstTheReferenceDecodedSurfacesAreShaded) {
+    const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
+    for (const bool traced : {false, true}) {
+        PackedPair p;
+        Frame &deferred = p.frames[0], &forward = p.frames[1], reference = forward;
+        reference.settings.path = Path::reference;
+        deferred.channels.at(lit.number).at(1, 2) = 0.6f;
+        Frame& shows = traced ? forward : reference;
+        forward.through_gbuffer.clear();
+        reference.through_gbuffer.clear();
+        shows.through_gbuffer[lit.number] = shows.channels.at(lit.number);
+        shows.through_gbuffer.at(lit.number).at(1, 2) += 0.1f;
+        const Coverage covered = coverage(reference, deferred);
+        for (const bool turned : {false, true}) {
+            const FramePair pair{turned ? deferred : reference, turned ? reference : deferred, p.needs,
+                                 covered, true, traced ? &forward : nullptr};
+            EXPECT_EQ(encodingShownBy(lit, pair), &shows);
+            ASSERT_TRUE(certainErrors(lit, pair));
+            EXPECT_NEAR(certainErrors(lit, pair)->at(0), 0, 1e-6);
+            deferred.channels.at(lit.number).at(1, 2) = 0.61f;
+            EXPECT_GT(certainErrors(lit, pair)->at(0), 0.01) << "it grants itself nothing";
+            deferred.channels.at(lit.number).at(1, 2) = 0.6f;
+        }
+        const FramePair none{reference, forward, p.needs, covered, true, &forward};
+        EXPECT_EQ(encodingShownBy(lit, none), nullptr) << "forward+ encodes nothing";
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
