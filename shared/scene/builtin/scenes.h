@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes that builtin.cpp lists; each function makes one. A comment names the fault that a test scene
-// catches.
+// The scenes listed in builtin.cpp. The comment beside a test scene names the bug that it catches.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -13,12 +12,12 @@ Scene gallery();
 Scene spheres(std::uint32_t lights);
 Scene furnace();
 
-// array.cpp: how a frame grows
+// array.cpp: scalability
 struct ArrayCounts {
     std::uint32_t objects, triangles, meshes, materials, texture_mib;
 };
-// `triangles` of all objects together, as near as spheres come. There are at least as many meshes as
-// materials, as many materials as textures of 4 MiB, and no more meshes than objects.
+// `triangles` is the approximate total over all objects. Counts are adjusted so that textures of 4 MiB <=
+// materials <= meshes <= objects.
 Scene array(const ArrayCounts& counts);
 
 // surfaces.cpp: surface properties that a G-buffer must store
@@ -47,14 +46,14 @@ Scene triangle();    // the smallest input
 Scene empty();       // no mesh
 Scene background();  // nothing in view
 
-// calibration.cpp: what a renderer of others is held against
+// calibration.cpp: compares other renderers
 Scene calibration();
 
 // turned_maps.cpp: normal maps under KHR_texture_transform
 Scene tangents();  // tangents of untransformed or resting texture coordinates
 
-// motion.cpp: what moves
-Scene motion();  // a pose that is left out, late or half
+// motion.cpp: animation
+Scene motion();  // a pose that is missing, late or incomplete
 
 // lamps.cpp: lights
 Scene rangeEdge();  // light left at the end of the range
