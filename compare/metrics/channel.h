@@ -70,12 +70,12 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& ba
 Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
                  const Coverage& coverage);
 
-// Units in the last place of a pixel's largest component by which two pipelines may differ on a GPU, whose
+// Tolerance in units in the last place of a pixel's largest component between two pipelines on a GPU. Its
 // compiler may contract multiply-adds differently in each.
 constexpr int gpuUlps = 16;
 
-// Number of pixels of all W x H that differ: bitwise (NaN equals NaN, -0 differs from 0), or, with `ulps`
-// > 0, by more than that many units in the last place of the pixel's largest component.
+// Number of pixels of all W x H that differ. Without `ulps`, bitwise: NaN equals NaN, -0 differs from 0.
+// With `ulps` > 0, by more than that many units in the last place of the pixel's largest component.
 std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps);
 
 // One pixel as a 1x1 image; `pixel` is its index in row order.

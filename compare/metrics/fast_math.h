@@ -5,9 +5,9 @@
 #include <bit>
 #include <cstdint>
 
-// Functions with this attribute are compiled twice, for any x86-64 and for AVX2; the choice is made at
-// program start. Both give the same bits: AVX2 has no fused multiply-add, and their files are compiled
-// with -ffp-contract=off. Not for sanitizers, which are not initialized when the choice is made.
+// Functions with this attribute are compiled twice, for any x86-64 and for AVX2; the program selects one
+// at start. Both give the same bits: AVX2 has no fused multiply-add, and their files are compiled with
+// -ffp-contract=off. Disabled for sanitizers, which are not initialized at the time of the selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define DIPTYCH_WIDE_LANES __attribute__((target_clones("avx2", "default")))

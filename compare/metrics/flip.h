@@ -64,8 +64,8 @@ FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const 
 HdrFlipResult hdrFlip(const PictureRows& reference, const PictureRows& test,
                       const HdrFlipOptions& options = {});
 
-// hdrFlip() of many tests against one reference with the same options, bitwise equal. The reference is
-// filtered only once, which is nearly half of the work.
+// hdrFlip() of many tests against one reference with the same options, bitwise equal. Filters the
+// reference only once, which saves nearly half of the work.
 class HdrFlipAgainst {
 public:
     // The reference and options.covered must outlive it. Caches 20 bytes per pixel and exposure, up to

@@ -91,7 +91,8 @@ private:
     };
     enum Which { reference, test, weight };
 
-    // Enters rows of pictures first to last, and calls use(y) when all taps of a tile's row are there.
+    // Enters rows of the pictures `first` to `last`, and calls use(y) when all taps of a tile's row are
+    // there.
     template <class Use>
     void scan(const Tile& tile, const FlipLook* look, Which first, Which last, const Use& use) {
         tile_ = tile;

@@ -116,8 +116,9 @@ std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines)
     return 8 * static_cast<std::uint64_t>(chunks);
 }
 
-// The display window is padded with zeros that are not in the file. To limit small crops, the window may
-// need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192 float32 RGBA), whichever is more.
+// The display window is padded with zeros that are not in the file. So a small crop could claim much
+// memory. The window may need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192 float32
+// RGBA), whichever is more.
 std::uint64_t displayBytes(std::uint64_t dataBytes, std::uint64_t most) {
     constexpr std::uint64_t around = 256, always = std::uint64_t{1} << 30;
     return std::min(most, std::max(around * dataBytes, always));

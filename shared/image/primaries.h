@@ -17,7 +17,7 @@ namespace diptych {
 // CIE 1931 x, y of red, green, blue and white.
 using Primaries = std::array<double, 8>;
 
-// What a file declares about colours and display, as text that follows the file's name.
+// A file's declarations about colours and display, as text that follows the file's name.
 struct FileNotes {
     std::vector<std::string> lines{};        // such as "its colours were converted from ..."
     std::vector<std::string> not_applied{};  // declarations that the values read do not reflect

@@ -25,7 +25,7 @@ struct Requirements {
     float max_emission = 0;
     float min_emission = 0;       // smallest of the non-zero factors' largest components, W/(sr m^2)
     std::uint32_t materials = 0;  // all of the scene's, used or not; bounds material ids
-    std::uint32_t textures = 0;   // those that used materials read
+    std::uint32_t textures = 0;   // textures of used materials
     std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::uint32_t rect_lights = 0, disc_lights = 0, tube_lights = 0;
     std::uint32_t sun_discs = 0;                           // directional lights with an angular diameter

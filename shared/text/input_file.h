@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All files are opened for reading by this. Folders, FIFOs, sockets and devices are errors: opening never
+// The only way to open a file for reading. Folders, FIFOs, sockets and devices are errors: opening never
 // blocks, and nothing is read before type and size are checked.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All JSON output for files or other programs is made by this.
+// Writes JSON as text. All JSON for files and other programs goes through this.
 #pragma once
 
 #include "shared/text/one_line.h"

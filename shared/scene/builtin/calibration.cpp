@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Charts that reveal how a renderer interprets its inputs. Each chart has its own material, so that
-// material_id finds it. Expected values follow from numbers: the radiance of an emitter, E / pi of a white
-// Lambertian surface under one light, and the light that a tilted one receives from a sky of six colours.
+// material_id finds it. Expected values follow from numbers: an emitter shows its radiance. A white
+// Lambertian surface shows E / pi under one light. A tilted one shows the light from a sky of six colours.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -126,7 +126,7 @@ Scene calibration() {
     tilted(b, "down", {1.6, -1, 0}, {0, -1, 0});
     tilted(b, "left", {3.3, -1, 0}, {-1, 0, 0});
 
-    // Dim: white stays at about a third of what an image that clips at 1 can store.
+    // Dim: an image that clips at 1 could store about three times as much.
     b.sun({0.3, -0.4, -1}, glm::vec3(1), 0.5f);
     b.point({2.6, 0.4, 3}, glm::vec3(1), 2.5f);
     b.spot({2.6, 0.4, 4}, {2.6, 0.4, 0}, glm::vec3(1), 4, std::numeric_limits<float>::infinity(), 20, 30);

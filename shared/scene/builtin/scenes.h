@@ -36,7 +36,7 @@ Scene lightmaps();       // baked light lost, doubled, clamped or from the wrong
 // places.cpp: positions, visibility, transforms
 Scene coplanar();    // depth ties
 Scene glass();       // blending order, sides and lights; opacity 0, 1 and beyond
-Scene crossed();     // surfaces that no order of draws blends correctly
+Scene crossed();     // surfaces that no draw order blends correctly
 Scene deep();        // position from depth, off-centre in a wide view
 Scene mirrored();    // bitangents and winding under inherited mirroring
 Scene stretched();   // normals under non-uniform scale and shear
@@ -56,7 +56,7 @@ Scene tangents();  // tangents of untransformed or resting texture coordinates
 Scene motion();  // a pose that is missing, late or incomplete
 
 // lamps.cpp: lights
-Scene rangeEdge();  // light left at the end of the range
+Scene rangeEdge();  // light remaining at the end of the range
 Scene suns();
 Scene points();
 Scene spots();

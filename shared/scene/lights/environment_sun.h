@@ -15,8 +15,9 @@ namespace sun_spot {
 
 // Least brightness of each texel, relative to the mean radiance.
 inline constexpr double leastContrast = 16;
-// Largest solid angle, sr: a disc of 6.5 degrees. Inside a larger bright region, the spot's boundary level
-// is raised until the spot is small enough, but it must stay at or below 1 / leastFall of the peak.
+// Largest solid angle, sr: a disc of 6.5 degrees. If a spot is part of a larger bright region, its
+// boundary level is raised until it is small enough. The level must stay at or below 1 / leastFall of the
+// peak.
 inline constexpr double largestSolidAngle = 0.01;
 inline constexpr double leastFall = 8;
 // Compactness: a surface that faces the spot receives at least leastFacing of its light (0.9992 for a disc

@@ -215,7 +215,7 @@ struct Scene {
     std::vector<Transform> transforms;            // of animated nodes
     std::vector<std::vector<float>> weights;      // morph target weights of nodes that have their own
     std::vector<std::vector<glm::dmat4>> copies;  // EXT_mesh_gpu_instancing: node from mesh; may be empty
-    std::vector<Skin> skins;                      // only those that a drawn mesh uses
+    std::vector<Skin> skins;                      // only skins of drawn meshes
     std::vector<Animation> animations;            // as in the file; empty ones do not affect this scene
     glm::vec3 background{0, 0, 0};                // colour of uncovered pixels in images; channels have 0
     std::vector<std::string> notes;               // deviations from the file, one line each

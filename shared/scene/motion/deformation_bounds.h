@@ -34,10 +34,10 @@ struct WorldBox {
 };
 
 // A box around all posed vertices, whether computed in double, or in float32 with an error of up to 1e-5
-// of the box's diagonal. A vertex is a convex combination, with weights a_j, of its joints' transforms M_j
-// of its morphed position q. So it lies in the hull of the boxes M_j q. For any joint r it also lies at
-// M_r q + the sum over the others of a_j (M_j - M_r) q, which is small where the joints meet. Each cluster
-// is bounded by both.
+// of the box's diagonal. A vertex is a convex combination, with weights a_j, of M_j q: the transforms M_j
+// of its joints applied to its morphed position q. So it is in the hull of the boxes M_j q. For any joint
+// r, it is also at M_r q + sum over the others of a_j (M_j - M_r) q. That sum is small where the joints
+// meet. Each cluster is bounded by both.
 WorldBox boundsOf(const DeformationBounds& bounds, const Deformation& deformation);
 
 }  // namespace diptych
