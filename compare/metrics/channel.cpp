@@ -27,7 +27,7 @@ using namespace metrics;
 
 namespace {
 
-// Luminance of a colour (Rec.709), magnitude of anything else.
+// Luminance of a colour (Rec.709), magnitude of other values.
 double magnitude(const float* p, int components, ChannelKind kind) {
     if (kind == ChannelKind::color && components == 3)
         return std::abs(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
@@ -52,15 +52,15 @@ double meanMagnitude(const PictureRows& picture, ChannelKind kind, const Coverag
     return count ? sum / static_cast<double>(count) : 0;
 }
 
-// The bits of doubles that are 0 or above have the order of their values.
-constexpr int digit = 16;  // bits that one histogram tells apart
+// The bits of non-negative doubles sort like their values.
+constexpr int digit = 16;  // bits per histogram pass
 using Histogram = std::vector<std::uint64_t>;
 
-// Ranks of the errors of covered pixels without holding them all: from a histogram of their first digits, and
-// from measuring the pixels again for the errors whose first digits are a rank's.
+// Exact ranks of the errors of covered pixels without storing them all. A histogram of the first digits
+// selects a bin; the pixels are then measured again for errors in that bin.
 class Ranks {
 public:
-    // `first`: of the errors that are not 0, by their first digit. `zeros`: how many are 0.
+    // `first`: histogram of the non-zero errors by first digit. `zeros`: count of the others.
     Ranks(const PictureRows& baseline, const PictureRows& test, const Coverage& coverage,
           const PixelError& error, const Histogram& first, std::uint64_t zeros)
         : baseline_(baseline),
@@ -71,7 +71,7 @@ public:
           zeros_(zeros),
           count_(std::accumulate(first.begin(), first.end(), zeros)) {}
 
-    // The ceil(share N)-th smallest, of each share.
+    // The ceil(share N)-th smallest error for each share.
     std::array<double, 2> nearest(const std::array<double, 2>& shares) const {
         std::array<double, 2> values{};
         std::vector<Sought> sought;
@@ -106,13 +106,14 @@ private:
     struct Sought {
         double* value;
         std::uint64_t rank;              // among the errors that begin with `prefix`, from 1
-        Histogram counts;                // of those, by the digit that follows
-        std::vector<double> gathered{};  // those, if they are few
+        Histogram counts;                // of these errors, by the next digit
+        std::vector<double> gathered{};  // these errors, if few
         std::uint64_t prefix = 0;
         bool few = false;
     };
 
-    // Gathers or counts the errors that begin with each prefix, which is all but `shift` bits.
+    // Gathers or counts the errors that begin with each prefix. A prefix has all bits except the lowest
+    // `shift`.
     void look(std::vector<Sought>& sought, int shift) const {
         struct Found {
             std::vector<Histogram> counts;
@@ -163,7 +164,7 @@ void checkAlike(const PictureRows& a, const PictureRows& b, std::size_t covered)
                                              a.height, a.components, b.width, b.height, b.components));
 }
 
-// The channel by which background is recognised, and its value there.
+// The channel that identifies background, and its value there.
 std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Frame& b) {
     for (const auto& [mode, value] : {std::pair{static_cast<int>(gpu::DEBUG_material_id), -1.0f},
                                       {static_cast<int>(gpu::DEBUG_depth), 0.0f}})
@@ -171,8 +172,8 @@ std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Fra
     return {};
 }
 
-// Whether something blended covers the pixel, of a Frame that knows: in front of the background it is what
-// the pixel shows.
+// Whether a blended surface covers the pixel, if the Frame knows. Against the background, such a pixel
+// counts as surface.
 bool showsBlended(const Frame& frame, std::size_t pixel) {
     if (!frame.blended.empty()) return *frame.blended.pixel(pixel) > 0;
     const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far two images of one channel are apart.
+// Compares two images of one channel.
 #pragma once
 
 #include "shared/frame/debug_modes.h"
@@ -13,47 +13,47 @@
 
 namespace diptych {
 
-// Which pixels show a surface in at least one of two Frames; the others are background and count in no
-// statistic. Background is recognised by material_id = -1, or, without that channel, by depth = 0. Throws
-// std::runtime_error where a channel is not of its Frame's size.
+// Pixels that show a surface in at least one of two Frames; the others are background and count in no
+// statistic. Background has material_id -1 (or, without that channel, depth 0) and no blended surface in
+// front. Throws std::runtime_error if a channel's size is not its Frame's.
 struct Coverage {
-    std::vector<std::uint8_t> covered;  // 1 per pixel that counts
+    std::vector<std::uint8_t> covered;  // 1 for pixels that count
     std::size_t count = 0;
-    bool known = false;  // false: neither channel is there, so every pixel counts
+    bool known = false;  // false: neither channel exists, so every pixel counts
 };
 Coverage coverage(const Frame& a, const Frame& b);
 Coverage everyPixel(std::size_t pixels);
 
-// Whether every component of every covered pixel is 0.
+// Whether all components of all covered pixels are 0.
 bool isBlack(const PictureRows& picture, const Coverage& coverage);
-// The share of the covered pixels that have a component other than 0; 0 where none is covered.
+// Fraction of covered pixels that are not 0; 0 if none is covered.
 double litShare(const PictureRows& picture, const Coverage& coverage);
 
-// Over the covered pixels, in the channel's own unit (angular: degrees); all 0 where nothing is covered.
-// Every figure may be infinite: a NaN or infinity against anything else is an infinite difference, which no
-// tolerance passes, and so is a difference from a baseline that is 0 everywhere (relative).
+// Statistics over the covered pixels, in the channel's unit (angular: degrees); 0 if none is covered. All
+// may be infinite: a NaN or infinity has infinite error against anything else, which no tolerance accepts.
+// So has any difference from a baseline that is 0 everywhere (relative).
 struct ChannelStats {
     double max = 0, mean = 0, rmse = 0;
     double p99 = 0, p999 = 0;        // nearest rank: the ceil(p N)-th smallest of N errors
-    int worst_x = -1, worst_y = -1;  // the first pixel, row by row, that has `max`; -1: no difference
-    std::uint64_t different = 0;     // pixels whose error is not 0
-    std::uint64_t infinite = 0;      // pixels whose error is infinite
-    std::uint64_t nonfinite_baseline = 0,
-                  nonfinite_test = 0;  // pixels with a NaN or infinity, the same or not
+    int worst_x = -1, worst_y = -1;  // first pixel in row order with `max`; -1: no difference
+    std::uint64_t different = 0;     // pixels with non-zero error
+    std::uint64_t infinite = 0;      // pixels with infinite error
+    // Pixels with a NaN or infinity, equal or not.
+    std::uint64_t nonfinite_baseline = 0, nonfinite_test = 0;
 };
 
-// The error of a pixel in a metric. |.| is the largest absolute component.
+// The error of a pixel. |.| is the largest absolute component.
 //   relative  |a-b| / max(|b|, 1e-3 mean), mean: the baseline's mean luminance over covered finite pixels
 //             (Rec.709 weights for colours, magnitude for scalars and vectors)
 //   absolute  |a-b|
-//   angular   atan2(|a x b|, a.b), degrees; 0 between two zero vectors, 180 where one of them is
-//   exact     1 where any component differs
-// Two NaNs are no difference, nor are two equal infinities.
+//   angular   atan2(|a x b|, a.b), degrees; 0 between two zero vectors, 180 if one of them is zero
+//   exact     1 if any component differs
+// Two NaNs are equal, and so are equal infinities.
 class PixelError {
 public:
     PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage);
     double operator()(const float* test, const float* baseline) const;
-    double floor() const { return floor_; }  // relative: the least denominator; otherwise 0
+    double floor() const { return floor_; }  // relative: least denominator; else 0
 
 private:
     Metric metric_;
@@ -61,24 +61,24 @@ private:
     double floor_ = 0;
 };
 
-// Statistics of `test` against `baseline`, equal in size and components (throws std::runtime_error
-// otherwise). Deterministic: sums are double, in pixel order. Takes a few MB, whatever the size.
+// Statistics of `test` against `baseline`. Throws std::runtime_error if their sizes or components differ.
+// Deterministic: sums are double, in pixel order. Takes a few MB for any size.
 ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& baseline,
                           const PictureRows& test, const Coverage& coverage);
 
-// The errors that the statistics are over, W x H x 1; 0 in the background, infinite errors are +infinity.
+// The errors behind the statistics, W x H x 1; 0 in the background, infinite errors are +infinity.
 Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
                  const Coverage& coverage);
 
-// Units in the last place of a pixel's largest component by which two pipelines may differ on a GPU, whose
-// compiler may contract multiplications and additions differently in each.
+// Tolerance in units in the last place of a pixel's largest component between two pipelines on a GPU. Its
+// compiler may contract multiply-adds differently in each.
 constexpr int gpuUlps = 16;
 
-// Pixels of all W x H, covered or not, that are not the same: bit for bit (NaN is NaN, -0 is not 0), or, with
-// `ulps` > 0, further apart than that many units in the last place of the pixel's largest component.
+// Number of pixels of all W x H that differ. Without `ulps`, bitwise: NaN equals NaN, -0 differs from 0.
+// With `ulps` > 0, by more than that many units in the last place of the pixel's largest component.
 std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps);
 
-// One pixel as a picture of 1x1; `pixel` counts row by row from 0.
+// One pixel as a 1x1 image; `pixel` is its index in row order.
 Image onePixel(const Image& image, std::size_t pixel);
 
 }  // namespace diptych

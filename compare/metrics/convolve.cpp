@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four pairs of rows at a time, so that sums go to memory and back once for eight rows.
+// Processes four pairs of rows at a time, so that sums travel to memory once per eight rows.
 #include "compare/metrics/convolve.h"
 
 #include "compare/metrics/fast_math.h"

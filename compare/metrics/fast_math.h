@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Powers of floats in steps that a compiler puts into vector lanes: no call, no branch, no table.
+// Vectorizable powers of floats: no calls, branches or tables.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
-// A function so marked is compiled twice, for any x86-64 and for AVX2, and the processor chooses when the
-// program starts. AVX2 has no fused multiply-add, and the files that use this are compiled with
-// -ffp-contract=off, so both give the same bits. The sanitizers are not yet up when the choice is made.
+// Functions with this attribute are compiled twice, for any x86-64 and for AVX2; the program selects one
+// at start. Both give the same bits: AVX2 has no fused multiply-add, and their files are compiled with
+// -ffp-contract=off. Disabled for sanitizers, which are not initialized at the time of the selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define DIPTYCH_WIDE_LANES __attribute__((target_clones("avx2", "default")))
@@ -17,10 +17,10 @@
 
 namespace diptych::fast {
 
-// log2 of a positive normal float; off by at most 3e-7 absolute + 1.2e-7 relative. x = 2^e m with
-// m in [sqrt(1/2), sqrt 2), and log2 m = (2 / ln 2) artanh((m - 1) / (m + 1)), a series in the square.
+// log2 of a positive normal float; error at most 3e-7 absolute + 1.2e-7 relative. x = 2^e m with m in
+// [sqrt(1/2), sqrt 2), and log2 m = (2 / ln 2) artanh((m - 1) / (m + 1)), as a series.
 inline float log2(float x) {
-    constexpr std::int32_t rootHalf = 0x3f3504f3;  // the bits of sqrt(1/2)
+    constexpr std::int32_t rootHalf = 0x3f3504f3;  // bits of sqrt(1/2)
     const std::int32_t above = std::bit_cast<std::int32_t>(x) - rootHalf;
     const auto exponent = static_cast<float>(above >> 23);
     const float m = std::bit_cast<float>((above & 0x7fffff) + rootHalf);
@@ -30,8 +30,8 @@ inline float log2(float x) {
     return exponent + t * series;
 }
 
-// 2^x for x in [-126, 127]; relative error at most 2.5e-7. Nearest whole number by the shifter 1.5 2^23, then
-// the exponential series up to the sixth power of ln 2 times the rest.
+// 2^x for x in [-126, 127]; relative error at most 2.5e-7. Rounds to the nearest integer by the shifter
+// 1.5 2^23, then evaluates the exponential series to the sixth power of ln 2 times the remainder.
 inline float exp2(float x) {
     constexpr float shifter = 12582912.0f;
     const float whole = (x + shifter) - shifter, f = (x - whole) * 0.693147181f;
@@ -40,8 +40,8 @@ inline float exp2(float x) {
     return series * std::bit_cast<float>((static_cast<std::int32_t>(whole) + 127) << 23);
 }
 
-// x^p for x >= 0 and p in [0, 3], as long as the result is a normal float; exactly 0 for an x below the least
-// normal one. Relative error at most 3e-7 + 1.2e-7 p |log2 x|: below 1e-6 for x in [1e-3, 1].
+// x^p for x >= 0 and p in [0, 3], if the result is a normal float; exactly 0 if x is below the least
+// normal float. Relative error at most 3e-7 + 1.2e-7 p |log2 x|: below 1e-6 for x in [1e-3, 1].
 inline float pow(float x, float p) {
     constexpr float least = 0x1p-126f;
     const float exponent = p * fast::log2(x < least ? least : x);

@@ -26,7 +26,7 @@ using metrics::size;
 
 constexpr double mostStops = 126;  // 2^126 is a float
 
-// Two NaNs are the same, and so are two equal infinities.
+// Two NaNs are equal, and so are equal infinities.
 bool same(const float* a, const float* b) {
     for (int c = 0; c < 3; ++c)
         if (a[c] != b[c] && !(std::isnan(a[c]) && std::isnan(b[c]))) return false;
@@ -52,7 +52,7 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Flip
             fmt::format("FLIP with {} pixels per degree: give 1 to 1000", options.pixels_per_degree));
 }
 
-// Counts and holes; finite values outside [least, most] are counted as limited.
+// Finds holes and counts; finite values outside [least, most] count as limited.
 FlipPair inspect(const PictureRows& reference, const PictureRows& test, float least, float most,
                  FlipResult& result) {
     FlipPair pair{reference, test, {}};
@@ -83,9 +83,9 @@ FlipPair inspect(const PictureRows& reference, const PictureRows& test, float le
     return pair;
 }
 
-constexpr std::size_t pieceLength = 4096;  // of values that are made for an Order
+constexpr std::size_t pieceLength = 4096;  // values per chunk for an Order
 
-// The errors that count, in order.
+// Order statistics of the errors that count.
 metrics::Order counted(const FlipPair& pair, std::span<const std::uint8_t> covered, const Image& error) {
     if (covered.empty() && pair.holes.empty()) return metrics::Order(error.data);
     return {error.pixels(), [&pair, &error, covered](std::size_t from, std::size_t to, const auto& use) {
@@ -137,7 +137,8 @@ void chooseExposures(const PictureRows& reference, const HdrFlipOptions& options
         throw std::runtime_error(fmt::format("{} exposures: give 1 or more", result.exposures));
 }
 
-// Linear luminances (Rec.709) of the finite pixels, negative components as 0; `lit`: of those that have one.
+// Linear luminances (Rec.709) of the finite pixels; negative components count as 0. `lit`: only positive
+// luminances.
 metrics::Order luminances(const PictureRows& picture, bool lit) {
     return {picture.pixels(), [&picture, lit](std::size_t from, std::size_t to, const auto& use) {
                 const std::size_t width = size(picture.width);
@@ -206,12 +207,12 @@ struct HdrFlipAgainst::State {
     FlipPair inspectLinear(const PictureRows& test, FlipResult& result) const {
         return inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
     }
-    // The errors alone; returns what they are of.
+    // Computes only the error map; returns the pair.
     FlipPair compare(const PictureRows& test, HdrFlipResult& result) const {
         checkPair(reference, test, options);
         result = begun;
         FlipPair pair = inspectLinear(test, result);
-        // What is kept was made without the reference's own holes; a test may have more.
+        // The cached reference excludes only its own holes; a test may have more.
         const auto holes =
             pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
         flipErrorMap(pair, filters, looks, result.error,
@@ -222,7 +223,7 @@ struct HdrFlipAgainst::State {
     const PictureRows reference;
     const HdrFlipOptions options;
     const FlipFilters filters{options.pixels_per_degree};
-    HdrFlipResult begun;  // its exposures
+    HdrFlipResult begun;  // has the exposures
     std::vector<FlipLook> looks;
     std::optional<FilteredReference> kept;
 };

@@ -12,7 +12,7 @@ using Weights = std::vector<double>;
 
 using std::numbers::pi;
 
-// exp(-pi^2 d^2 / b), d in degrees: up to a factor the inverse Fourier transform of a sensitivity of exp(-b
+// exp(-pi^2 d^2 / b), d in degrees: up to a factor, the inverse Fourier transform of a sensitivity exp(-b
 // f^2), f in cycles per degree.
 Weights sensitivity(double b, double pixelsPerDegree, int radius) {
     Weights w(static_cast<std::size_t>(radius) + 1);
@@ -29,8 +29,8 @@ double bothSides(const Weights& w) {
     return sum;
 }
 
-// Divided by `sum`, without the tail below 1e-8 of the middle: sixteen such are below half a unit in a
-// float's last place.
+// Divides by `sum` and drops the tail below 1e-8 of the middle: sixteen such weights are below half a unit
+// in a float's last place.
 HalfKernel over(const Weights& w, double sum) {
     std::size_t last = w.size();
     while (last > 1 && w[last - 1] < 1e-8 * w[0]) --last;
@@ -43,7 +43,7 @@ int up(double v) {
     return static_cast<int>(std::ceil(v));
 }
 
-// Each weight over the sum of those of its sign.
+// Normalizes positive and negative weights separately.
 HalfKernel signsApart(const Weights& w, double positive, double negative) {
     HalfKernel kernel;
     for (const double v : w) kernel.push_back(static_cast<float>(v > 0 ? v / positive : v / negative));
@@ -53,10 +53,10 @@ HalfKernel signsApart(const Weights& w, double positive, double negative) {
 }  // namespace
 
 FlipFilters::FlipFilters(double ppd) {
-    // Table 1 of the paper: a and b of a exp(-b f^2), yellow-blue with two such.
+    // Table 1 of the paper: a and b of a exp(-b f^2); yellow-blue has two terms.
     constexpr double by = 0.0047, bcx = 0.0053, a1 = 34.1, b1 = 0.04, a2 = 13.5, b2 = 0.025;
-    const int radius =
-        up(3 * std::sqrt(b1 / (2 * pi * pi)) * ppd);  // three deviations of the widest, for all
+    // Three standard deviations of the widest filter, for all.
+    const int radius = up(3 * std::sqrt(b1 / (2 * pi * pi)) * ppd);
     const Weights wy = sensitivity(by, ppd, radius), wcx = sensitivity(bcx, ppd, radius);
     const Weights w1 = sensitivity(b1, ppd, radius), w2 = sensitivity(b2, ppd, radius);
     y = over(wy, bothSides(wy));
@@ -67,8 +67,8 @@ FlipFilters::FlipFilters(double ppd) {
     cz_share = {static_cast<float>(volume1 / (volume1 + volume2)),
                 static_cast<float>(volume2 / (volume1 + volume2))};
 
-    const double deviation =
-        0.5 * 0.082 * ppd;  // half of the width of 0.082 degrees that an edge is detected at
+    // Half of the width of 0.082 degrees at which an edge is detected.
+    const double deviation = 0.5 * 0.082 * ppd;
     const auto size = static_cast<std::size_t>(up(3 * deviation)) + 1;
     Weights g(size), first(size), second(size);
     double firstSum = 0, positive = 0, negative = 0;

@@ -26,8 +26,8 @@ constexpr Matrix inverse(const Matrix& m) {
     return r;
 }
 
-// CIE XYZ over white's from linear sRGB, from the chromaticities of IEC 61966-2-1 (primaries of Rec.709, D65
-// at x 0.3127, y 0.3290): each row adds up to 1.
+// Linear sRGB to CIE XYZ relative to white, from the chromaticities of IEC 61966-2-1 (primaries of
+// Rec.709, D65 at x 0.3127, y 0.3290): each row adds up to 1.
 constexpr Matrix xyzFromRgb = [] {
     constexpr double x[] = {0.64, 0.30, 0.15}, y[] = {0.33, 0.60, 0.06};
     constexpr double white[] = {0.3127 / 0.3290, 1, (1 - 0.3127 - 0.3290) / 0.3290};
@@ -77,21 +77,21 @@ inline void store(const OpponentRow& out, int i, const Triple& rgb) {
     out.cz[i] = xyz.b - xyz.c;
 }
 
-// CIELAB's f: a cube root above (6/29)^3, a line below.
+// CIELAB's f: a cube root above (6/29)^3, linear below.
 inline float labCurve(float t) {
     constexpr float delta = 6.0f / 29;
     const float root = fast::pow(t, 1.0f / 3), line = t / (3 * delta * delta) + 4.0f / 29;
     return t > delta * delta * delta ? root : line;
 }
 
-// CIELAB whose chroma is scaled by lightness, for the Hunt effect (Andersson et al. 2020, section 4.1.2).
+// CIELAB with chroma scaled by lightness, for the Hunt effect (Andersson et al. 2020, section 4.1.2).
 inline Triple huntLab(const Triple& xyz) {
     const float fx = labCurve(xyz.a), fy = labCurve(xyz.b), fz = labCurve(xyz.c);
     const float lightness = 116 * fy - 16;
     return {lightness, 0.01f * lightness * 500 * (fx - fy), 0.01f * lightness * 200 * (fy - fz)};
 }
 
-// Rows y, cx, cz to lightness and chroma, in place.
+// Converts rows y, cx, cz to lightness and chroma, in place.
 DIPTYCH_WIDE_LANES void labInPlace(float* __restrict y, float* __restrict cx, float* __restrict cz, int n) {
     for (int i = 0; i < n; ++i) {
         const Triple rgb = times(rgbFromXyz, {cx[i] + y[i], y[i], y[i] - cz[i]});
@@ -116,21 +116,21 @@ inline float hyab(const Triple& p, const Triple& q) {
 
 constexpr float qc = 0.7f, pc = 0.4f, pt = 0.95f, qf = 0.5f;  // Andersson et al. 2020, sections 4.1.3 and 4.2
 
-// The largest distance of two sRGB colours, green's from blue's, after its power.
+// The largest distance of two sRGB colours, green and blue, after the power qc.
 float largestColorDistance() {
     static const float largest =
         std::pow(hyab(huntLab(times(xyzFromRgb, {0, 1, 0})), huntLab(times(xyzFromRgb, {0, 0, 1}))), qc);
     return largest;
 }
 
-// Distances up to pc of the largest fill [0, pt], the rest what is left.
+// Maps distances up to pc of the largest to [0, pt], and the rest to [pt, 1].
 inline float colorError(float distance, float largest) {
     const float d = fast::pow(distance, qc), knee = pc * largest;
     const float low = d * (pt / knee), high = pt + (d - knee) * ((1 - pt) / (largest - knee));
     return unit(d < knee ? low : high);
 }
 
-// Rows ax, ay to their lengths, in ax.
+// Replaces ax by the lengths of (ax, ay).
 DIPTYCH_WIDE_LANES void lengthsInPlace(float* __restrict ax, const float* __restrict ay, int n) {
     for (int i = 0; i < n; ++i) ax[i] = magnitude(ax[i], ay[i]);
 }
@@ -147,7 +147,7 @@ DIPTYCH_WIDE_LANES void errorsOfComparable(float* __restrict out, const Comparab
     }
 }
 
-// x in [0, `most`], above which every curve is past 1 anyway and squares might overflow.
+// Clamps x to [0, `most`]: above it every curve exceeds 1, and squares might overflow.
 inline float limited(float x, float most) {
     x = x < 0 ? 0.0f : x;
     return x > most ? most : x;

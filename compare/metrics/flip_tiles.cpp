@@ -16,10 +16,11 @@ namespace {
 
 using metrics::size;
 
-// Wide and high enough that the border, 10 pixels for a usual viewer, costs little; rows that fit in a cache.
+// Large enough that the border, 10 pixels for the default viewing distance, costs little; rows fit in a
+// cache.
 constexpr int tileWidth = 256, tileHeight = 128;
 
-constexpr std::size_t planes = 5;  // of a ComparableRow
+constexpr std::size_t planes = 5;  // planes of a ComparableRow
 
 struct Tile {
     int x0, y0, x1, y1;
@@ -44,8 +45,8 @@ std::vector<Tile> tilesOf(const PictureRows& image) {
     return tiles;
 }
 
-// The buffers of one thread. Rows of a tile enter one by one, with `radius_` columns and rows around it where
-// the picture's border is repeated; once enough are there, a row of errors can be made.
+// The buffers of one thread. Rows of a tile enter one by one, padded by `radius_` columns and rows; the
+// image's border is repeated. Errors of a row are computed once all its taps are there.
 class TileRows {
 public:
     TileRows(const FlipPair& pair, const FlipFilters& filters)
@@ -64,10 +65,10 @@ public:
         }
     }
 
-    // Whether both pictures are equal wherever a filter of the tile's pixels reads; then every error is 0.
+    // Whether both images are equal within the filters' support of the tile; then all errors are 0.
     bool isSame(const Tile& tile) const;
-    // Calls use(y, errors) with the tile's rows from the top; tile.width() errors each. `referenceRow`: gives
-    // the comparable row y of the reference, or is empty, and it is made here.
+    // Calls use(y, errors) for the tile's rows from the top, with tile.width() errors each. `referenceRow`
+    // gives the reference's comparable row y; if empty, it is computed.
     using ReferenceRow = std::function<ComparableRow(int y)>;
     template <class Use>
     void errors(const Tile& tile, const FlipLook* look, const ReferenceRow& referenceRow, const Use& use) {
@@ -83,15 +84,15 @@ public:
     }
 
 private:
-    // Of the reference, the test, and, where there are holes, a weight plane: 1 for each pixel that is no
-    // hole.
+    // The reference, the test and, if there are holes, a weight plane: 0 at holes, 1 elsewhere.
     struct Picture {
         std::vector<float> ring;      // kept_ rows x 3 planes
         std::vector<float> filtered;  // 7 rows
     };
     enum Which { reference, test, weight };
 
-    // Lets the rows of pictures first to last enter and calls use(y) where all is there for a tile's row.
+    // Enters rows of the pictures `first` to `last`, and calls use(y) when all taps of a tile's row are
+    // there.
     template <class Use>
     void scan(const Tile& tile, const FlipLook* look, Which first, Which last, const Use& use) {
         tile_ = tile;
@@ -123,9 +124,9 @@ private:
 
     using Convolve = void(float*, const float* const*, const float*, int, int);
     const float* const* middle() const { return taps_.data() + radius_; }
-    // From a plane's rows around y into upright_.
+    // Convolves vertically: a plane's rows around y into upright_.
     void down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane);
-    // From upright_ into a row of the tile's width.
+    // Convolves horizontally: upright_ into a row of the tile's width.
     void along(Convolve convolve, const HalfKernel& kernel, float* out);
 
     void filter(Picture& picture, int y);
@@ -162,7 +163,7 @@ bool TileRows::hasHoles() const {
     return false;
 }
 
-// Row y of the tile's columns and those around them into rgb_; black, which is 0 in every plane, at holes.
+// Copies row y of the padded tile to rgb_; holes become black, which is 0 in every plane.
 void TileRows::gather(const PictureRows& image, int y) {
     const int line = std::clamp(y, 0, image.height - 1);
     const int first = tile_.x0 - radius_, last = first + paddedWidth();
@@ -234,11 +235,11 @@ void TileRows::filter(Picture& picture, int y) {
     along(convolveEven, f.smooth, out.point_y);
 }
 
-// Renormalises filtered values after holes entered the filters as 0: the weights of holes are distributed
-// over the other pixels. The feature detectors, whose weights add up to 0, treat a hole as if it had the
-// filtered luminance of the pixel they are evaluated at.
+// Renormalizes filtered values after holes entered as 0: their weights are distributed over the other
+// pixels. The feature detectors, whose weights add up to 0, treat a hole as the filtered luminance at the
+// evaluated pixel.
 void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) const {
-    constexpr float least = 1e-30f;  // at a hole among holes, whose error comes from elsewhere
+    constexpr float least = 1e-30f;  // for a hole among holes, whose error is set elsewhere
     for (int i = 0; i < tile_.width(); ++i) {
         row.y[i] /= std::max(weights.y[i], least);
         row.cx[i] /= std::max(weights.cx[i], least);
@@ -266,7 +267,7 @@ void TileRows::makeErrors(int y, const ReferenceRow& referenceRow) {
         if (holes[i] != Hole::none) second_[size(i)] = holes[i] == Hole::different ? 1.0f : 0.0f;
 }
 
-// Where `next` is above `most`, replaces `most` by it.
+// most = max(most, next).
 void keepLargest(const float* next, float* most, int n) {
     for (int i = 0; i < n; ++i) most[i] = next[i] > most[i] ? next[i] : most[i];
 }

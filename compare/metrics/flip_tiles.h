@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FLIP's errors of two pictures, tile by tile. Beside the pictures each thread holds a few dozen rows of one
+// FLIP's errors of two images, tile by tile. Besides the images, each thread needs a few dozen rows of one
 // tile.
 #pragma once
 
@@ -14,42 +14,42 @@
 
 namespace diptych {
 
-// Whether a pixel is left out of the filters because a component is NaN or infinite: not at all, in both
-// pictures with the same value, or otherwise.
+// Whether a pixel is excluded from the filters because a component is NaN or infinite: no; with the same
+// value in both images; otherwise.
 enum class Hole : std::uint8_t { none, same, different };
 
 struct FlipPair {
-    PictureRows reference, test;  // W x H x 3, alike
+    PictureRows reference, test;  // W x H x 3, same size
     std::vector<Hole> holes;      // W x H; empty: none
 };
 
-// One exposure of a pair of linear pictures: values are multiplied by `scale` and tone mapped.
+// One exposure of a linear pair: values are multiplied by `scale` and tone mapped.
 struct FlipLook {
     float scale;
     ToneMapper mapper;
 };
 
-// A reference as it is compared under some looks, so that of each test only its own half is filtered. 20
-// bytes a pixel and look; the looks that `most_bytes` has room for, from the first on.
+// A reference that is already filtered at some exposures, so that only the tests need filtering. Takes 20
+// bytes per pixel and exposure; caches the first exposures that fit into `most_bytes`.
 class FilteredReference {
 public:
-    // `holes`: as the pairs have them that it serves; W x H or empty.
+    // `holes`: W x H or empty; must be those of the pairs that use it.
     FilteredReference(const PictureRows& reference, const std::vector<Hole>& holes,
                       const FlipFilters& filters, const std::vector<FlipLook>& looks, std::size_t most_bytes);
     bool keeps(std::size_t look) const { return look < looks_.size(); }
-    // From column x of row y on; of a look that is kept.
+    // Row y from column x on, for a cached look.
     ComparableRow row(std::size_t look, int x, int y) const;
 
 private:
     std::size_t at(std::size_t plane, int x, int y) const;
 
     std::size_t width_, height_;
-    std::vector<std::vector<float>> looks_;  // the planes of a ComparableRow, in its order
+    std::vector<std::vector<float>> looks_;  // planes of a ComparableRow, in its order
 };
 
-// Errors of a pair of sRGB pictures (no looks), or the largest over the looks at a linear pair. At a hole the
-// error is 0 (same) or 1 (different). `kept`: of the pair's reference and holes, under these looks; the
-// result is the same with and without it.
+// Errors of a pair of sRGB images (no looks), or the largest over the looks of a linear pair. Holes have
+// error 0 (same) or 1 (different). `kept`: cache for the pair's reference, holes and looks; it does not
+// change the result.
 void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
                   Image& errors, const FilteredReference* kept = nullptr);
 

@@ -12,8 +12,8 @@
 namespace diptych::metrics {
 namespace {
 
-constexpr std::size_t bins = (0x7f800000u >> 16) + 1;  // up to infinity
-constexpr std::size_t parts = 8;                       // fixed, so that sums are added in one order
+constexpr std::size_t bins = (0x7f800000u >> 16) + 1;  // includes infinity
+constexpr std::size_t parts = 8;                       // fixed, so that the order of sums is fixed
 
 struct Part {
     std::vector<std::uint32_t> count;
@@ -66,7 +66,7 @@ Order::Order(std::span<const float> values)
       }) {}
 
 std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) const {
-    std::vector<std::uint8_t> place(bins);  // in `wanted`, from 1
+    std::vector<std::uint8_t> place(bins);  // index in `wanted` + 1; 0: not wanted
     for (std::size_t i = 0; i < wanted.size(); ++i) place[wanted[i]] = static_cast<std::uint8_t>(i + 1);
     const std::vector<Bin> none(wanted.size(), Bin(std::size_t{1} << 16));
     tbb::enumerable_thread_specific<std::vector<Bin>> found(none);
@@ -88,8 +88,8 @@ std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) co
 std::vector<float> Order::nearestRanks(std::span<const double> shares) const {
     std::vector<float> values(shares.size());
     if (size_ == 0) return values;
-    std::vector<std::size_t> found, in;  // bins, each once; which of them a share's rank is in
-    std::vector<std::uint64_t> left;     // ranks within them
+    std::vector<std::size_t> found, in;  // distinct bins; index in `found` for each share
+    std::vector<std::uint64_t> left;     // ranks within the bins
     for (const double share : shares) {
         auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(size_)));
         rank = std::clamp<std::uint64_t>(rank, 1, size_);
@@ -114,7 +114,7 @@ float Order::weightedQuantile(double share) const {
     double left = share * sum_;
     std::size_t bin = 0;
     for (; bin < bins && !(count_[bin] && left <= weight_[bin]); ++bin) left -= weight_[bin];
-    if (bin == bins) return nearestRank(1);  // the sums' rounding
+    if (bin == bins) return nearestRank(1);  // rounding of the sums
     const Bin low = std::move(within({bin}).front());
     float value = 0;
     for (std::size_t i = 0; i < low.size(); ++i) {

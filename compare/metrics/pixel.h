@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far apart two pixels are. Two NaNs are the same, and so are two equal infinities; any other nonfinite
-// component is infinitely far from the component it is compared with.
+// Distance of two pixels. Two NaNs are equal, and so are equal infinities; other non-finite components are
+// infinitely far from anything.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline bool same(float a, float b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-// |a-b| of two components; of two pixels, the largest of their components.
+// |a-b| of two components; for pixels, the largest over components.
 inline double distance(float a, float b) {
     if (same(a, b)) return 0;
     if (!std::isfinite(a) || !std::isfinite(b)) return infinity;
@@ -43,8 +43,8 @@ inline double largestFinite(const float* p, int components) {
     return largest;
 }
 
-// Degrees between two vectors of three finite components; 0 between two zero vectors, 180 where one of them
-// is. In double, by atan2: acos of a dot product loses half the digits near 0 (Kahan 2006, "How Futile are
+// Degrees between two finite 3-vectors; 0 between two zero vectors, 180 if one is zero. Computed by atan2
+// in double, because acos of a dot product loses half the digits near 0 (Kahan 2006, "How Futile are
 // Mindless Assessments of Roundoff", section 12).
 inline double angle(const float* a, const float* b) {
     const double ax = a[0], ay = a[1], az = a[2], bx = b[0], by = b[1], bz = b[2];
@@ -54,7 +54,7 @@ inline double angle(const float* a, const float* b) {
     return std::atan2(cross, ax * bx + ay * by + az * bz) * 180 / std::numbers::pi;
 }
 
-// By how much the lengths of two vectors of three finite components differ.
+// Difference of the lengths of two finite 3-vectors.
 inline double lengthsApart(const float* a, const float* b) {
     const auto length = [](const float* v) { return std::hypot(double{v[0]}, double{v[1]}, double{v[2]}); };
     return std::abs(length(a) - length(b));

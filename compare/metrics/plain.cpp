@@ -21,10 +21,10 @@ using namespace metrics;
 
 namespace {
 
-constexpr float notCovered = -1;  // in a list of errors: not covered
-constexpr int bandHeight = 16;    // rows whose sums are made by one thread and added in one order
+constexpr float notCovered = -1;  // marks uncovered pixels in a list of errors
+constexpr int bandHeight = 16;    // rows that one thread sums; bands are added in a fixed order
 
-// The sums of one band of rows.
+// Sums over one band of rows.
 struct BandSums {
     RowSums components;
     double angles = 0, mostDegrees = 0, mostLength = 0, peak = 0;
@@ -44,7 +44,7 @@ public:
     bool angles() const { return angles_; }
     double meanMagnitude() const { return 1e3 * floor_; }
 
-    // The sums of all rows.
+    // Sums over all rows.
     BandSums run() const {
         std::vector<BandSums> bands(size((reference_.height + bandHeight - 1) / bandHeight));
         tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
@@ -67,7 +67,7 @@ public:
         return total;
     }
 
-    // The relative errors of all pixels; below 0: not covered. They are measured again at every look.
+    // Relative errors of all pixels; < 0: not covered. They are recomputed for each pass.
     Order relative() const {
         return {reference_.pixels(), [this](std::size_t from, std::size_t to, const Order::Use& use) {
                     const std::size_t width = size(reference_.width);
@@ -82,16 +82,16 @@ public:
     }
 
 private:
-    // The measurements of one row; its memory serves one row after the other.
+    // The measurements of one row; its buffers are reused.
     struct Row {
         std::vector<float> buffers[2];
-        const float *test, *reference;          // uncovered and nonfinite components are 0
-        std::vector<float> absolute, relative;  // errors, a pixel each; below 0: not covered
+        const float *test, *reference;          // uncovered and non-finite components are 0
+        std::vector<float> absolute, relative;  // per pixel; < 0: not covered
         std::uint64_t infinite, nonfinite_reference, nonfinite_test;
     };
     void measure(int y, Row& row) const;
-    // Replaces what is not finite or not covered of both by 0, in copies; returns the columns whose
-    // difference is infinite.
+    // Copies rows and replaces non-finite and uncovered values by 0; returns columns with infinite
+    // difference.
     std::vector<std::size_t> clean(int y, Row& row) const;
     void add(int y, Row& row, BandSums& sums) const;
 
@@ -156,7 +156,8 @@ void PlainPass::add(int y, Row& row, BandSums& sums) const {
         ++sums.different;
         if (!angles_) continue;
         const float *t = row.test + 3 * x, *r = row.reference + 3 * x;
-        if (std::equal(t, t + 3, r)) continue;  // they differ in a component that is not finite, 0 here
+        // They differ only in a non-finite component, which is 0 here.
+        if (std::equal(t, t + 3, r)) continue;
         const double degrees = angle(t, r);
         sums.angles += degrees;
         sums.mostDegrees = std::max(sums.mostDegrees, degrees);
@@ -205,7 +206,7 @@ void setAngles(const BandSums& sums, PlainMetrics& m) {
     m.angle_mean = sums.angles / static_cast<double>(m.pixels) + beyond;
 }
 
-// The plane of luma that SSIM compares.
+// The luma plane for SSIM.
 PlaneRow luma(const PictureRows& picture, Range range, float scale) {
     return [=, &picture](float* out, int y) {
         static thread_local std::vector<float> buffer;
@@ -219,7 +220,7 @@ PlaneRow luma(const PictureRows& picture, Range range, float scale) {
 
 std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& test, Range range,
                              double meanLuminance, const Coverage& coverage) {
-    // A black reference has no mean to go by; a dim one's inverse may be no float.
+    // A black reference has no mean; the inverse of a tiny mean may overflow.
     const double scale = meanLuminance > 0 ? std::min(0.18 / meanLuminance, 1e30) : 1;
     const auto s = static_cast<float>(scale);
     return ssim(reference.width, reference.height, luma(reference, range, s), luma(test, range, s),

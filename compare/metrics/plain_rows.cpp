@@ -13,7 +13,7 @@ namespace {
 
 constexpr int lanes = 8;
 
-// Whole numbers in the order of the floats; -0 and 0 are both 0.
+// Integers that sort like the floats; -0 and 0 are both 0.
 inline std::int32_t ordered(float v) {
     const auto bits = std::bit_cast<std::int32_t>(v);
     return bits < 0 ? std::numeric_limits<std::int32_t>::min() - bits : bits;
@@ -119,7 +119,7 @@ DIPTYCH_WIDE_LANES bool allFinite(const float* values, int n) {
 DIPTYCH_WIDE_LANES void lumaFromDisplay(float* __restrict out, const float* __restrict rgb, int n) {
     for (int i = 0; i < n; ++i) {
         const float l = luminance(rgb + 3 * i);
-        out[i] = l + 0.0f * (l - l);  // an infinity is NaN
+        out[i] = l + 0.0f * (l - l);  // infinity becomes NaN
     }
 }
 

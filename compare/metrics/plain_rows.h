@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums of two rows of finite components.
+// Sums over two rows of finite components.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace diptych {
 
-// Eight partial sums that are used in turn and added in a fixed order, so that the result does not depend on
-// the width of vector lanes.
+// Eight interleaved partial sums, added in a fixed order, so that the result does not depend on the vector
+// width.
 struct RowSums {
     std::array<double, 8> absolute{}, squared{}, relative{}, ulps{};
     double mostUlps = 0;
@@ -16,20 +16,20 @@ struct RowSums {
     static double total(const std::array<double, 8>& sums);
 };
 
-// Adds n components, all finite: |t-r|, (t-r)^2, (t-r)^2 / (r^2 + 0.01) and the distance in float32 values.
-// The sums of whole numbers are exact up to 2^53.
+// Adds n finite components: |t-r|, (t-r)^2, (t-r)^2 / (r^2 + 0.01) and the distance in float32 values,
+// whose sums are exact up to 2^53.
 void addRow(RowSums& sums, const float* test, const float* reference, int n);
 
-// Per pixel of 1 to 4 finite components: the largest |t-r|, and that over max(largest |r|, floor); 0 where
-// both are. n pixels.
+// Per pixel of 1 to 4 finite components: the largest |t-r|, and that over max(largest |r|, floor), 0 / 0
+// being 0. n pixels.
 void pixelErrors(float* absolute, float* relative, const float* test, const float* reference, int components,
                  double floor, int n);
 
-// Whether all n are finite.
+// Whether all n values are finite.
 bool allFinite(const float* values, int n);
 
-// Luma of n RGB pixels of display values; or, of linear ones, of what Reinhard's curve shows of `scale` times
-// their luminance, as an sRGB value. NaN where a component is nonfinite.
+// Luma of n RGB pixels. Display values: directly. Linear values: sRGB value of Reinhard's curve of `scale`
+// times their luminance. NaN if a component is non-finite.
 void lumaFromDisplay(float* out, const float* rgb, int n);
 void lumaFromLinear(float* out, const float* rgb, int n, float scale);
 

@@ -13,7 +13,7 @@
 namespace diptych::metrics {
 namespace {
 
-// Weighted sums along rows (dx 1) or columns (dy 1) of values and of weights, component `components` of `in`.
+// Weighted sums along rows (dx 1) or columns (dy 1).
 Image convolved(const Image& in, const std::vector<float>& weights, int dx, int dy) {
     const int radius = static_cast<int>(weights.size()) - 1;
     Image out(in.width, in.height, in.components);
@@ -38,7 +38,7 @@ Image blurred(const Image& image, double radius) {
     std::vector<float> weights;
     for (int k = 0; k <= static_cast<int>(std::ceil(3 * radius)); ++k)
         weights.push_back(static_cast<float>(std::exp(-0.5 * k * k / (radius * radius))));
-    // An additional last component sums up the weights.
+    // An extra last component sums the weights.
     Image counted(image.width, image.height, image.components + 1);
     for (std::size_t i = 0; i < image.pixels(); ++i)
         if (finite(image.pixel(i), image.components)) {
@@ -56,7 +56,7 @@ Image blurred(const Image& image, double radius) {
 
 Image shifted(const Image& reference, const Image& test, int radius) {
     if (radius <= 0) return test;
-    // Spatially closest first, so that a tie goes to the pixel that moved least.
+    // Closest first, so that the smallest shift wins ties.
     struct Step {
         int x, y;
     };

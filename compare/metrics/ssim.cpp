@@ -18,8 +18,8 @@ namespace diptych::metrics {
 namespace {
 
 constexpr int radius = 5;
-constexpr int bandHeight = 16;              // rows whose similarities are added up first
-constexpr int taskHeight = 4 * bandHeight;  // rows of one thread's planes, beside the windows' borders
+constexpr int bandHeight = 16;              // rows whose similarities are summed first
+constexpr int taskHeight = 4 * bandHeight;  // rows per task; the planes also have the windows' borders
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;  // (K L)^2
 
 std::array<float, radius + 1> window() {
@@ -34,8 +34,8 @@ std::array<float, radius + 1> window() {
     return normalised;
 }
 
-// Sum and difference of the two pictures and their squares: with these the variances and the covariance take
-// four filters instead of five.
+// Sum and difference of the two images, and their squares. Variances and covariance then need four filters
+// instead of five.
 struct Moments {
     float *sum, *difference, *sum2, *difference2;
 };
@@ -52,8 +52,8 @@ DIPTYCH_WIDE_LANES void momentsOf(const float* __restrict a, const float* __rest
     }
 }
 
-// With s = a + b and d = a - b: 2 mean a mean b = (s^2 - d^2) / 2, mean a^2 + mean b^2 = (s^2 + d^2) / 2, and
-// the same of variances. Two equal pictures have exactly 1.
+// With s = a + b and d = a - b: 2 mean a mean b = (s^2 - d^2) / 2, mean a^2 + mean b^2 = (s^2 + d^2) / 2;
+// likewise for variances. Two equal images have exactly 1.
 DIPTYCH_WIDE_LANES void similarities(float* __restrict out, const Moments m, int n) {
     for (int i = 0; i < n; ++i) {
         const float s2 = m.sum[i] * m.sum[i], d2 = m.difference[i] * m.difference[i];
@@ -68,10 +68,10 @@ struct Sum {
     std::uint64_t count = 0;
 };
 
-// Windows whose middles are in rows [from, to).
+// Windows with centres in rows [from, to).
 class Band {
 public:
-    // `reference` and `test`: row from - radius of the planes, on which the others follow.
+    // `reference` and `test`: row from - radius of the planes; the other rows follow.
     Band(const float* reference, const float* test, int width, int from, int to)
         : width_(width),
           from_(from),
@@ -126,7 +126,7 @@ std::optional<double> ssim(int width, int height, const PlaneRow& reference, con
     if (size(width) * size(height) != covered.size())
         throw std::runtime_error(fmt::format("SSIM of {}x{} pixels: {} coverage values; give one per pixel",
                                              width, height, covered.size()));
-    const int first = radius, last = height - radius;  // rows of middles
+    const int first = radius, last = height - radius;  // rows of centres
     if (first >= last || width <= 2 * radius) return {};
     std::vector<Sum> bands(size((last - first + bandHeight - 1) / bandHeight));
     tbb::parallel_for(0, (last - first + taskHeight - 1) / taskHeight, [&](int task) {

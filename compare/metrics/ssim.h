@@ -9,12 +9,13 @@
 
 namespace diptych::metrics {
 
-// Writes row y of a plane, whose values are in [0, 1]. Called by several threads at once.
+// Writes row y of a plane of values in [0, 1]. Several threads call it concurrently.
 using PlaneRow = std::function<void(float* out, int y)>;
 
-// Of two planes as PlainMetrics::ssim says: the mean over windows within the picture whose middle is covered
-// (not 0) and that hold no NaN; none where no such window is. Throws std::runtime_error where `covered` has
-// not a value for each pixel. Each thread holds 252 rows; their number does not change the result.
+// SSIM of two planes as in PlainMetrics::ssim: the mean over windows inside the image with a covered
+// centre (not 0) and without NaN; none if there is no such window. Throws std::runtime_error unless
+// `covered` has one value per pixel. Each thread needs 252 rows. The number of threads does not change the
+// result.
 std::optional<double> ssim(int width, int height, const PlaneRow& reference, const PlaneRow& test,
                            std::span<const std::uint8_t> covered);
 

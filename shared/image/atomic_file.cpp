@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Refuses folders and devices before a temporary file is made beside them.
+// Rejects folders and devices before a temporary file is created.
 const fs::path& replaceable(const fs::path& file) {
     std::error_code ignored;
     const fs::file_status status = fs::symlink_status(file, ignored);
@@ -35,8 +35,8 @@ AtomicFile::~AtomicFile() {
     if (stream_) std::fclose(stream_);
 }
 
-// The errno of an earlier failed write is lost, so one more byte is written to get it again; the file is
-// discarded anyway. If that write succeeds, the cause has vanished meanwhile: EIO is reported.
+// The errno of an earlier failed write is lost. Writing one more byte reproduces it; the file is discarded
+// anyway. If that write succeeds, the cause is gone, and EIO is reported.
 void AtomicFile::commit() {
     const bool failed = std::ferror(stream_) != 0;
     errno = 0;

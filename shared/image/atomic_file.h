@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Output files that appear under their name complete or not at all.
+// Atomic replacement of output files.
 #pragma once
 
 #include "shared/image/temporary.h"
@@ -11,20 +11,19 @@
 
 namespace diptych {
 
-// A file written under a temporary name beside `file` and renamed by commit(); without a commit the
-// temporary is removed. It is not synced to the disk: this protects against a full disk and an interrupted
-// program, not against a power cut. All functions throw std::runtime_error naming `file`, the system's
-// message and a remedy.
+// Writes to a temporary file beside `file`, which commit() renames. Without commit(), the temporary is
+// removed. There is no sync to disk: this protects against full disks and interruptions, not against power
+// loss. All functions throw std::runtime_error with `file`, the system's message and a remedy.
 class AtomicFile {
 public:
-    // A link is replaced, never followed; a folder or a device is refused.
+    // Replaces links instead of following them. Rejects folders and devices.
     explicit AtomicFile(const std::filesystem::path& file);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     std::FILE* stream() const { return stream_; }
-    void commit();  // checks all writes so far, closes and renames
+    void commit();  // checks all writes, closes and renames
 
 private:
     [[noreturn]] void fail(int error);
@@ -34,10 +33,10 @@ private:
     std::FILE* stream_ = nullptr;
 };
 
-// Writes a whole file at once.
+// Writes a whole file atomically.
 void writeFile(const std::filesystem::path& file, std::string_view contents);
 
-// "FILE: the system's message; a remedy", for an errno of a failed write.
+// "FILE: the system's message; a remedy", for the errno of a failed write.
 std::string writingFailed(const std::filesystem::path& file, int error);
 
 }  // namespace diptych

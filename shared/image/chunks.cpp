@@ -19,7 +19,7 @@ std::uint32_t bigEndian(std::string_view data, std::size_t at, std::size_t size)
 }
 
 void visitPng(std::span<const std::byte> file, const TakeChunk& take) {
-    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum around a chunk's data
+    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum of a chunk
     const std::string_view text = textOf(file);
     for (std::size_t at = signature; text.size() >= around && at <= text.size() - around;) {
         const std::size_t size = bigEndian(text, at);
@@ -38,7 +38,7 @@ void visitJpeg(std::span<const std::byte> file, const TakeChunk& take) {
             ++at;
             continue;
         }
-        const std::size_t size = bigEndian(text, at + 2, 2);  // its own two bytes are in it
+        const std::size_t size = bigEndian(text, at + 2, 2);  // includes its own two bytes
         if (text[at + 1] == scan || size < 2 || size > text.size() - at - 2 ||
             !take({text.substr(at + 1, 1), text.substr(at + 4, size - 2)}))
             return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands in PNG and JPEG files beside the pixels, read without trusting it.
+// Reads the chunks of PNG and JPEG files that are not pixels. The file is untrusted.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 namespace diptych {
 
 struct Chunk {
-    std::string_view name;  // "gAMA"; of a JPEG's segment its marker's second byte
+    std::string_view name;  // "gAMA"; for a JPEG segment the second byte of its marker
     std::string_view data;
 };
 
-// Unsigned number of `size` bytes from `at` on, the highest first; 0 where they are not there.
+// Big-endian unsigned number of `size` bytes at `at`; 0 if `data` is too short.
 std::uint32_t bigEndian(std::string_view data, std::size_t at, std::size_t size = 4);
 
-// Calls `take` for every chunk of a PNG, or segment of a JPEG before its first scan, until it returns false
-// or the file's end is reached. Checksums are not checked.
+// Calls `take` for every chunk of a PNG, or every segment of a JPEG before its first scan, until it
+// returns false or the file ends. Checksums are not checked.
 using TakeChunk = std::function<bool(const Chunk&)>;
 void visitPng(std::span<const std::byte> file, const TakeChunk& take);
 void visitJpeg(std::span<const std::byte> file, const TakeChunk& take);

@@ -19,14 +19,15 @@
 namespace diptych {
 namespace {
 
-// zlib's fastest level: the library's default 4 takes a fifth longer for files of the same size within 1 %.
+// zlib's fastest level. The library's default, 4, takes a fifth longer for files of the same size within 1
+// %.
 constexpr int zipLevel = 1;
 
-// Rows that are looked at together: whole blocks of ZIP's 16, enough for as many cores.
+// Rows written at a time: whole ZIP blocks of 16 rows, enough for all cores.
 constexpr int bandRows = 16 * 8;
 
-// Imf::OutputFile's destructor writes the offset table and ignores errors; the stream of the AtomicFile
-// remembers them until commit().
+// Imf::OutputFile's destructor writes the offset table and ignores errors; AtomicFile's stream remembers
+// them until commit().
 class Stream : public Imf::OStream {
 public:
     Stream(std::FILE* stream, const std::string& name) : OStream(name.c_str()), stream_(stream) {}
@@ -73,8 +74,8 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
             if (header.channels().findChannel(name))
                 throw std::runtime_error(fmt::format("{}: two channels are called {}", file.string(), name));
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-            // Imf::Slice takes pointers to non-const for reading and writing alike; writing does not change
-            // the pixels.
+            // Imf::Slice takes non-const pointers for reading and writing; writing does not change the
+            // pixels.
             buffer.insert(name, slice(const_cast<float*>(image->data.data()) + c, image->components, width));
         }
     }

@@ -15,7 +15,7 @@
 
 namespace diptych {
 
-// A layer to be written: component i of `image` is the channel `channels[i]`, e.g. "albedo.R" or "Z".
+// A layer to write: component i of `image` is the channel `channels[i]`, such as "albedo.R" or "Z".
 struct ExrLayerView {
     std::vector<std::string> channels;
     const Image* image;
@@ -25,16 +25,16 @@ struct ExrAttribute {
     std::string name, value;
 };
 
-// Writes all layers as float32 into one scan-line part (ZIP compressed, on all cores), with the given string
-// attributes. Written beside `file` and renamed; pixels that are kept in files are let go. Throws
-// std::runtime_error naming the file.
+// Writes all layers as float32 into one scan-line part (ZIP, on all cores), with the string attributes.
+// Replaces `file` atomically. Releases pages of pixels that are spilled to disk. Throws std::runtime_error
+// that names the file.
 void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>& layers,
               const std::vector<ExrAttribute>& attributes = {});
 
-// Reads all layers of every part, or of the part named `part`, over the display window (0 where no pixel is
-// stored). Reads tiles and scan lines with all compressions; of mip-mapped tiles the largest level. Refuses
-// deep and subsampled pixels, parts with different display windows, and files that need more than `most`
-// bytes decoded. Throws std::runtime_error, one line naming file, part and fault.
+// Reads all layers of every part, or of the part named `part`, over the display window; missing pixels are
+// 0. Supports tiles and scan lines and all compressions; of mip-mapped tiles, reads the largest level.
+// Rejects deep and subsampled pixels, parts with different display windows, and files that need more than
+// `most` bytes decoded. Throws std::runtime_error, one line that names file, part and fault.
 PictureFile readExr(const std::filesystem::path& file);
 PictureFile readExr(std::span<const std::byte> bytes, const std::string& name,
                     std::uint64_t most = limits::imageBytes(), std::string_view part = {});

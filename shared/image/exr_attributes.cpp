@@ -20,8 +20,8 @@ static_assert(std::endian::native == std::endian::little, "EXR files are little-
 struct Kept {
     std::string_view name, type;
     std::size_t size;             // 0: any
-    bool parts_only = false;      // has a meaning only in a file of several parts
-    std::string_view value = {};  // written for every part instead of the file's
+    bool parts_only = false;      // only meaningful in multi-part files
+    std::string_view value = {};  // replaces the file's value in every part
 };
 constexpr std::array meant{Kept{"chromaticities", "chromaticities", 32}, Kept{"whiteLuminance", "float", 4}};
 constexpr std::string_view no_window("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 16),
@@ -55,7 +55,7 @@ Bytes Cursor::take(std::size_t count) {
 }
 
 std::string Cursor::name() {
-    constexpr std::size_t longest = 255;  // the format's, with long names allowed
+    constexpr std::size_t longest = 255;  // the format's limit, with long names
     const std::string_view text = textIn(rest_).substr(0, longest + 1);
     const std::size_t size = text.find('\0');
     if (size == std::string_view::npos) fail("its header holds a name without an end");
@@ -123,8 +123,8 @@ void append(std::vector<std::byte>& out, const Attributes& part) {
         number(value.size());
         out.insert(out.end(), value.begin(), value.end());
     }
-    // The shortest attribute that may have been left out has a name and a type of one letter each: it is as
-    // long as an empty filler.
+    // The shortest attribute that can be omitted has a name and a type of one letter each, as long as an
+    // empty filler.
     constexpr std::size_t empty_filler = 2 + 2 + 4;
     if (end - out.size() > empty_filler) {
         const std::size_t size = end - out.size() - empty_filler - 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The attributes of one part of an EXR file: read without trusting the file, and written again in a form
-// that is safe to give to the library. Source: "OpenEXR File Layout", the format's own description
-// (openexr.com).
+// The attributes of one part of an EXR file: parses untrusted headers, and writes sanitized ones for the
+// library. Source: "OpenEXR File Layout" (openexr.com).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@ namespace diptych::exr {
 
 using Bytes = std::span<const std::byte>;
 
-// The bytes that are not read yet. Throws std::runtime_error without the file's name if there are too few.
+// The unread bytes. Throws std::runtime_error without the file's name if there are too few.
 class Cursor {
 public:
     explicit Cursor(Bytes rest) : rest_(rest) {}
@@ -36,27 +35,28 @@ private:
 };
 
 struct Attributes {
-    // Those needed to read the pixels, with the right type and size.
+    // Needed to read the pixels; type and size are valid.
     std::map<std::string, Bytes, std::less<>> needed;
-    // What its colours mean, which the library is not told: chromaticities (8 floats), whiteLuminance.
+    // Meaning of the colours, not passed to the library: chromaticities (8 floats), whiteLuminance.
     std::map<std::string, Bytes, std::less<>> meaning;
-    std::map<std::string, std::string_view, std::less<>> strings;  // all others of type "string"
-    Bytes all;                                                     // with the null character at the end
+    std::map<std::string, std::string_view, std::less<>> strings;  // all other "string" attributes
+    // Includes the terminating null character.
+    Bytes all;
 
-    // Throws if it is missing.
+    // Throws if absent.
     Cursor valueOf(std::string_view name) const;
-    // "" if it is missing.
+    // "" if absent.
     std::string_view textOf(std::string_view name) const;
 };
 
-// Reads attributes up to the empty name that ends them; the result is empty at the end of the header of a
-// file of several parts. Throws std::runtime_error without the file's name.
+// Reads attributes up to the empty name that ends them. The result is empty at the end of a multi-part
+// header. Throws std::runtime_error without the file's name.
 Attributes readAttributes(Cursor& in, Bytes from, bool several);
 
-// Appends the needed attributes, and a filler that takes the space of the others, so that the header has the
-// same length as in the file. Other attributes (previews, histories, manifests of any claimed size) are not
-// passed to the library. Display window and pixel aspect ratio, which this reader does not take from the
-// library, are made equal in all parts, because the library refuses other files.
+// Appends the needed attributes, and a filler for the others, so that the header keeps its length. Other
+// attributes (previews, histories, manifests of any claimed size) do not reach the library. Display window
+// and pixel aspect ratio are made equal in all parts, because the library rejects other files. This reader
+// does not take them from the library.
 void append(std::vector<std::byte>& out, const Attributes& part);
 
 }  // namespace diptych::exr

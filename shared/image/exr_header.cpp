@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Source: "OpenEXR File Layout", the format's own description (openexr.com).
+// Source: "OpenEXR File Layout" (openexr.com).
 #include "shared/image/exr_header.h"
 
 #include "shared/image/exr_attributes.h"
@@ -21,22 +21,21 @@ namespace {
 using exr::Attributes;
 using exr::Cursor;
 
-// By the number in the attribute "compression": lines in a chunk, and the most bytes that one stored byte
-// can expand to.
+// By value of "compression": lines per chunk, and the largest expansion of one stored byte.
 struct Compressor {
     int lines;
     double ratio;
 };
 constexpr std::array compressors{
     Compressor{1, 1},                               // none
-    Compressor{1, 64},                              // RLE: two bytes are up to 128
+    Compressor{1, 64},                              // RLE: two bytes expand to up to 128
     Compressor{1, limits::deflate_ratio},           // ZIPS
     Compressor{16, limits::deflate_ratio},          // ZIP
-    Compressor{32, 512},                            // PIZ: nine bits repeat a 16 bit value up to 255 times
-    Compressor{16, limits::deflate_ratio * 4 / 3},  // PXR24: three of a float's bytes, deflated
-    Compressor{32, 3},                              // B44: 14 bytes are 16 halves
+    Compressor{32, 512},                            // PIZ: nine bits repeat a 16-bit value up to 255 times
+    Compressor{16, limits::deflate_ratio * 4 / 3},  // PXR24: three of a float's four bytes, deflated
+    Compressor{32, 3},                              // B44: 14 bytes for 16 halves
     Compressor{32, 11},                             // B44A: or three bytes
-    Compressor{32, limits::deflate_ratio * 64},     // DWAA: 8 x 8 floats are two coefficients, deflated
+    Compressor{32, limits::deflate_ratio * 64},     // DWAA: two coefficients for 8 x 8 floats, deflated
     Compressor{256, limits::deflate_ratio * 64},    // DWAB
 };
 
@@ -51,7 +50,7 @@ ExrWindow windowOf(const Attributes& part, std::string_view name) {
     ExrWindow window;
     for (std::int32_t* end : {&window.min_x, &window.min_y, &window.max_x, &window.max_y})
         *end = in.number<std::int32_t>();
-    // OpenEXR's own limit, which keeps its coordinate sums within 32 bits.
+    // OpenEXR's own limit, so that sums of coordinates fit into 32 bits.
     constexpr std::int32_t farthest = 1 << 29;
     for (const std::int32_t end : {window.min_x, window.min_y, window.max_x, window.max_y})
         if (end < -farthest || end > farthest)
@@ -68,7 +67,7 @@ ExrWindow windowOf(const Attributes& part, std::string_view name) {
                          : ""));
 }
 
-// Subsampled channels are refused if the part is `wanted`.
+// Rejects subsampled channels if the part is `wanted`.
 std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
     Cursor in = part.valueOf("channels");
     std::vector<ExrChannel> channels;
@@ -93,7 +92,7 @@ std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
 
 struct Tiles {
     std::int64_t width = 0, height = 0;  // 0: scan lines
-    int levels = 0;  // mip-map levels: 1 halves both sides together, 2 each side separately
+    int levels = 0;                      // mip levels: 1 halves both sides together, 2 separately
 };
 
 Tiles tilesOf(const Attributes& part, bool tiled) {
@@ -108,8 +107,7 @@ Tiles tilesOf(const Attributes& part, bool tiled) {
     return {width, height, levels};
 }
 
-// For each chunk of a part OpenEXR allocates eight bytes of a table, before it checks that the file has
-// them.
+// OpenEXR allocates a table of eight bytes per chunk before it checks the file's size.
 std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines) {
     const auto over = [](std::int64_t size, std::int64_t step) { return (size + step - 1) / step; };
     const std::int64_t chunks = tiles.width > 0
@@ -118,19 +116,19 @@ std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines)
     return 8 * static_cast<std::uint64_t>(chunks);
 }
 
-// The display window is filled with zeros that are not in the file. So that a small crop cannot claim
-// unlimited memory, the window may need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192
-// float32 RGBA), whichever is more.
+// The display window is padded with zeros that are not in the file. So a small crop could claim much
+// memory. The window may need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192 float32
+// RGBA), whichever is more.
 std::uint64_t displayBytes(std::uint64_t dataBytes, std::uint64_t most) {
     constexpr std::uint64_t around = 256, always = std::uint64_t{1} << 30;
     return std::min(most, std::max(around * dataBytes, always));
 }
 
-// Sums over the parts that have been read.
+// Sums over the parts read so far.
 struct Claims {
-    // Bytes: of chunk tables; of decoded pixels; of display windows.
+    // Bytes of chunk tables, of decoded pixels, and of display windows.
     std::uint64_t tables = 0, data = 0, display = 0;
-    double least_file = 0;  // bytes that the pixels take at the best compression
+    double least_file = 0;  // least bytes of the pixels in the file, at the best compression
 };
 
 std::int64_t storedBytes(const std::vector<ExrChannel>& channels) {
@@ -150,8 +148,7 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
     checkImageSize(window.width(), window.height(), pixel, most);
     const auto data = static_cast<std::uint64_t>(window.width() * window.height() * pixel);
     checkImageSize(display.width(), display.height(), pixel, displayBytes(data, most));
-    // OpenEXR decodes whole chunks: rows of tiles, or a compressor's block of lines. These may be larger
-    // than the picture.
+    // OpenEXR decodes whole chunks (rows of tiles or blocks of lines), which may exceed the image.
     constexpr std::int64_t small_tile = 4096;
     if (tiles.width > std::max(window.width(), small_tile) ||
         tiles.height > std::max(window.height(), small_tile))
@@ -170,7 +167,7 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
                          std::max(claims.data, claims.display) >> 20, allowed >> 20));
 }
 
-// Says what its colours and pixels are.
+// Reads colour space and pixel aspect.
 std::optional<glm::dmat3> meaningOf(const Attributes& part, FileNotes& notes) {
     if (part.needed.contains("pixelAspectRatio"))
         noteAspect(part.valueOf("pixelAspectRatio").number<float>(), notes);
@@ -266,7 +263,7 @@ ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t most, std
     for (int number = 0; number == 0 || reader.several(); ++number) {
         const Attributes part = exr::readAttributes(in, file.last(in.left()), reader.several());
         exr::append(header.bytes, part);
-        if (reader.several() && number > 0 && part.all.size() == 1) break;  // the empty header that ends them
+        if (reader.several() && number > 0 && part.all.size() == 1) break;  // the empty header at the end
         if (number >= limits::image_parts) fail(fmt::format("has over {} parts", limits::image_parts));
         if (reader.several())
             named(fmt::format("part \"{}\"", oneLine(part.textOf("name"), 60)),

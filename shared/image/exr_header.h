@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The header of an EXR file, read without trusting it. OpenEXR allocates what attributes claim and assumes
-// that their types have the right sizes; it is only given the attributes that pictures need, after every
-// length of every part has been checked.
+// Parses the untrusted header of an EXR file. OpenEXR allocates what attributes claim and assumes that
+// their types have the right sizes. So it only receives the attributes needed for pixels, after all
+// lengths of all parts have been checked.
 #pragma once
 
 #include "shared/image/primaries.h"
@@ -17,7 +17,7 @@
 
 namespace diptych {
 
-// A pixel window; both corners are inside.
+// A pixel window; includes both corners.
 struct ExrWindow {
     std::int32_t min_x = 0, min_y = 0, max_x = -1, max_y = -1;
     std::int64_t width() const { return std::int64_t{max_x} - min_x + 1; }
@@ -28,7 +28,7 @@ struct ExrWindow {
     bool operator==(const ExrWindow&) const = default;
 };
 
-// Numbered as in the file format.
+// Values as in the file format.
 enum class ExrSample { uint, half, float32 };
 
 struct ExrChannel {
@@ -40,26 +40,26 @@ struct ExrPart {
     int number = 0;    // index of the part in the file
     std::string name;  // "" if only one part is read
     ExrWindow data;
-    std::vector<ExrChannel> channels;  // in the order of the file
-    std::uint64_t stored_bytes = 0;    // of all pixels, uncompressed
+    std::vector<ExrChannel> channels;  // in the file's order
+    std::uint64_t stored_bytes = 0;    // all pixels, uncompressed
     std::optional<glm::dmat3> to_rec709{};
 };
 
-// Of the parts that are read.
+// Covers only the parts that are read.
 struct ExrHeader {
     ExrWindow display;  // common to all parts
     std::vector<ExrPart> parts;
-    std::map<std::string, std::string> attributes;  // the string attributes, of the first part
+    std::map<std::string, std::string> attributes;  // string attributes of the first part
     FileNotes notes;
-    // To be read in place of the file's beginning, which has the same length: headers of the same parts with
-    // only the needed attributes, and a filler for the space of the others.
+    // Replaces the beginning of the file at the same length: headers of the same parts with only the
+    // needed attributes, and a filler for the others.
     std::vector<std::byte> bytes;
 };
 
 // Reads the headers of every part, or of the part named `asked`. Throws std::runtime_error without the
-// file's name if a header is broken, has deep or subsampled pixels, or claims more than the file can hold;
-// if display windows differ; and if all pictures together need more than `most` bytes as float32 (and in
-// addition uint32, where stored).
+// file's name if a header is broken, has deep or subsampled pixels, or claims more than the file can
+// contain; if display windows differ; or if all images together need more than `most` bytes as float32
+// (plus uint32, where stored).
 ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t most, std::string_view asked = {});
 
 }  // namespace diptych

@@ -61,8 +61,7 @@ private:
 
 // ---- layers ------------------------------------------------------------------------------------------
 
-// The position of a component in the order R, G, B, A and X, Y, Z and U, V, in upper or lower case; others
-// come after them.
+// Rank of a component in the order R, G, B, A, X, Y, Z, U, V, ignoring case; others come last.
 std::size_t componentRank(std::string component) {
     std::ranges::transform(component, component.begin(), [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -74,15 +73,15 @@ std::size_t componentRank(std::string component) {
     return component.size() == 1 ? std::min(letters.find(component[0]), letters.size()) : letters.size();
 }
 
-// A layer and, for each channel, its name and type in the file.
+// A layer, and name and type of its channels in the file.
 struct Layer {
     PictureLayer picture;
     std::vector<ExrChannel> stored{};
-    // The values of the uint channels, by channel.
+    // Values of the uint channels, by channel.
     std::vector<std::vector<std::uint32_t>> numbers{};
 };
 
-// The layer's name, prefixed by the part's name unless it begins with that already.
+// The layer's name, prefixed by the part's name unless it already is.
 std::string fullName(const std::string& part, const std::string& layer) {
     if (part.empty() || layer == part || layer.starts_with(part + ".")) return layer;
     return layer.empty() ? part : part + "." + layer;
@@ -95,8 +94,8 @@ std::string sampleOf(const std::vector<ExrChannel>& channels) {
     return mixed ? "mixed" : names.at(static_cast<std::size_t>(first));
 }
 
-// Groups channels by the part of their names before the last dot, sorted; pixels are not read yet. A dot at
-// the beginning makes no layer: ".R" is R, where there is no other.
+// Groups channels by their names before the last dot, sorted; does not read pixels. A leading dot makes no
+// layer: ".R" is R unless R exists.
 std::vector<Layer> layersOf(const ExrPart& part) {
     std::map<std::string, std::vector<ExrChannel>> byName;
     for (const ExrChannel& channel : part.channels) {
@@ -127,7 +126,7 @@ std::vector<Layer> layersOf(const ExrPart& part) {
 
 // ---- pixels ------------------------------------------------------------------------------------------
 
-// Crops or extends `stored` to the display window, with 0 where nothing is stored.
+// Crops or pads `stored` to the display window; missing pixels are 0.
 template <class Values>
 Values displayed(const Values& stored, std::size_t components, const ExrWindow& data,
                  const ExrWindow& display) {
@@ -145,7 +144,7 @@ Values displayed(const Values& stored, std::size_t components, const ExrWindow& 
     return whole;
 }
 
-// Allocates the pixels of `window`, and returns where in them those of the data window go.
+// Allocates the pixels of `window`, and returns the slices of the data window in them.
 Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, const ExrWindow& window) {
     const Imath::Box2i origin(Imath::V2i(data.min_x, data.min_y), Imath::V2i(data.max_x, data.max_y));
     const int x = data.min_x - window.min_x, y = data.min_y - window.min_y;
@@ -177,7 +176,7 @@ Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, con
     return buffer;
 }
 
-// Converts the integers to float32; they are kept if rounding changed any of them.
+// Converts the integers to float32; keeps them if rounding changed any.
 void convertNumbers(Layer& layer) {
     Image& image = layer.picture.image;
     bool rounded = false;
@@ -209,8 +208,8 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
     const Imath::Box2i window = in.header().dataWindow();
     if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != part.data)
         throw std::runtime_error("its data window is ambiguous");
-    // If the display window contains all pixels they are read in place; otherwise all are read first and
-    // then cropped.
+    // If the display window contains the data window, pixels are read in place. Otherwise they are read
+    // and then cropped.
     const bool direct = display.holds(part.data);
     std::vector<Layer> layers = layersOf(part);
     in.setFrameBuffer(makeRoom(layers, part.data, direct ? display : part.data));
@@ -222,7 +221,7 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
     return layers;
 }
 
-// Two parts can result in the same full name.
+// Two parts can give the same full name.
 void checkNames(const std::vector<PictureLayer>& layers) {
     std::set<std::string_view> names;
     for (const PictureLayer& layer : layers)
@@ -234,7 +233,7 @@ void checkNames(const std::vector<PictureLayer>& layers) {
 PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
     ExrHeader header = readExrHeader(file, most, asked);
     MemoryStream stream(header.bytes, file);
-    // One thread for each MiB: small pictures would be read before another thread has started.
+    // One thread per MiB: small images are read before another thread has started.
     std::uint64_t useful = 0;
     for (const ExrPart& part : header.parts) useful = std::max(useful, part.stored_bytes >> 20);
     Imf::MultiPartInputFile in(

@@ -3,7 +3,7 @@
 
 namespace diptych::exr {
 
-// Starts OpenEXR's own threads, one for each core, at the first call.
+// Starts OpenEXR's threads, one per core, at the first call.
 void useAllCores();
 
 }  // namespace diptych::exr

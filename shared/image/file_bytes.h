@@ -13,8 +13,7 @@ namespace diptych {
 std::vector<unsigned char> firstBytesOf(const std::filesystem::path& file, std::uint64_t limit,
                                         std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-// The whole of a file of at most limits::imageBytes() bytes. Throws std::runtime_error: "FILE: no such
-// file".
+// All of a file of at most limits::imageBytes() bytes. Throws std::runtime_error: "FILE: no such file".
 std::vector<unsigned char> bytesOf(const std::filesystem::path& file);
 
 }  // namespace diptych

@@ -31,7 +31,7 @@ std::vector<std::string> linesOf(const fs::path& file) {
     return lines;
 }
 
-// The first number behind `label` on the line that begins with it; none where it is no number ("unlimited").
+// The first number after `label` at the beginning of a line; none if it is a word ("unlimited").
 std::optional<std::uint64_t> labelled(const fs::path& file, std::string_view label) {
     for (const std::string& line : linesOf(file))
         if (line.starts_with(label)) {
@@ -43,7 +43,7 @@ std::optional<std::uint64_t> labelled(const fs::path& file, std::string_view lab
     return {};
 }
 
-// A file of one number; none if it holds a word ("max").
+// The number in a file; none if it has a word ("max").
 std::optional<std::uint64_t> numberOf(const fs::path& file) {
     const std::vector<std::string> lines = linesOf(file);
     return lines.empty() ? std::nullopt : numberIn(lines.front());
@@ -51,7 +51,7 @@ std::optional<std::uint64_t> numberOf(const fs::path& file) {
 
 class Least {
 public:
-    // No more than `limit` less `used`, if there is a limit.
+    // Lowers the minimum to `limit` - `used`, if there is a limit.
     void take(std::optional<std::uint64_t> limit, std::uint64_t used, const char* name) {
         if (!limit) return;
         const std::uint64_t left = *limit > used ? *limit - used : 0;
@@ -60,22 +60,22 @@ public:
     FreeMemory free;
 };
 
-constexpr std::uint64_t kilobyte = 1024;  // proc's "kB"
+constexpr std::uint64_t kilobyte = 1024;  // the unit "kB" in /proc
 
 void takeMachine(const fs::path& root, Least& least) {
     if (const auto available = labelled(root / "proc/meminfo", "MemAvailable:"))
         least.take(*available * kilobyte, 0, "this machine");
 }
 
-// The names of one version's files.
+// File names of one cgroup version.
 struct CgroupFiles {
     std::initializer_list<const char*> limits;
     const char* used;
-    std::initializer_list<const char*> cached;  // in memory.stat: pages of files, which the kernel gives up
+    std::initializer_list<const char*> cached;  // in memory.stat: file pages, which the kernel can drop
 };
 
-// A cgroup and all around it, up to where they are mounted. In a container the path may be the host's, of
-// which its own mount shows the end: folders that are not there are passed over.
+// Visits a cgroup and its ancestors up to the mount point. In a container, the path may be the host's, and
+// only its end is mounted, so missing folders are skipped.
 void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFiles& files, Least& least) {
     for (fs::path folder = fs::path(path).relative_path();; folder = folder.parent_path()) {
         const fs::path at = mount / folder;
@@ -90,7 +90,7 @@ void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFil
     }
 }
 
-// Lines of /proc/self/cgroup: "0::/path" of version 2, "5:memory:/path" of version 1.
+// Lines of /proc/self/cgroup: "0::/path" in version 2, "5:memory:/path" in version 1.
 void takeCgroups(const fs::path& root, Least& least) {
     const fs::path mount = root / "sys/fs/cgroup";
     for (const std::string& line : linesOf(root / "proc/self/cgroup")) {

@@ -7,7 +7,7 @@
 
 namespace diptych {
 
-// W x H x N float32, row 0 on top, the components of a pixel next to each other.
+// width x height x components float32 values, row 0 on top, components of a pixel adjacent.
 struct Image {
     int width = 0, height = 0, components = 0;
     PixelData data;

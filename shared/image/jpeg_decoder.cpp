@@ -17,14 +17,13 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-// Each scan of a progressive file visits all of its pixels, although a scan may take only a few bytes of the
-// file. The sum of pixels over all scans is therefore limited, to 16 scans of the largest image; encoders
-// make about ten scans.
+// Each scan of a progressive file visits all pixels, although a scan may take only a few bytes. So the sum
+// of pixels over all scans is limited, to 16 scans of the largest image. Encoders write about ten scans.
 constexpr std::int64_t maxScannedPixels = std::int64_t{16} << 28;
 
-// libjpeg leaves by longjmp on an error: no object with a destructor may be created between setjmp and here.
+// libjpeg reports errors by longjmp: no object with a destructor may be created between setjmp and here.
 struct Errors {
-    jpeg_error_mgr manager;  // must come first: libjpeg passes back a pointer to it, which is cast to Errors
+    jpeg_error_mgr manager;  // must be first: libjpeg returns a pointer to it, which is cast to Errors
     std::jmp_buf out;
     std::array<char, JMSG_LENGTH_MAX> message{};
 };
@@ -35,8 +34,8 @@ struct Errors {
     std::longjmp(errors.out, 1);
 }
 
-// libjpeg only warns where pixels are lost, and fills them with grey: here that is an error. Other warnings
-// lose no pixel.
+// libjpeg only warns if pixels are lost, and fills them with grey; here that is an error. Other warnings
+// do not lose pixels.
 void onMessage(j_common_ptr jpeg, int level) {
     if (level >= 0) return;
     switch (jpeg->err->msg_code) {
@@ -62,7 +61,7 @@ void onProgress(j_common_ptr common) {
     std::longjmp(errors.out, 1);
 }
 
-// A decompressor destroyed with its scope. It must be created before setjmp is called.
+// RAII for a decompressor. It must be created before setjmp is called.
 class Decompressor {
 public:
     explicit Decompressor(Bytes encoded) {

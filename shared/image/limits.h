@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Limits on the size that an image file may claim. A few bytes can claim a size beyond any memory, so every
-// reader checks these limits before it allocates.
+// Limits on the size that an image file may claim. A few bytes can claim a size beyond any memory, so
+// every reader checks these before it allocates.
 #pragma once
 
 #include <cstddef>
@@ -8,41 +8,41 @@
 
 namespace diptych::limits {
 
-// Pixels a side: four times what GPUs can draw, and enough for the largest panoramas in use; the product of
-// two sides and any number of channels stays far below 2^63.
+// Pixels per side: four times what GPUs can render, and enough for the largest panoramas in use. The
+// product of two sides and any number of channels stays far below 2^63.
 inline constexpr std::int64_t image_side = 65536;
 
-// A texture's side in pixels: the largest that GPUs and lavapipe support (maxImageDimension2D).
+// Pixels per side of a texture: the largest that GPUs and lavapipe support (maxImageDimension2D).
 inline constexpr std::int64_t texture_side = 16384;
 
-// Channels of an EXR file: ours have some 50; light groups and ids of film renderers take some 300.
+// Channels of an EXR file: ours have about 50; light groups and ids of film renderers about 300.
 inline constexpr std::int64_t image_channels = 1024;
 
-// Parts of an EXR file (one for each pass or light group and eye), and string attributes of each part.
+// Parts of an EXR file (passes, light groups, eyes), and string attributes per part.
 inline constexpr std::int64_t image_parts = 1024, image_attributes = 65536;
 
 // Bytes of one decoded file: a 7680 x 4320 frame with 64 float32 channels, or half the machine's memory if
 // that is less.
 std::uint64_t imageBytes();
 
-// The most bytes that one byte of deflate expands to: a match of 258 bytes takes two bits (RFC 1951, 1996).
+// Largest expansion of one byte of deflate: a match of 258 bytes takes two bits (RFC 1951, 1996).
 inline constexpr std::int64_t deflate_ratio = 1032;
 
 }  // namespace diptych::limits
 
 namespace diptych {
 
-// A header's claims, checked before anything of their size is allocated.
+// The claims of a header, checked before anything is allocated.
 struct PictureSize {
     std::int64_t width = 0, height = 0;
-    std::int64_t bytes_per_pixel = 0;  // while it is decoded
+    std::int64_t bytes_per_pixel = 0;  // during decoding
 };
 
 // Throws std::runtime_error if an image of this size exceeds the limits or needs more than `most` bytes:
 // "claims 100000 x 4 pixels: 1 to 65536 a side are read".
 void checkImageSize(std::int64_t width, std::int64_t height, std::int64_t bytesPerPixel, std::uint64_t most);
 
-// For a file that is too short for its picture even at the best compression.
+// For a file that is too short for its image even at the best compression.
 [[noreturn]] void failToHold(std::int64_t width, std::int64_t height, std::size_t fileBytes);
 
 }  // namespace diptych

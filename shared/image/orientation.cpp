@@ -15,7 +15,7 @@ std::string_view textAt(std::span<const std::byte> bytes, std::size_t at, std::s
     return {reinterpret_cast<const char*>(bytes.data()) + at, size};
 }
 
-// An unsigned number of `size` bytes, which are there.
+// Unsigned number of `size` bytes, without a bounds check.
 std::uint32_t numberAt(std::span<const std::byte> bytes, std::size_t at, std::size_t size, bool big) {
     std::uint32_t number = 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -27,7 +27,7 @@ template <class AnyImage>
 AnyImage turnedAny(AnyImage image, int orientation) {
     if (orientation == 1) return image;
     const bool exchanged = orientation >= 5;
-    // Where the first column and row come to stand once both are exchanged.
+    // Where the first column and row are, after a transposition if any.
     const bool right = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7,
                bottom = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
     AnyImage shown = image;

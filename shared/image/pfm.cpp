@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "a scale below 0 says 
 
 constexpr std::string_view blanks = " \t\n\v\f\r";
 
-// Takes the next word, skipping blanks before it and the one blank after it; `rest` is what follows.
+// Returns the next word, without leading blanks; `rest` begins after the one blank that ends it.
 std::string_view takeWord(std::string_view& rest) {
     constexpr std::size_t longest = 64;  // longer than any number
     const std::size_t begin = rest.find_first_not_of(blanks);
@@ -50,10 +50,10 @@ T numberIn(std::string_view word, const char* what) {
 
 struct PfmHeader {
     int width = 0, height = 0, components = 0;
-    float scale = 1;  // below 0: the pixels are little-endian
+    float scale = 1;  // < 0: the pixels are little-endian
 };
 
-// Leaves `rest` at the first pixel.
+// Afterwards, `rest` begins at the first pixel.
 PfmHeader readHeader(std::string_view& rest) {
     const std::string_view kind = takeWord(rest);
     if (kind != "PF" && kind != "Pf")
@@ -103,8 +103,8 @@ PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, st
         const std::int64_t pixel = std::int64_t{sizeof(float)} * header.components;
         checkImageSize(header.width, header.height, pixel, most);
         const auto size = static_cast<std::size_t>(pixel * header.width * header.height);
-        // One blank ends the header, and CR LF is one where the file has room for both; else LF is a pixel's
-        // byte.
+        // One blank ends the header. CR LF counts as one if the file is long enough; otherwise LF belongs
+        // to a pixel.
         if (rest.size() == size + 1 && rest.data()[-1] == '\r' && rest.front() == '\n') rest.remove_prefix(1);
         if (rest.size() < size)
             fail(fmt::format("is cut short: {} x {} pixels need {} bytes, but it has {}", header.width,

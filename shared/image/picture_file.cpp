@@ -37,7 +37,7 @@ PictureFile ofOneLayer(std::string format, std::string sample, Image image, Imag
     return file;
 }
 
-// As its file says that it is to be shown.
+// Applies the orientation of the file.
 void turn(PictureFile& file, int orientation) {
     PictureLayer& layer = file.layers.front();
     layer.image = turned(std::move(layer.image), orientation);
@@ -70,14 +70,15 @@ std::span<const unsigned char> encodedJpeg(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
 }
 
-// Beside the picture there are the decoded bytes, RGBA.
+// Includes the decoded RGBA bytes, which exist at the same time.
 PictureSize sizeOfJpeg(const JpegSize& size, EightBits eight) {
     const int components = size.grey ? 1 : 3;
     return {size.width, size.height,
             eight == EightBits::kept ? 4 + components : std::int64_t{sizeof(float)} * components + 4};
 }
 
-// JFIF 1.02's pixel aspect, and the profile (ICC.1:2022, B.4), whose parts stand in several segments.
+// Reads the pixel aspect of JFIF 1.02, and the ICC profile (ICC.1:2022, B.4), which may be split into
+// several segments.
 FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
     using namespace std::string_view_literals;
     constexpr std::string_view jfif = "JFIF\0"sv, icc = "ICC_PROFILE\0"sv;
@@ -87,7 +88,7 @@ FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
         if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 10, 2) > 0)
             noteAspect(static_cast<double>(bigEndian(segment.data, 8, 2)) / bigEndian(segment.data, 10, 2),
                        notes);
-        constexpr std::size_t numbers = 2;  // which part it is, and of how many
+        constexpr std::size_t numbers = 2;  // sequence number and count
         if (segment.name == "\xe2" && segment.data.starts_with(icc) &&
             segment.data.size() > icc.size() + numbers)
             profile += segment.data.substr(icc.size() + numbers);
@@ -144,7 +145,7 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     return file;
 }
 
-// The formats by their first bytes.
+// Formats, recognized by their first bytes.
 enum class Format { exr, png, jpeg, tiff, hdr, pfm };
 
 Format formatOf(std::span<const std::byte> bytes, const std::string& name, std::string_view part) {
@@ -208,7 +209,7 @@ PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& nam
         const int orientation = format == Format::png    ? orientationOfPng(bytes)
                                 : format == Format::jpeg ? orientationOfJpeg(bytes)
                                                          : 1;
-        if (orientation != 1) size.bytes_per_pixel *= 2;  // it is turned into a copy
+        if (orientation != 1) size.bytes_per_pixel *= 2;  // reorientation needs a copy
         if (orientation >= 5) std::swap(size.width, size.height);
         return size;
     });

@@ -13,20 +13,20 @@
 
 namespace diptych {
 
-// A picture that is read row by row as float32, whether it is stored as that or in 8 bits a component
-// (value / 255), a quarter of the memory. The picture must outlive it.
+// Row-wise float32 access to an image that is stored as float32, or as 8 bits per component (value / 255)
+// for a quarter of the memory. The image must outlive it.
 class PictureRows {
 public:
     PictureRows(const Image& image)
         : width(image.width), height(image.height), components(image.components), image_(&image) {}
-    // `shown`: 3 for a grey picture whose one component stands for all.
+    // `shown`: 3 to replicate a grey component.
     explicit PictureRows(const Image8& coded, int shown)
         : width(coded.width), height(coded.height), components(shown), coded_(&coded) {}
 
     int width, height, components;
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
-    // `count` pixels of row y from column x on.
+    // Copies `count` pixels of row y from column x on.
     void copy(float* to, int x, int y, int count) const {
         const std::size_t n = stored(count);
         if (image_) {
@@ -39,14 +39,14 @@ public:
         else
             for (std::size_t i = 0; i < n; ++i) to[3 * i] = to[3 * i + 1] = to[3 * i + 2] = values()[from[i]];
     }
-    // Row y: where it is stored, or decoded into `buffer`.
+    // Row y: in place, or decoded into `buffer`.
     const float* row(int y, std::vector<float>& buffer) const {
         if (image_) return floats(0, y);
         buffer.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(components));
         copy(buffer.data(), 0, y, width);
         return buffer.data();
     }
-    // Whether both store `count` pixels from (x, y) on alike; no where one stores 8 bits and the other
+    // Whether both store the same `count` pixels at (x, y); false if one stores 8 bits and the other
     // floats.
     bool storesSame(const PictureRows& other, int x, int y, int count) const {
         if (image_ && other.image_)
@@ -77,8 +77,8 @@ private:
     const Image8* coded_ = nullptr;
 };
 
-// Calls use(i, a's pixel, b's pixel) with the pixels of rows [from, to) of two pictures of one size, i
-// counting from the first row's first pixel on.
+// Calls use(i, pixel of a, pixel of b) for rows [from, to) of two images of one size. i is the pixel's
+// index in the image.
 template <class Use>
 void eachPair(const PictureRows& a, const PictureRows& b, int from, int to, const Use& use) {
     std::vector<float> buffers[2];
@@ -89,11 +89,11 @@ void eachPair(const PictureRows& a, const PictureRows& b, int from, int to, cons
     }
 }
 
-// A picture in whichever of the two ways it is stored.
+// An image in either storage format.
 struct StoredPicture {
     Image image;
-    Image8 coded{};  // where `image` is empty: 8 bits a component, value / 255
-    int shown = 0;   // components of `coded` that are compared: 3 of a grey colour, which has one
+    Image8 coded{};  // used if `image` is empty: 8 bits per component, value / 255
+    int shown = 0;   // components of `coded` to compare: 3 for grey, which stores one
 
     PictureRows rows() const { return image.empty() ? PictureRows(coded, shown) : PictureRows(image); }
     int components() const { return image.empty() ? shown : image.components; }

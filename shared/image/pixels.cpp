@@ -13,7 +13,8 @@
 namespace diptych {
 namespace {
 
-// The pictures that are in files, by where their pixels begin. Never destroyed: pictures may outlive it.
+// Images that are spilled to files, by address of their pixels. Never destroyed, because images may
+// outlive it.
 struct Kept {
     std::mutex mutex;
     std::set<const void*> pictures;
@@ -24,7 +25,7 @@ Kept& kept() {
     return *all;
 }
 
-// A new file without a name, for reading and writing; -1 where none can be made.
+// Opens a new unnamed file for reading and writing; -1 on failure.
 int namelessFile() {
     const char* const chosen = std::getenv("TMPDIR");
     for (const std::string& folder :
@@ -70,14 +71,14 @@ void keepInFile(PixelData& picture) {
     if (bytes < pixels::ownPages) return;
     const int file = namelessFile();
     if (file < 0) return;
-    // In place of the pages that the vector has: they are its own, and begin and end with one.
+    // Maps the file over the vector's pages, which are its own and page-aligned.
     if (writeAll(file, reinterpret_cast<const char*>(picture.data()), bytes)) {
         const std::lock_guard lock(kept().mutex);
         const auto entry = kept().pictures.insert(picture.data()).first;
         if (::mmap(picture.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
             kept().pictures.erase(entry);
     }
-    ::close(file);  // a mapping keeps it
+    ::close(file);  // the mapping keeps it open
 }
 
 void letGo(const PixelData& picture) {

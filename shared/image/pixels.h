@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory for the pixels of an Image, which a program has many of and needs few of at a time.
+// Memory of image pixels. A program may have many images but need few at a time.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace diptych {
 
 namespace pixels {
 
-// Of a picture of this many bytes or more, memory is whole pages of the system's, which it has back as soon
-// as the picture dies: smaller ones are left to the heap.
+// Images of at least this many bytes get whole pages, which return to the system when the image is
+// destroyed. Smaller ones are on the heap.
 inline constexpr std::size_t ownPages = std::size_t{1} << 18;
 
 void* takePages(std::size_t bytes);  // throws std::bad_alloc
@@ -44,14 +44,13 @@ struct Allocator {
 
 using PixelData = std::vector<float, pixels::Allocator<float>>;
 
-// Moves the pixels to a temporary file without a name, of which the system reads a page whenever one is
-// looked at: they stay where they are and can be read as before, but no longer written to. A small picture,
-// and one for which there is no room in such a file, stays in memory. Files are in $TMPDIR, else in /var/tmp
-// or /tmp.
+// Moves the pixels to an unnamed temporary file, whose pages the system loads on access. Their address
+// stays the same and they stay readable, but no longer writable. The image stays in memory if it is small
+// or no such file can be written. Files are in $TMPDIR, else in /var/tmp or /tmp.
 void keepInFile(PixelData& picture);
 
-// That the picture is not needed for now: of one that is kept in a file, no page stays in the program's
-// memory until it is looked at again. Any other is left alone.
+// Releases the pages of an image that is spilled to a file until its next access. Does nothing for other
+// images.
 void letGo(const PixelData& picture);
 
 }  // namespace diptych

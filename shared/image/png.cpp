@@ -25,24 +25,23 @@ struct Failure {
     std::string message;
 };
 
-// libpng leaves by longjmp on an error: no object with a destructor may be created between setjmp and here.
+// libpng reports errors by longjmp: no object with a destructor may be created between setjmp and here.
 void onError(png_structp png, png_const_charp message) {
     static_cast<Failure*>(png_get_error_ptr(png))->message = message;
     png_longjmp(png, 1);
 }
 void onWarning(png_structp, png_const_charp) {}
 
-// Names the program that wrote the file, so that the tool recognises its own files. libpng needs char*.
+// Names the program that wrote the file, so that it recognizes its own files. libpng needs char*.
 char softwareKey[] = "Software", softwareName[] = "diptych";
 
-// The colours of a picture that has at most 256, in the order in which they appear, and each pixel's place
-// among them.
+// The colours of an image with at most 256 of them, in order of appearance, and each pixel's index.
 struct Palette {
     std::vector<png_color> colors;
     std::vector<png_byte> indices;
 };
 
-// Of an RGB picture; without colours where there are more.
+// For RGB images; has no colours if there are too many.
 Palette paletteOf(const Image8& image) {
     Palette palette;
     if (image.components != 3) return palette;
@@ -66,8 +65,8 @@ Palette paletteOf(const Image8& image) {
     return palette;
 }
 
-// Level 4, for a report has dozens of pictures: level 6 takes twice as long to save a thirtieth. A palette
-// makes error maps and masks a third as large; pixels of other pictures are predicted from three neighbours.
+// Level 4, because a report has dozens of images: level 6 takes twice as long and saves a thirtieth. A
+// palette reduces error maps and masks to a third; other images use the Paeth filter.
 bool encode(png_structp png, png_infop info, std::FILE* stream, const Image8& image, const Palette& palette) {
     if (setjmp(png_jmpbuf(png))) return false;
     const bool indexed = !palette.colors.empty();
@@ -98,7 +97,7 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const Image8& im
     return true;
 }
 
-// `name`: for messages. False where the stream could not be written.
+// `name`: for messages. Returns false if writing failed.
 bool writeTo(std::FILE* stream, const Image8& image, const std::string& name) {
     if (image.width < 1 || image.height < 1 || (image.components != 3 && image.components != 4) ||
         image.data.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
@@ -122,7 +121,7 @@ bool writeTo(std::FILE* stream, const Image8& image, const std::string& name) {
 void writePng(const std::filesystem::path& file, const Image8& image) {
     AtomicFile out(file);
     writeTo(out.stream(), image, file.string());
-    out.commit();  // throws with the system's message where the stream failed
+    out.commit();  // throws with the system's message if writing failed
 }
 
 std::string pngBytes(const Image8& image) {

@@ -37,7 +37,7 @@ void PngDecoder::readAll(png_bytep rows) {
         for (std::size_t y = 0; y < lines; ++y) readRow(rows + y * bytes);
 }
 
-// libpng leaves by longjmp on an error: no object with a destructor may be created between setjmp and here.
+// libpng reports errors by longjmp: no object with a destructor may be created between setjmp and here.
 void PngDecoder::onError(png_structp png, png_const_charp message) {
     auto& self = *static_cast<PngDecoder*>(png_get_error_ptr(png));
     std::strncpy(self.message_.data(), message, self.message_.size() - 1);
@@ -61,7 +61,8 @@ bool PngDecoder::tryHeader() {
         png_set_gray_to_rgb(png_);
         png_set_add_alpha(png_, 0xffff, PNG_FILLER_AFTER);
     }
-    if (std::endian::native == std::endian::little) png_set_swap(png_);  // byte order of 16 bit components
+    // Native byte order of 16-bit components.
+    if (std::endian::native == std::endian::little) png_set_swap(png_);
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;

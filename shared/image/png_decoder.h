@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading of PNG files by libpng, for pictures and textures alike. Only shared/image/png* includes libpng.
+// Reads PNG files by libpng, for images and textures. Only shared/image/png* includes libpng.
 #pragma once
 
 #include <png.h>
@@ -11,38 +11,37 @@
 
 namespace diptych {
 
-// Decodes a file's rows, from top to bottom. Chunks other than IHDR, PLTE, tRNS, IDAT and IEND are skipped:
-// no profile or text is decompressed. Functions throw std::runtime_error with libpng's message, without the
-// file's name, or std::bad_alloc.
+// Decodes a file's rows, from top to bottom. Skips chunks other than IHDR, PLTE, tRNS, IDAT and IEND, so
+// no profile or text is decompressed. Throws std::runtime_error with libpng's message, without the file's
+// name, or std::bad_alloc.
 class PngDecoder {
 public:
     // Format of the decoded rows. In both, palettes are expanded, fewer than 8 bits become 8, and tRNS
-    // becomes an alpha.
+    // becomes alpha.
     enum class Rows {
         as_stored,  // Y, YA, RGB or RGBA
         rgba,       // opaque if the file has no transparency
     };
 
-    // `cutShort` is the error message for a file that ends early. Both `file` and `cutShort` must outlive
-    // the decoder.
+    // `cutShort`: error message for truncated files. `file` and `cutShort` must outlive the decoder.
     PngDecoder(std::span<const std::byte> file, Rows rows, const char* cutShort);
     ~PngDecoder();
     PngDecoder(const PngDecoder&) = delete;
     PngDecoder& operator=(const PngDecoder&) = delete;
 
-    // Must be called first; all other functions need it.
+    // Must be called before all other functions.
     void readHeader();
 
     std::uint32_t width() const { return png_get_image_width(png_, info_); }
     std::uint32_t height() const { return png_get_image_height(png_, info_); }
     int components() const { return png_get_channels(png_, info_); }
-    int bits() const { return png_get_bit_depth(png_, info_); }  // 8, or 16 in the machine's byte order
+    int bits() const { return png_get_bit_depth(png_, info_); }  // 8, or 16 in native byte order
     std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
     bool isInterlaced() const { return passes_ > 1; }
 
     // Reads the next row. Not for interlaced files, whose rows are complete only at the end.
     void readRow(png_bytep row);
-    // Reads all rows, one after the other, into height() * rowBytes() bytes.
+    // Reads all rows into height() * rowBytes() bytes.
     void readAll(png_bytep rows);
 
 private:
@@ -57,7 +56,7 @@ private:
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
     int passes_ = 1;
-    std::array<char, 200> message_{};  // the error's; the exception is thrown outside of libpng
+    std::array<char, 200> message_{};  // of an error; the exception is thrown outside libpng
 };
 
 }  // namespace diptych

@@ -26,7 +26,7 @@ namespace {
 
 // ---- what stands before the pixels -------------------------------------------------------------------
 
-// 4.3, 11.3.2: what its values mean.
+// 4.3, 11.3.2: encoding of the values.
 struct Encoding {
     bool linear = false;
     std::optional<glm::dmat3> to_rec709{};
@@ -35,13 +35,13 @@ struct Encoding {
 
 Primaries primariesOf(const Chunk& chunk) {
     Primaries primaries{};
-    for (std::size_t i = 0; i < primaries.size(); ++i)  // the white comes first
+    for (std::size_t i = 0; i < primaries.size(); ++i)  // the white point is first
         primaries[i] = bigEndian(chunk.data, 4 * ((i + 2) % primaries.size())) / 100000.0;
     return primaries;
 }
 
-// 4.3: cICP and iCCP take precedence over sRGB, that over gAMA and cHRM. A gAMA close to 1/2.2 is what
-// writers of sRGB store. cICP (third edition, 11.3.2.6) of 1, 13, 0, 1 is sRGB by another name.
+// 4.3: cICP and iCCP take precedence over sRGB, which takes precedence over gAMA and cHRM. Writers of sRGB
+// store a gAMA close to 1/2.2. cICP (third edition, 11.3.2.6) of 1, 13, 0, 1 is sRGB.
 Encoding encodingOf(std::span<const std::byte> file) {
     constexpr std::uint32_t one = 100000, srgb = 45455, rounding = 100;
     std::uint32_t gamma = 0, frames = 1;
@@ -85,7 +85,7 @@ Encoding encodingOf(std::span<const std::byte> file) {
 
 // ---- the pixels --------------------------------------------------------------------------------------
 
-// 11.2.2: depth and colour are in IHDR, the first chunk, which libpng has checked.
+// 11.2.2: bit depth and colour type are in IHDR, the first chunk, which libpng has checked.
 std::int64_t storedBits(std::span<const std::byte> file) {
     constexpr std::size_t depth = 24, color = 25;
     constexpr std::array<std::int64_t, 7> components{1, 0, 3, 1, 2, 0, 4};
@@ -93,7 +93,7 @@ std::int64_t storedBits(std::span<const std::byte> file) {
            components.at(std::to_integer<std::size_t>(file[color]));
 }
 
-// The compressed data are rows: one byte for the filter and the pixels, padded to whole bytes.
+// The compressed data are rows: a filter byte, then the pixels, padded to whole bytes.
 void checkDeflated(std::int64_t width, std::int64_t height, std::int64_t bits, std::size_t size) {
     const auto rows = static_cast<double>(height * (1 + (width * bits + 7) / 8));
     if (rows > limits::deflate_ratio * static_cast<double>(size)) failToHold(width, height, size);

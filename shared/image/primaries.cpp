@@ -17,13 +17,13 @@ namespace {
 
 constexpr Primaries rec709{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
 
-// X, Y, Z of Y = 1.
+// X, Y, Z for Y = 1.
 glm::dvec3 xyzOf(const Primaries& primaries, std::size_t color) {
     const double x = primaries[2 * color], y = primaries[2 * color + 1];
     return {x / y, 1, (1 - x - y) / y};
 }
 
-// SMPTE RP 177-1993: the columns are the primaries, as bright as makes their sum the white.
+// SMPTE RP 177-1993: the columns are the primaries, scaled so that their sum is the white point.
 glm::dmat3 xyzFromRgb(const Primaries& primaries) {
     const glm::dmat3 columns(xyzOf(primaries, 0), xyzOf(primaries, 1), xyzOf(primaries, 2));
     const glm::dvec3 scale = glm::inverse(columns) * xyzOf(primaries, 3);
@@ -47,14 +47,15 @@ std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& 
         fmt::format("the primaries x, y {:.4f} (red, green, blue, white)", fmt::join(primaries, " "));
     const glm::dmat3 matrix = glm::inverse(xyzFromRgb(rec709)) *
                               adapted(xyzOf(primaries, 3), xyzOf(rec709, 3)) * xyzFromRgb(primaries);
-    // Primaries on a line, or of no brightness, have no matrix back.
+    // The matrix is singular if the primaries are collinear or have zero luminance.
     constexpr double largest = 1e6;
     for (int i = 0; i < 9; ++i)
         if (!(std::abs(matrix[i / 3][i % 3]) < largest)) {
             notes.not_applied.push_back(words + " do not span a colour space; Rec. 709 is assumed");
             return {};
         }
-    // Four digits of 0.06, the least of Rec. 709's, are off by as much; so are its primaries adapted to D50.
+    // Four digits of 0.06, the smallest coordinate of Rec. 709, cause such an error; so does adaptation to
+    // D50.
     constexpr double rounding = 1e-3;
     double most = 0;
     for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(matrix[i / 3][i % 3] - (i / 3 == i % 3)));
@@ -78,7 +79,7 @@ void convertColors(Image& image, const glm::dmat3& matrix, bool encoded) {
 }
 
 void noteAspect(double aspect, FileNotes& notes) {
-    // Four digits: what a resolution in dots an inch rounds to.
+    // Tolerance for resolutions that are rounded to dots per inch.
     constexpr double rounding = 1e-3;
     if (std::isfinite(aspect) && aspect > 0 && std::abs(aspect - 1) > rounding)
         notes.not_applied.push_back(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What R, G and B of a picture stand for. Without a word they are Rec. 709's, as in OpenEXR and PNG.
+// Colour spaces of images. The default is Rec. 709, as in OpenEXR and PNG.
 #pragma once
 
 #include "shared/image/image.h"
@@ -14,28 +14,28 @@
 
 namespace diptych {
 
-// CIE 1931 x, y of red, green, blue and white, one after the other.
+// CIE 1931 x, y of red, green, blue and white.
 using Primaries = std::array<double, 8>;
 
-// What a file says of its colours and how it is to be shown, in words that follow the file's name.
+// A file's declarations about colours and display, as text that follows the file's name.
 struct FileNotes {
-    std::vector<std::string> lines{};        // as "its colours were converted from ..."
-    std::vector<std::string> not_applied{};  // the file means something else than the values that are read
+    std::vector<std::string> lines{};        // such as "its colours were converted from ..."
+    std::vector<std::string> not_applied{};  // declarations that the values read do not reflect
 };
 
-// Linear R, G, B of `primaries` to those of Rec. 709 (ITU-R BT.709-6), whites adapted by Bradford's matrix
-// (Lam 1985, as OpenEXR's ImfAcesFile.h uses it). Empty where they are Rec. 709's within what four digits
-// round to, and where they span no colours. Says in `notes` which it was.
+// Converts linear RGB of `primaries` to Rec. 709 (ITU-R BT.709-6). White points are adapted by Bradford's
+// matrix (Lam 1985, as in OpenEXR's ImfAcesFile.h). Empty if they are Rec. 709 within four digits, or span
+// no colour space. `notes` says which.
 std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& notes);
 
-// Components 0 to 2 of every pixel that is finite; `encoded`: by the sRGB curve, before and after, continued
-// below 0 by its mirror image.
+// Converts components 0 to 2 of every finite pixel. `encoded`: decodes sRGB before and encodes it after,
+// with the curve mirrored below 0.
 void convertColors(Image& image, const glm::dmat3& matrix, bool encoded = false);
 
-// Says that pixels are not square; `aspect`: of their sides.
+// Notes non-square pixels; `aspect`: their width over height.
 void noteAspect(double aspect, FileNotes& notes);
-// Says that an ICC profile is not applied; `taken_as`: what the values are taken as. Two profiles have one
-// note only where they are the same.
+// Notes that an ICC profile is not applied; `taken_as`: the assumed encoding. Equal notes mean equal
+// profiles.
 void noteProfile(std::string_view profile, std::string_view taken_as, FileNotes& notes);
 
 }  // namespace diptych

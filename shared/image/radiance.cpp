@@ -27,7 +27,7 @@ using Rgbe = std::array<std::uint8_t, 4>;
 
 // ---- header ------------------------------------------------------------------------------------------
 
-// The bytes that are not read yet.
+// The unread bytes.
 class RadianceCursor {
 public:
     explicit RadianceCursor(std::span<const std::byte> rest) : rest_(rest) {}
@@ -64,7 +64,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
 }
 
-// Parses the next word completely as a T; `text` becomes what follows.
+// Parses the next word completely as a T; `text` becomes the rest.
 template <class T>
 bool takeNumber(std::string_view& text, T& value) {
     text = trimmed(text);
@@ -77,7 +77,7 @@ bool takeNumber(std::string_view& text, T& value) {
 
 // Stored lines run along the second axis of the resolution line, and follow each other along the first.
 struct Orientation {
-    bool columns = false;  // a stored line is a column of the picture
+    bool columns = false;  // a stored line is an image column
     bool right_to_left = false, bottom_to_top = false;
 };
 
@@ -108,7 +108,7 @@ void readVariable(std::string_view line, RadianceHeader& header) {
         header.primaries = primaries;
     }
     if (double aspect = 0; name == "PIXASPECT" && takeNumber(value, aspect)) header.aspect *= aspect;
-    // Each of these lines gives a factor that has been applied to the radiance; their factors multiply.
+    // Each line gives a factor that was applied to the radiance; all of them multiply.
     const std::size_t count = name == "EXPOSURE" ? 1 : name == "COLORCORR" ? 3 : 0;
     std::string_view rest = value;
     for (std::size_t c = 0; c < count; ++c) {
@@ -120,7 +120,7 @@ void readVariable(std::string_view line, RadianceHeader& header) {
     }
 }
 
-// "-Y 480 +X 640" and the other seven orientations. Y goes up the picture, so -Y starts from its top.
+// "-Y 480 +X 640" and the other seven orientations. Y points up, so -Y starts at the top.
 void readResolution(std::string_view line, RadianceHeader& header) {
     const auto malformed = [&] {
         fail(fmt::format("resolution \"{}\" is not like -Y 480 +X 640", oneLine(line, 60)));
@@ -152,11 +152,11 @@ RadianceHeader readHeader(RadianceCursor& in) {
 
 // ---- pixels ------------------------------------------------------------------------------------------
 
-// Lengths of lines for which the run-length code by component is defined; others are stored by pixel.
+// Line lengths for which run-length coding by component is defined; others are stored by pixel.
 constexpr std::size_t shortest_run_line = 8, longest_run_line = 32767;
 
-// Flat pixels, or 1, 1, 1, n: the pixel before is repeated n times. The counts of consecutive runs are
-// digits of base 256, the lowest first.
+// Plain pixels, or 1, 1, 1, n: repeat the previous pixel n times. Counts of consecutive runs are digits of
+// base 256, lowest first.
 void readOldLine(RadianceCursor& in, std::span<Rgbe> line) {
     int shift = 0;
     for (std::size_t x = 0; x < line.size();) {
@@ -175,8 +175,7 @@ void readOldLine(RadianceCursor& in, std::span<Rgbe> line) {
     }
 }
 
-// For each component: either a count up to 128 followed by as many bytes, or 128 + count followed by the
-// byte to repeat.
+// Each component: a count up to 128 and as many bytes, or 128 + count and a byte to repeat.
 void readNewLine(RadianceCursor& in, std::span<Rgbe> line) {
     for (std::size_t component = 0; component < 4; ++component)
         for (std::size_t x = 0; x < line.size();) {
@@ -202,7 +201,7 @@ void readLine(RadianceCursor& in, std::span<Rgbe> line) {
     readNewLine(in, line);
 }
 
-// As Radiance does, a mantissa is decoded to the middle of its step.
+// A mantissa decodes to the middle of its step, as in Radiance.
 float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
     if (exponent == 0) return 0;
     return static_cast<float>(std::ldexp(mantissa + 0.5, exponent - (128 + 8)) * scale);
@@ -215,7 +214,7 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     checkImageSize(header.width, header.height, 3 * sizeof(float), most);
     const int lines = order.columns ? header.width : header.height;
     const int length = order.columns ? header.height : header.width;
-    constexpr std::size_t shortest_line = 4;  // for a line of one pixel; runs of longer lines need more
+    constexpr std::size_t shortest_line = 4;  // for a line of one pixel; longer lines need more
     if (in.left() / shortest_line < static_cast<std::size_t>(lines))
         failToHold(header.width, header.height, bytes.size());
     constexpr double largest = std::numeric_limits<float>::max();
@@ -224,8 +223,8 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
             fail("EXPOSURE and COLORCORR scale its values beyond the range of float");
 
     std::vector<Rgbe> line(static_cast<std::size_t>(length));
-    // A line may take as little as 12 bytes (old runs). Before much memory is allocated, all lines are
-    // parsed once to see that they are there.
+    // A line may take as few as 12 bytes (old runs). Before much memory is allocated, a first pass checks
+    // that all lines exist.
     constexpr std::size_t much = std::size_t{1} << 28;
     const auto bytesOfImage =
         3 * sizeof(float) * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
@@ -257,7 +256,7 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
 
 // ---- writing -----------------------------------------------------------------------------------------
 
-// Sets `fits` to false if RGBE cannot hold a component.
+// Sets `fits` to false if RGBE cannot represent a component.
 Rgbe encoded(const float* rgb, bool& fits) {
     constexpr float largest = 0x1.fep126f;  // mantissa 255 at exponent 255
     std::array<float, 3> held{};
@@ -279,7 +278,7 @@ Rgbe encoded(const float* rgb, bool& fits) {
     return pixel;
 }
 
-// Appends one component of a line: runs of at least four bytes, the bytes between runs as they are.
+// Appends one component of a line: runs of at least four bytes, and the bytes between runs verbatim.
 void appendRuns(std::vector<std::uint8_t>& out, const std::vector<Rgbe>& line, std::size_t component) {
     constexpr std::size_t shortest_run = 4, longest_run = 127, longest_dump = 128;
     const auto runAt = [&](std::size_t x) {

@@ -5,7 +5,7 @@
 
 namespace diptych {
 
-// IEC 61966-2-1, in double: encoded 0 to 1 -> linear 0 to 1, and back.
+// IEC 61966-2-1, in double: encoded 0 to 1 to linear 0 to 1, and back.
 inline double linearFromSrgb(double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }

@@ -33,12 +33,12 @@ Registry& registry() {
     return *all;
 }
 
-// At most 200 bytes of the target's name (a file name has up to 255), so that process and number fit.
+// At most 200 bytes of the target's name (file names have up to 255), so that process and number fit.
 std::string prefixOf(const fs::path& target) {
     return fmt::format(".{}.", target.filename().string().substr(0, 200));
 }
 
-// The process number in "PROCESS-NUMBER.tmp"; 0 if the name has another form.
+// PROCESS of "PROCESS-NUMBER.tmp"; 0 if the name has another form.
 pid_t processOf(std::string_view rest) {
     if (!rest.ends_with(".tmp")) return 0;
     pid_t process = 0;
@@ -50,8 +50,8 @@ pid_t processOf(std::string_view rest) {
     return second.ec == std::errc{} && second.ptr == end ? process : 0;
 }
 
-// No such process is visible here, and nobody holds the lock. The lock matters for processes in another
-// container, whose process numbers are not visible.
+// Whether no such process is visible and nobody holds the lock. The lock is needed for processes in other
+// containers, which are not visible.
 bool isAbandoned(const fs::path& path, pid_t process) {
     if (::kill(process, 0) == 0 || errno != ESRCH) return false;
     const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
@@ -108,7 +108,7 @@ std::FILE* Temporary::createFile() {
         errno = error;
         return nullptr;
     }
-    // Where locks are not supported, the process number alone decides.
+    // If locks are not supported, only the process id decides.
     ::flock(::fileno(file), LOCK_EX | LOCK_NB);
     return file;
 }

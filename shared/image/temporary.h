@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Temporary names for incomplete output: ".NAME.PROCESS-NUMBER.tmp". They are removed however the program
-// ends: by the destructor, by abandonTemporaries() on an interruption, and by the next program's sweep if it
-// was killed.
+// Temporary names for incomplete output: ".NAME.PROCESS-NUMBER.tmp". They are always removed: by the
+// destructor, by abandonTemporaries() on interruption, or by the next program's sweep if this one was
+// killed.
 #pragma once
 
 #include <cstdio>
@@ -11,41 +11,40 @@
 
 namespace diptych {
 
-// A temporary name of a file or a folder. Throws only when out of memory; errno tells what went wrong.
+// A temporary name of a file or folder. Throws only if out of memory; otherwise errno has the error.
 class Temporary {
 public:
-    // `target` is the output that it will become, or become a part of; it is created in `folder`, after
-    // leftovers of ended programs for the same target have been removed from there.
+    // `target`: the output that it will become, or be part of. It is created in `folder`, after removing
+    // leftovers of ended programs for the same target.
     Temporary(const std::filesystem::path& folder, std::filesystem::path target);
-    ~Temporary();  // removes it with all its contents
+    ~Temporary();  // removes it recursively
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
     std::FILE* createFile();                           // opens it for writing; nullptr on failure
-    bool createFolder(bool isPrivate = false);         // private: 0700 whatever the umask
+    bool createFolder(bool isPrivate = false);         // private: mode 0700 for any umask
     bool moveTo(const std::filesystem::path& folder);  // keeps its name and stays temporary
-    // Renames it to `file`, replacing what is there; it is no longer temporary.
+    // Renames it to `file`, replacing an existing one; it is no longer temporary.
     bool become(const std::filesystem::path& file);
 
 private:
     std::filesystem::path path_, target_;
-    int lock_ = -1;  // of a folder
+    int lock_ = -1;  // for folders
 };
 
-// While the returned lock is held, an interruption waits: for steps that must be done together, and for what
-// is made inside a temporary folder by other means than createFile(). Milliseconds at most.
+// Interruptions wait while the returned lock is held. For steps that belong together, and for files
+// created inside a temporary folder without createFile(). Hold it for milliseconds at most.
 std::unique_lock<std::recursive_mutex> holdTemporaries();
 
-// Removes all temporaries, and prevents that another one is created or committed: the caller ends the
-// program.
+// Removes all temporaries and prevents new ones and commits. The caller must end the program.
 void abandonTemporaries() noexcept;
 
-// Whether `name` is that of a Temporary of `target`, in this or another program.
+// Whether `name` is a Temporary of `target`, of this or another program.
 bool isTemporaryOf(const std::filesystem::path& target, const std::string& name);
 
-// The final name of `path` if it is in a temporary folder; otherwise `path`. For messages.
+// The final name of `path` if it is in a temporary folder, else `path`. For messages.
 std::filesystem::path finalName(const std::filesystem::path& path);
 
 }  // namespace diptych

@@ -19,7 +19,7 @@
 namespace diptych {
 namespace {
 
-// A file in memory, as libtiff reads it, and the first thing it had to say.
+// A file in memory for libtiff, and its first error message.
 struct TiffBytes {
     std::span<const std::byte> bytes;
     std::uint64_t at = 0;
@@ -60,7 +60,7 @@ int ignoreWarning(TIFF*, void*, const char*, const char*, va_list) {
 
 using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
-// libtiff takes no piece of memory larger than `most`, whatever the file claims.
+// libtiff allocates no block larger than `most`, whatever the file claims.
 OpenTiff openTiff(TiffBytes& file, std::uint64_t most) {
     const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
                                                                                    TIFFOpenOptionsFree);
@@ -68,7 +68,7 @@ OpenTiff openTiff(TiffBytes& file, std::uint64_t most) {
                                         static_cast<tmsize_t>(std::min<std::uint64_t>(most, 1ull << 40)));
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keepError, &file);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignoreWarning, nullptr);
-    // "m": no mapping of the file into memory, which is there already.
+    // "m": no memory mapping, because the file is already in memory.
     return OpenTiff(
         TIFFClientOpenExt(
             "", "rm", &file, readTiffBytes, [](thandle_t, void*, tmsize_t) -> tmsize_t { return 0; },
@@ -84,18 +84,18 @@ T tagOf(TIFF* tiff, std::uint32_t tag, T otherwise) {
     return TIFFGetFieldDefaulted(tiff, tag, &value) == 1 ? value : otherwise;
 }
 
-// What the directory says of the picture.
+// Properties of the image from its directory.
 struct TiffLayout {
     std::uint32_t width = 0, height = 0;
     std::uint16_t components = 1, bits = 1, format = SAMPLEFORMAT_UINT, colours = 0, compression = 0;
-    std::uint16_t orientation = ORIENTATION_TOPLEFT;  // libtiff hands out 1 to 8 alone
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;  // libtiff returns only 1 to 8
     bool planes = false, tiled = false;
 
     std::size_t bytesPerSample() const { return bits / 8u; }
 };
 
-// The most bytes that one byte of the file decodes to; 0: not read. LZW: a code of 9 to 12 bits stands for at
-// most 4096 bytes. PackBits: two bytes for 128.
+// Largest expansion of one byte of the file; 0: unsupported. LZW: a code of 9 to 12 bits gives at most
+// 4096 bytes. PackBits: two bytes give 128.
 std::uint64_t ratioOf(std::uint16_t compression) {
     switch (compression) {
         case COMPRESSION_NONE:
@@ -187,7 +187,7 @@ float valueOf(const TiffLayout& layout, const unsigned char* sample) {
     }
 }
 
-// The pieces that libtiff decodes, strips or tiles, put where they belong.
+// Decodes strips or tiles by libtiff and copies them into the image.
 class Pieces {
 public:
     Pieces(TIFF* tiff, const TiffLayout& layout, Image& image) : tiff_(tiff), layout_(layout), image_(image) {
@@ -198,7 +198,7 @@ public:
         samples_ = layout.planes ? 1 : layout.components;
     }
 
-    // Whether all could be read; `most` bytes for one.
+    // Returns whether all could be read; each may take `most` bytes.
     bool read(std::uint64_t most) {
         if (width_ < 1 || height_ < 1 || width_ > limits::image_side || height_ > limits::image_side)
             return false;
@@ -239,7 +239,7 @@ private:
     TIFF* tiff_;
     const TiffLayout& layout_;
     Image& image_;
-    std::uint32_t width_ = 0, height_ = 0, samples_ = 1;  // of a piece
+    std::uint32_t width_ = 0, height_ = 0, samples_ = 1;  // of a strip or tile
 };
 
 }  // namespace
@@ -258,7 +258,8 @@ namespace {
          (file.error.empty() ? "its strips or tiles have no offsets" : file.error));
 }
 
-// Profile, primaries (TIFF 6.0, 20), resolution and further pages. Primaries without a white are D65's.
+// Reads profile, primaries (TIFF 6.0, 20), resolution and the number of pages. Without a white point,
+// primaries use D65.
 void describe(TIFF* tiff, TiffPicture& picture) {
     std::uint32_t size = 0;
     void* profile = nullptr;
@@ -289,7 +290,8 @@ PictureSize tiffSize(std::span<const std::byte> bytes) {
     const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), limits::imageBytes());
     PictureSize size{layout.width, layout.height,
                      static_cast<std::int64_t>(sizeof(float)) * layout.components};
-    if (layout.orientation != ORIENTATION_TOPLEFT) size.bytes_per_pixel *= 2;  // it is turned into a copy
+    // Reorientation needs a copy.
+    if (layout.orientation != ORIENTATION_TOPLEFT) size.bytes_per_pixel *= 2;
     if (layout.orientation >= ORIENTATION_LEFTTOP) std::swap(size.width, size.height);
     return size;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TIFF 6.0 (Adobe 1992) with the sample formats of its supplements; BigTIFF too. Read with libtiff.
+// TIFF 6.0 (Adobe 1992) with the sample formats of its supplements, and BigTIFF. Read by libtiff.
 #pragma once
 
 #include "shared/image/image.h"
@@ -17,22 +17,22 @@ namespace diptych {
 struct TiffPicture {
     Image image;              // Y, YA, RGB or RGBA, row 0 on top
     std::string sample;       // "8 bit", "16 bit", "32 bit", "half" or "float"
-    bool linear = false;      // floats; integers are divided by their largest and count as sRGB-encoded
-    bool associated = false;  // colours are multiplied by alpha (EXTRASAMPLES 1)
+    bool linear = false;      // floats; integers are normalized and count as sRGB-encoded
+    bool associated = false;  // colours are premultiplied by alpha (EXTRASAMPLES 1)
     FileNotes notes{};
 };
 
-// Whether the bytes begin as a TIFF's do.
+// Whether the file begins like a TIFF.
 bool isTiff(std::span<const std::byte> bytes);
 
-// Reads the first page: grey or RGB, with one alpha or none, of unsigned integers of 8, 16 or 32 bits or of
-// floats of 16 or 32; in strips or tiles, interleaved or by plane; not packed, or by LZW, Deflate or
-// PackBits. Refuses what needs more than `most` bytes decoded. Throws std::runtime_error, one line naming
+// Reads the first page: grey or RGB, with or without alpha, unsigned integers of 8, 16 or 32 bits or
+// floats of 16 or 32; strips or tiles, interleaved or planar; uncompressed, LZW, Deflate or PackBits.
+// Rejects files that need more than `most` bytes decoded. Throws std::runtime_error, one line that names
 // file and fault.
 TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name,
                      std::uint64_t most = limits::imageBytes());
 
-// From its tags. Throws std::runtime_error without the file's name.
+// Reads only the tags. Throws std::runtime_error without the file's name.
 PictureSize tiffSize(std::span<const std::byte> bytes);
 
 }  // namespace diptych

@@ -31,7 +31,7 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs,
     f[gpu::GBUFFER_ALBEDO] = word;
     f[gpu::GBUFFER_NORMALS] = full || compact ? word : VK_FORMAT_R32G32_UINT;
     f[gpu::GBUFFER_PARAMS] = word;
-    if (full || needs.emission)  // full keeps the material id beside the emission
+    if (full || needs.emission)  // full stores the material id beside the emission
         f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
     if (needs.lightmap) f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which attachments a scene's materials need in the G-buffer; the bits are in shared/contract/gbuffer.h.
+// Selects the G-buffer attachments that a scene's materials need. shared/contract/gbuffer.h defines the
+// bits.
 #pragma once
 
 #include "shared/contract/gbuffer.h"
@@ -14,15 +15,17 @@ namespace diptych {
 
 struct GBufferLayout {
     gpu::uint encoding = gpu::GBUFFER_standard;
-    bool wide_emission = false;                                // float32: radiance beyond what 9.9.9.e5 holds
-    bool wide_lightmap = false;                                // likewise
-    bool wide_material_id = false;                             // more materials than the packed bits can name
-    std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // undefined: not there
+    // Float32, for radiance beyond the range of 9.9.9.e5.
+    bool wide_emission = false;
+    bool wide_lightmap = false;  // float32 likewise
+    // For more materials than the packed bits can store.
+    bool wide_material_id = false;
+    std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // VK_FORMAT_UNDEFINED: no attachment
 
     void specialise(Variant& variant) const;
 };
 
-// `sampled`: pixels have several samples.
+// `sampled`: with MSAA.
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled = false);
 
 extern const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames;

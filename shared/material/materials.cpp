@@ -34,7 +34,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
         if (texels[slot] == 0) continue;
         const TextureSlot& texture = material.*materialSlots[slot].texture;
         variant.set(slotFeatures[slot], texels[slot]);
-        if (texels[slot] != gpu::TEXEL_OWN) continue;  // reads no coordinates of its own
+        if (texels[slot] != gpu::TEXEL_OWN) continue;  // has no coordinates of its own
         if (texture.texcoord == 1) variant.set(gpu::FEATURE_second_texcoord);
         if (isTransformed(texture)) variant.set(gpu::FEATURE_texture_transform);
     }
@@ -89,7 +89,7 @@ Materials::Materials(Device& device, Uploader& uploader, const Materials& rest,
 }
 
 void Materials::make(Device& device, Uploader& uploader, const std::vector<Material>& materials) {
-    // Each at an offset where a uniform buffer may begin.
+    // Offsets are aligned for uniform buffers.
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
     const VkDeviceSize stride = (sizeof(gpu::Material) + alignment - 1) / alignment * alignment;
     std::vector<std::byte> data(materials.size() * stride);
@@ -156,7 +156,7 @@ Materials::Use Materials::Textures::useOf(const Material& material, const SlotTe
 
 std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Uploader& uploader,
                                                              const Scene& scene, TexturePrecision precision) {
-    // Every image that a slot reads, as sRGB or as linear; slots without a texture use index 0.
+    // Every image that a slot reads, as sRGB or linear; slots without a texture use index 0.
     const auto textures = std::make_shared<Textures>();
     std::vector<Sampler> kinds{Sampler{}};
     const auto samplerOf = [&](const Sampler& sampler) {
@@ -175,7 +175,7 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
             }
         }
     };
-    std::map<std::pair<int, std::size_t>, bool> oneColor;  // image and slot
+    std::map<std::pair<int, std::size_t>, bool> oneColor;  // by image and slot
     eachRead([&](const Material& material, std::size_t slot, bool) {
         const int texture = (material.*materialSlots[slot].texture).texture;
         const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
@@ -186,14 +186,15 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         textures->sampler_of[texture] = samplerOf(read.sampler);
     });
 
-    std::map<Use, std::size_t> imageOf;  // by the first texture of the image that is used so
+    std::map<Use, std::size_t> imageOf;  // keyed by the image's first texture with this use
     std::vector<Use> uses;
-    std::map<int, int> firstOf;  // image -> texture; samplers alone set others apart
+    // Image -> its first texture, because textures of one image differ only in samplers.
+    std::map<int, int> firstOf;
     const auto first = [&](int texture) {
         return firstOf.try_emplace(textures->image_number.at(texture), texture).first->second;
     };
     const auto upload = [&](const Use& use) {
-        // What is magnified into an alpha depends on how its texture is wrapped.
+        // A magnified alpha depends on its texture's wrap mode.
         Use same = use;
         same.texture = first(use.texture);
         const auto [entry, isNew] = imageOf.try_emplace(same, uses.size() + 1);
@@ -220,7 +221,7 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
     return textures;
 }
 
-// As the device decodes them, so that a factor has the bits of a sample.
+// Decodes colours on the device, so that a factor has the bits of a sample.
 void Materials::probeColors(Device& device, const Scene& scene, TexturePrecision precision,
                             Textures& textures) {
     for (const bool srgb : {false, true}) {
@@ -239,8 +240,8 @@ void Materials::probeColors(Device& device, const Scene& scene, TexturePrecision
     }
 }
 
-// Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a
-// third of the scene's images again.
+// Chains are built on all cores, only as far ahead of the upload as keeps them busy. Building all at once
+// would take another third of the images' memory.
 void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
                             const std::vector<Use>& uses, TexturePrecision precision, Textures& textures) {
     const auto imageOf = [&](int texture) -> const TextureImage& {

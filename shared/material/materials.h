@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene's materials on the device, at rest or as animations have moved them: one buffer of factors, one
-// descriptor set and one Variant each. Textures are uploaded once for all times, of one colour as one texel.
+// A scene's materials on the device, at one time of its animation: one buffer of factors, and a descriptor
+// set and Variant per material. Textures are uploaded once for all times; those of one colour as one
+// texel.
 #pragma once
 
 #include "shared/contract/material.h"
@@ -23,64 +24,66 @@
 
 namespace diptych {
 
-// The feature that says that a slot has a texture, indexed by SLOT_*.
+// The feature bit of each slot's texture, indexed by SLOT_*.
 #define DIPTYCH_SLOT_FEATURE(number, name) gpu::FEATURE_##name##_texture,
 inline constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{MATERIAL_SLOTS(DIPTYCH_SLOT_FEATURE)};
 #undef DIPTYCH_SLOT_FEATURE
 
 class Materials {
 public:
-    // Uploads every texture that a material reads at any time, once for each way it is read (sRGB or linear).
+    // Uploads every texture that a material ever reads, once per use (sRGB or linear).
     Materials(Device& device, Uploader& uploader, const Scene& scene,
               TexturePrecision precision = TexturePrecision::device);
-    // The same materials at another time, as many as the scene has, with the textures of `rest`.
+    // The same materials at another time; `posed` has one per scene material. Shares the textures of
+    // `rest`.
     Materials(Device& device, Uploader& uploader, const Materials& rest, const std::vector<Material>& posed);
 
-    // What set() is allocated with: the same for every scene, so that sets of any fit pipelines made with it.
+    // The layout of set(). It is the same for every scene, so sets and pipelines of different scenes are
+    // compatible.
     static OwnedDescriptorSetLayout makeLayout(Device& device);
     VkDescriptorSet set(std::uint32_t material) const { return sets_[material]; }
     std::uint32_t count() const { return static_cast<std::uint32_t>(variants_.size()); }
 
-    // The features that this material needs, all others off.
+    // Only the features that this material needs.
     const Variant& variant(std::uint32_t material) const { return variants_[material]; }
 
-    // Whether its surfaces are blended over what lies behind them (blends() of the scene). Those throw no
-    // shadow.
+    // Whether its surfaces are blended over the background (see blends() of the scene); these cast no
+    // shadows.
     bool blends(std::uint32_t material) const { return blends_[material]; }
 
-    std::uint64_t imageBytes() const;  // of what both constructors share too
+    std::uint64_t imageBytes() const;  // includes textures that instances share
     std::uint64_t bufferBytes() const { return buffer_.size(); }
 
-    const std::vector<std::string>& notes() const {
-        return textures_->notes;
-    }  // what is sampled with fewer bits
+    // Textures that are sampled with reduced precision.
+    const std::vector<std::string>& notes() const { return textures_->notes; }
 
 private:
-    // A texture as a slot reads it.
+    // How a slot reads a texture.
     struct Use {
         int texture = -1;        // into Scene::textures
-        bool srgb = false;       // of its colours
-        bool one_color = false;  // its first texel alone
-        int alpha_texture = -1;  // whose texels, roughness and metallic, are in its alpha
+        bool srgb = false;       // decodes colours from sRGB
+        bool one_color = false;  // only the first texel is read
+        int alpha_texture = -1;  // its roughness or metallic is in this one's alpha
         std::size_t alpha_component = 0;
         auto operator<=>(const Use&) const = default;
     };
-    // What no animation changes.
+    // The same at all times of an animation.
     struct Textures {
         std::map<Use, std::size_t> image_of;                    // into images
-        std::map<int, std::size_t> sampler_of;                  // texture -> into samplers
-        std::map<int, int> image_number;                        // texture -> into Scene::images
-        std::map<std::pair<int, std::size_t>, bool> one_color;  // texture and slot
-        std::map<std::pair<int, bool>, glm::vec4> colors;       // of textures of one colour, by whether sRGB
-        std::vector<GpuImage> images;                           // the first is white
-        std::vector<OwnedSampler> samplers;                     // the first is the default one
+        std::map<int, std::size_t> sampler_of;                  // texture -> index of samplers
+        std::map<int, int> image_number;                        // texture -> index of Scene::images
+        std::map<std::pair<int, std::size_t>, bool> one_color;  // by texture and slot
+        // Colours of single-colour textures, by texture and whether sRGB.
+        std::map<std::pair<int, bool>, glm::vec4> colors;
+        std::vector<GpuImage> images;        // the first is white
+        std::vector<OwnedSampler> samplers;  // the first is the default
         std::vector<std::string> notes;
 
-        // `packed` as TextureQuestions has it.
+        // `packed`: see TextureQuestions.
         SlotTexels texelsOf(const Material& material,
                             const std::function<bool(const Material&)>& packed) const;
         bool hasPacked(const Material& material) const;
-        // Where texels says that it is on the device.
+        // The use that corresponds to a slot's entry of `texels`.
         Use useOf(const Material& material, const SlotTexels& texels, std::size_t slot) const;
     };
     static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene,

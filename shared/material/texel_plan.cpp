@@ -32,7 +32,7 @@ bool sameCoordinates(const TextureSlot& a, const TextureSlot& b) {
     return a.texcoord == b.texcoord && a.u == b.u && a.v == b.v;
 }
 
-// By how many halvings `large` is `small`, or -1.
+// log2 of the size ratio of `large` to `small`; -1 if it is not a power of two.
 int halvings(const TextureImage& large, const TextureImage& small) {
     for (int n = 0; small.width <= large.width >> n; ++n)
         if (small.width << n == large.width && small.height << n == large.height) return n;

@@ -31,7 +31,7 @@ Sampler probeSampler(bool linear) {
     return sampler;
 }
 
-// RGBA of the picture at `places`, texture coordinates in rows of `width`; the wrap mode is repeat.
+// Samples the image at `places`, UV in rows of `width`, with wrap mode repeat; returns RGBA.
 std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, TexturePrecision precision,
                            bool linear, std::span<const glm::vec2> places, int width) {
     const int height = static_cast<int>(places.size()) / width;
@@ -78,19 +78,19 @@ std::vector<float> sampled(Device& device, const TextureImage& picture, bool srg
 
 constexpr int noiseSide = 64;
 
-// In bands of eight rows, which differ in contrast: from one code to all.
+// Bands of eight rows whose contrast grows from one code to all.
 TextureImage noise(std::uint32_t& state) {
     constexpr std::array contrasts{1u, 2u, 4u, 16u, 48u, 96u, 192u, 256u};
     const auto random = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
     TextureImage image{"noise", noiseSide, noiseSide, {}};
     for (std::uint32_t band = 0; band < contrasts.size(); ++band)
         for (int block = 0; block < noiseSide / 8; ++block) {
-            // Eight columns each; the darkest code of the block's.
+            // A block of 8 x 8 texels; `least` is its darkest code.
             const std::uint32_t least = random() % (257 - contrasts[band]);
             for (int i = 0; i < 8 * 8 * 4; ++i)
                 image.rgba.push_back(static_cast<std::uint8_t>(least + random() % contrasts[band]));
         }
-    // So far block after block, each of 8 x 8 texels: into rows.
+    // Converts blocks to rows.
     std::vector<std::uint8_t> rows(image.rgba.size());
     for (std::size_t y = 0; y < noiseSide; ++y)
         for (std::size_t x = 0; x < noiseSide; ++x)
@@ -103,7 +103,7 @@ TextureImage noise(std::uint32_t& state) {
 
 struct Mixture {
     std::array<double, 4> texels;
-    double x, y;  // shares of the right and of the lower two
+    double x, y;  // weights of the right and of the lower two
 
     double exact() const {
         return (texels[0] * (1 - x) + texels[1] * x) * (1 - y) + (texels[2] * (1 - x) + texels[3] * x) * y;
@@ -143,7 +143,7 @@ TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision) {
     return decode;
 }
 
-// In rows of blocks of 2 x 2 texels, each sampled in its middle.
+// Draws blocks of 2 x 2 equal texels and samples their centres.
 std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<std::uint8_t, 4>> colors,
                                    bool srgb, TexturePrecision precision) {
     constexpr std::size_t columns = 256;
@@ -202,8 +202,8 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
     return samples;
 }
 
-// Of the convex hull above the samples, the side over their mean range; no side that falls is taken, since a
-// larger range permits no smaller error.
+// The edge of the samples' upper convex hull above their mean range. Falling edges are skipped, because a
+// larger range cannot allow a smaller error.
 FilterBound boundOf(std::span<const FilterSample> samples) {
     if (samples.empty()) throw std::invalid_argument("a filter's bound of no samples");
     std::vector<FilterSample> sorted(samples.begin(), samples.end());
@@ -254,7 +254,7 @@ TextureSampling probeTextures(Device& device, TexturePrecision precision) {
 
 std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
                                      const TextureSampling& exact) {
-    // Vulkan: the share of a texel has at least so many bits, and sRGB keeps 8 bits, so half a code.
+    // Vulkan: weights have at least subTexelPrecisionBits, and sRGB keeps 8 bits, so half a code.
     const double share = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
     const auto decode = [](const char* what, const TextureSampling& s) {
         double most = 0, halfCode = 0;
@@ -285,7 +285,7 @@ std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling
 }
 
 Scene withDecodedColors(Scene scene, const TexelDecode& srgb) {
-    std::map<int, int> decodedOf;  // texture -> the texture of its decoded image
+    std::map<int, int> decodedOf;  // texture -> its copy with the decoded image
     const auto decoded = [&](int texture) {
         const auto [entry, isNew] = decodedOf.try_emplace(texture, texture);
         const Texture old = scene.textures[static_cast<std::size_t>(texture)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a device makes of texels of 8 bits, measured by drawing: how it decodes each code, and how far from
-// the exact mixture a linear filter may be. Vulkan leaves room for both, and lavapipe uses it. The same of
-// texels that TexturePrecision::exact makes of these codes: what is left is the format's and the filter's.
+// Measures how a device samples 8-bit textures: the decoded value of each code, and the error of linear
+// filtering. Vulkan leaves both partly open, and lavapipe deviates. The same for the texels of
+// TexturePrecision::exact, whose remaining error is that of format and filter.
 #pragma once
 
 #include "shared/frame/setting_values.h"
@@ -20,17 +20,17 @@ namespace diptych {
 // The decoded value of each code.
 using TexelDecode = std::array<float, 256>;
 
-// sRGB decoding, IEC 61966-2-1, of a code of 8 bits.
+// Exact sRGB decoding of an 8-bit code, IEC 61966-2-1.
 double exactSrgb(std::size_t code);
 
-// One bilinear sample of a component: the largest difference between the four decoded texels that it mixes,
-// and how far it is from their exact mixture.
+// One bilinear sample of a component: the range of its four decoded texels, and its error against the
+// exact interpolation.
 struct FilterSample {
     double range = 0, error = 0;
 };
 
-// The error of every sample measured is at most `rounding` + `weight` x range. `rounding` is that of the
-// device's arithmetic, `weight` that of the texels' shares.
+// Bound: every measured error is at most `rounding` + `weight` x range. `rounding` covers the arithmetic,
+// `weight` the interpolation weights.
 struct FilterBound {
     double rounding = 0, weight = 0;
 
@@ -42,18 +42,18 @@ struct TextureSampling {
     FilterBound linear_filter, srgb_filter;
 
     const TexelDecode& decode(bool isSrgb) const { return isSrgb ? srgb : linear; }
-    // By how much the device's value of an sRGB code is off.
+    // Error of the device's value for an sRGB code.
     double srgbError(std::size_t code) const;
 };
 
-// All of it: some tenths of a second on a CPU device.
+// Measures everything; takes some tenths of a second on a CPU device.
 TextureSampling probeTextures(Device& device, TexturePrecision precision = TexturePrecision::device);
-// Of the red, green and blue components of an sRGB texel the one that is furthest off.
+// The worst of red, green and blue for sRGB texels.
 TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision = TexturePrecision::device);
-// RGBA of images of one colour, RGBA of 8 bits, as a linear filter returns them.
+// RGBA of single-colour images (8-bit RGBA), as a linear filter returns them.
 std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<std::uint8_t, 4>> colors,
                                    bool srgb, TexturePrecision precision);
-// Of a picture of noise whose contrast differs from place to place, at 65536 places.
+// Samples a noise image of varying contrast at 65536 positions.
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
                                       std::uint32_t seed,
                                       TexturePrecision precision = TexturePrecision::device);
@@ -62,12 +62,12 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
 // samples.
 FilterBound boundOf(std::span<const FilterSample> samples);
 
-// For people, as Device::probe(): of both precisions, beside what Vulkan allows.
+// For users, as Device::probe(): both precisions, and Vulkan's limits.
 std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
                                      const TextureSampling& exact);
 
-// The scene with every texture of 8 bits that a colour slot reads replaced by what the device decodes, as
-// floats: a renderer that decodes exactly sees what the device sees.
+// Replaces every 8-bit texture of a colour slot by what the device decodes, as floats. A renderer that
+// decodes exactly then sees the device's values.
 Scene withDecodedColors(Scene scene, const TexelDecode& srgb);
 
 }  // namespace diptych

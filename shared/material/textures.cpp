@@ -24,7 +24,7 @@ TextureFormat textureFormat(bool deep, bool srgb, TexturePrecision precision,
 
 TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb,
                             TexturePrecision precision) {
-    // Of floats as of 16 bits of sRGB, which become floats.
+    // Floats are treated like 16-bit sRGB, which becomes float.
     return textureFormat(image.deep(), srgb || !image.rgba32.empty(), precision, [&](VkFormat format) {
         return device.support().can(format, format_use::sampled | format_use::filtered);
     });
@@ -62,8 +62,8 @@ OwnedSampler makeSampler(Device& device, const Sampler& s) {
     info.addressModeU = address(s.wrap_s);
     info.addressModeV = address(s.wrap_t);
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    // Vulkan's mapping of OpenGL's filters without mip levels: a clamp just above level 0 keeps the choice
-    // between magnification and minification.
+    // Vulkan's equivalent of OpenGL filters without mip levels: clamping just above level 0 keeps the
+    // choice between magnification and minification.
     info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0.25f;
     VkSampler sampler = VK_NULL_HANDLE;
     checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");

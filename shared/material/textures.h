@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One image and one sampler on the device.
+// Images and samplers on the device.
 #pragma once
 
 #include "shared/frame/setting_values.h"
@@ -13,15 +13,15 @@ namespace diptych {
 struct TextureFormat {
     Texels texels = Texels::linear8;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-    bool exact = true;  // every code of the image stays apart from its neighbours
+    bool exact = true;  // adjacent codes of the image stay distinct
 };
 
-// 8 bits as they are, 16 bits as 16. There is no sRGB format of 16 bits: such an image is decoded to linear
-// float32, where the steps of dark codes, 1.2e-6, survive (16 linear bits end at 1.5e-5). What the device
-// does not filter gives way to the next: float32, then half floats, which every Vulkan device filters.
+// 8 and 16 bits keep their size. There is no 16-bit sRGB format: such an image becomes linear float32,
+// which resolves the steps of dark codes, 1.2e-6 (16 linear bits end at 1.5e-5). If the device cannot
+// filter a format, the next one is used: float32, then half floats, which every Vulkan device filters.
 //
-// TexturePrecision::exact makes 16 bits of 8: of linear codes c exactly, as c / 255 is 257 c / 65535, and of
-// sRGB half floats, decoded to within 2^-12 of the value at every code.
+// TexturePrecision::exact widens 8 bits to 16. Linear codes c stay exact, because c / 255 is 257 c /
+// 65535. sRGB becomes half floats, within 2^-12 of the value at every code.
 TextureFormat textureFormat(bool deep, bool srgb, TexturePrecision precision,
                             const std::function<bool(VkFormat)>& filters);
 TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb,

@@ -20,19 +20,19 @@ namespace diptych {
 namespace {
 
 constexpr double defaultFov = glm::radians(60.0);
-constexpr int ratedWidth = 48, ratedHeight = 27;  // rays of a candidate's picture
+constexpr int ratedWidth = 48, ratedHeight = 27;  // rays per candidate
 constexpr double ratedAspect = double{ratedWidth} / ratedHeight;
 
-// Another view is taken where it has so many bits more: where it shows twice as many parts as large.
+// A challenger replaces a view if its entropy exceeds that view's by this: twice as many equal parts.
 constexpr double clearlyMore = 1;  // bits
 
-// Who stands in a room is surrounded by the front sides of surfaces in most directions: half of them is a
-// floor under the sky, all are a closed room. 0.75 leaves a courtyard its sky.
+// Least fraction of directions that hit front faces for an eye to be indoors. A floor under the sky gives
+// 0.5, a closed room 1; 0.75 accepts a courtyard.
 constexpr double surrounded = 0.75;
 constexpr double leastHeadroom = 2, eyeHeight = 1.6;  // m, glTF's unit
-constexpr int columns = 7;                            // where an eye may stand: columns x columns
-constexpr int mostFloors = 16;                        // of a column
-constexpr std::size_t mostEyes = 16;                  // whose views are rated, those with most space around
+constexpr int columns = 7;                            // candidate eyes lie on a grid of columns x columns
+constexpr int mostFloors = 16;                        // per column
+constexpr std::size_t mostEyes = 16;                  // the most spacious ones are rated
 constexpr int aroundDirections = 96, yaws = 8;
 
 // The radius of the bounds, or a substitute if they are empty or a single point.
@@ -41,8 +41,8 @@ double usableRadius(const Bounds& bounds) {
     return radius > 0 && std::isfinite(radius) ? radius : 1.0;
 }
 
-// The smallest distance along `backward` from the bounds' centre from which all eight corners are seen, with
-// a margin of 5 %. (Fitting a sphere instead would leave most of the picture empty for a long hall.)
+// Smallest distance along `backward` from the bounds' centre at which all eight corners are visible, with
+// a margin of 5 %. Fitting a sphere would leave most of the image empty for a long hall.
 double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspect) {
     const double tanY = std::tan(defaultFov * 0.5) / 1.05, tanX = tanY * aspect;
     const double radius = usableRadius(bounds);
@@ -84,7 +84,6 @@ bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) 
     return false;
 }
 
-// Rates views of one scene.
 class Rating {
 public:
     Rating(const Scene& scene, const Pose& pose, const Bounds& bounds)
@@ -107,9 +106,9 @@ public:
         return view;
     }
 
-    // Places in the bounds where somebody could stand in a room, those with most space around first.
+    // Eye positions indoors, most spacious first.
     std::vector<glm::dvec3> eyesInside() const {
-        std::vector<std::pair<double, glm::dvec3>> eyes;  // by the mean distance of what is around
+        std::vector<std::pair<double, glm::dvec3>> eyes;  // mean distance to the surroundings, eye
         const glm::dvec3 size = bounds_.max - bounds_.min;
         for (int i = 0; i < columns * columns; ++i) {
             const double x = bounds_.min.x + size.x * (i % columns + 0.5) / columns;
@@ -127,9 +126,9 @@ public:
     }
 
 private:
-    // Pixels of each part that is told apart: a primitive where it faces one of six ways, at distances within
-    // a factor of two, of half the bounds' radius at most and an eighth of it at least, so that what stands
-    // right before the eye is worth no more; all back sides together; and what is not covered.
+    // Pixel counts of the parts of a view. A part is a primitive with one of six facings, within a factor
+    // of two in distance. Distances are clamped to 1/8 to 1/2 of the bounds' radius, so that near geometry
+    // gets no extra parts. All back faces are one part; the background is another.
     std::vector<std::size_t> parts(const std::vector<VisibleSurface::Seen>& seen) const {
         const double radius = usableRadius(bounds_);
         std::map<std::tuple<std::uint32_t, int, int>, std::size_t> fronts;
@@ -147,10 +146,10 @@ private:
         return pixels;
     }
 
-    // The upper side of what rises by 45 degrees or less.
+    // Whether this is a front face whose slope is at most 45 degrees.
     static bool isFloor(const VisibleSurface::Seen& at) { return at.front && at.normal.y > 0.7; }
 
-    // Heights of what can be stood upon at (x, z), from the top.
+    // Heights of the floors at (x, z), highest first.
     std::vector<double> floors(double x, double z) const {
         const double step = 1e-4 * usableRadius(bounds_);
         std::vector<double> heights;
@@ -165,9 +164,9 @@ private:
         return heights;
     }
 
-    // An eye over the floor; none where a person has no room below what is above, or below the bounds' top,
-    // or where the floor does not go on around the feet, as on a leaf or a chair. Rooms that are not in
-    // metres are higher, and the eye is at least a fifth of the way up.
+    // An eye above the floor. None if the headroom is too small or the floor does not continue around the
+    // feet, as on a leaf or a chair. The eye is at least a fifth of the headroom up, for scenes that are
+    // not in metres.
     std::optional<glm::dvec3> standing(const glm::dvec3& floor) const {
         const double step = 1e-4 * usableRadius(bounds_);
         const auto above = surface_.nearest(floor + glm::dvec3(0, step, 0), {0, 1, 0});
@@ -186,8 +185,8 @@ private:
         return eye;
     }
 
-    // The mean distance of what surrounds the eye, m; nothing where it is not surrounded. Directions are
-    // those of a Fibonacci lattice.
+    // Mean distance from the eye to its surroundings, m; none if it is not surrounded. Directions form a
+    // Fibonacci lattice.
     std::optional<double> spaceAround(const glm::dvec3& eye) const {
         const double golden = glm::radians(180.0) * (3 - std::sqrt(5.0));
         const double near = freeCamera(bounds_).near;
@@ -197,7 +196,7 @@ private:
             const double y = 1 - 2 * (i + 0.5) / aroundDirections, r = std::sqrt(1 - y * y);
             const auto hit = surface_.nearest(eye, {r * std::cos(golden * i), y, r * std::sin(golden * i)});
             if (!hit || !hit->front) continue;
-            if (!(hit->distance > near)) return std::nullopt;  // the eye touches it
+            if (!(hit->distance > near)) return std::nullopt;  // the eye touches the surface
             ++fronts;
             sum += hit->distance;
         }
@@ -209,7 +208,7 @@ private:
     VisibleSurface surface_;
 };
 
-// The one of `others` that shows most, where that is clearly more than `before` shows; else `before`.
+// The candidate with the highest entropy if it exceeds `before` by clearlyMore; else `before`.
 DefaultView clearlyBetter(const DefaultView& before, const std::vector<DefaultView>& others) {
     DefaultView best = before;
     for (const DefaultView& other : others)
@@ -224,7 +223,7 @@ DefaultView outsideAt(DefaultView::Place place, const glm::dvec3& backward) {
     return view;
 }
 
-// The direction (+1, +0.6, +1), or the other side if nothing faces that one.
+// The direction (+1, +0.6, +1), or the opposite one if no triangle faces the first.
 DefaultView usualView(const Scene& scene, const Pose& pose, const Bounds& bounds) {
     const auto sees = [&](const DefaultView& view) {
         return anythingFaces(scene, pose, glm::dvec3(worldFromCamera(view, bounds, ratedAspect)[3]));
@@ -234,7 +233,7 @@ DefaultView usualView(const Scene& scene, const Pose& pose, const Bounds& bounds
     return !sees(usual) && sees(behind) ? behind : usual;
 }
 
-// All around in steps of 45 degrees as high as the usual view, which is the first, then from higher up.
+// Eight azimuths at the height of the usual view, then eight from higher up. The first is the usual view.
 std::vector<DefaultView> outsideViews(const Rating& rating) {
     std::vector<DefaultView> views;
     for (const double height : {0.6, 1.8})
@@ -297,8 +296,8 @@ glm::dmat4 worldFromCamera(const DefaultView& view, const Bounds& bounds, double
     return lookAt(centre + view.backward * targetDistance(view, bounds, aspect), centre);
 }
 
-// near is a thousandth of the bounds' radius: an eye inside a building may be that close to a wall, and
-// reversed float depth loses no precision by it. There is no far plane, so that nothing is cut off.
+// near is a thousandth of the bounds' radius, because an eye inside a building may be that close to a
+// wall. Reversed float depth loses no precision by it. The far plane is infinite, so nothing is clipped.
 Camera freeCamera(const Bounds& bounds) {
     Camera camera;
     camera.yfov = defaultFov;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the camera of a scene that has none stands.
+// The camera of a scene that has none.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -13,39 +13,38 @@
 
 namespace diptych {
 
-// A camera around a scene or within it. Its place does not depend on the picture's size, but for how far away
-// the whole scene fits into it.
+// A camera around or inside a scene. The image size affects only the distance of an outside view.
 struct DefaultView {
     enum class Place { usual, outside, inside };
     Place place = Place::usual;    // usual: from the direction (+1, +0.6, +1) around the bounds
-    glm::dvec3 backward{0, 0, 1};  // unit, from what is looked at to the eye
-    glm::dvec3 eye{0};             // inside: where it stands
-    double covered = 0;            // share of a picture of 16:9 that shows a surface, 0 to 1
+    glm::dvec3 backward{0, 0, 1};  // unit, from the target to the eye
+    glm::dvec3 eye{0};             // if inside
+    double covered = 0;            // fraction of a 16:9 image that shows a surface, 0 to 1
     double entropy = 0;            // bits, see viewEntropy()
     std::string inWords() const;   // "from inside; the scene covers 97 % of the image"
 };
 
-// Viewpoint entropy (Vázquez, Feixas, Sbert and Heidrich 2001, "Viewpoint Selection using Viewpoint
-// Entropy"), in bits: of parts that fill `pixels[i]` of a picture, the background being one of them,
-// sum -p log2 p. 2^bits parts of equal size have it: nothing has 0, one bit more is twice as many parts.
+// Viewpoint entropy in bits (Vázquez, Feixas, Sbert and Heidrich 2001, "Viewpoint Selection using
+// Viewpoint Entropy"): -sum p log2 p over parts that cover `pixels[i]` each; the background is one part.
+// An empty view has 0; n equal parts have log2 n.
 double viewEntropy(const std::vector<std::size_t>& pixels);
 
-// The view of the scene at 0 s that shows most, see the README; so the camera does not move with the scene.
-// The same on every run. `animation`: the one that plays, as for poseAt().
+// The view that shows most of the scene at 0 s (see the README), so the camera does not follow the
+// animation. Deterministic. `animation`: the one that plays, as for poseAt().
 DefaultView chooseDefaultView(const Scene& scene, const std::string& animation = {});
 
-// The eye's distance from what it looks at, m, and its place: outside where all of the bounds is seen with a
-// margin of 5 %, under the camera of freeCamera(). `aspect`: width over height.
+// Distance from the eye to its target, m, and the camera's pose. Outside views fit all of the bounds with
+// a margin of 5 % under freeCamera(). `aspect`: width over height.
 double targetDistance(const DefaultView& view, const Bounds& bounds, double aspect);
 glm::dmat4 worldFromCamera(const DefaultView& view, const Bounds& bounds, double aspect);
 
-// A camera of 60 degrees at the origin for a scene of those bounds.
+// A camera at the origin with a vertical field of view of 60 degrees, its near plane fitted to the bounds.
 Camera freeCamera(const Bounds& bounds);
-// The bounds' centre, or the origin where they are empty.
+// The centre of the bounds, or the origin if they are empty.
 glm::dvec3 usableCentre(const Bounds& bounds);
 
-// A camera at `eye` with +Y up in its picture. Looking straight up or down, -Z is: at the top looking down,
-// at the bottom looking up, as for a camera that tilts there from looking along -Z.
+// A camera at `eye` with +Y up in its image. If it looks straight down, -Z points to the top of the image;
+// straight up, to the bottom. Tilting from a view along -Z gives the same.
 glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target);
 
 }  // namespace diptych

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Embree 3 (Debian 12) or 4 (Debian 13, Ubuntu 24.04): one way to cast a ray whose candidates a filter
-// judges.
+// One interface to ray queries with a hit filter for Embree 3 (Debian 12) and 4 (Debian 13, Ubuntu 24.04).
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -13,11 +12,11 @@ namespace diptych {
 
 #if RTC_VERSION_MAJOR >= 4
 
-// First member of what a filter needs of a query: Embree passes a pointer to it back to the filter.
+// Must be the first member of a query's data: Embree passes the filter a pointer to it.
 using EmbreeContext = RTCRayQueryContext;
 constexpr RTCSceneFlags embree_filter_flag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
-// The nearest hit that the filter does not reject, in `request`.
+// Writes the nearest hit that the filter accepts to `request`.
 inline void embreeIntersect(RTCScene scene, EmbreeContext& context, RTCFilterFunctionN filter,
                             RTCRayHit& request) {
     rtcInitRayQueryContext(&context);

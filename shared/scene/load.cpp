@@ -28,7 +28,7 @@ struct SceneFile {
     std::string file, scene;
 };
 
-// The name may end in ?scene=INDEX or ?scene=NAME. If a file of the whole name exists, it is that file.
+// Splits off a suffix ?scene=INDEX or ?scene=NAME, unless a file of the whole name exists.
 SceneFile fileOf(const std::string& where) {
     constexpr std::string_view key = "?scene=";
     const std::size_t question = std::filesystem::exists(where) ? where.npos : where.rfind(key);

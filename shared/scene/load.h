@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a name to a Scene: a glTF file or a built-in one.
+// Loads a Scene by name: a glTF file or a built-in scene.
 #pragma once
 
 #include "shared/scene/model/load_progress.h"
@@ -9,12 +9,12 @@
 
 namespace diptych {
 
-// `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. `progress` is called while
-// loading goes on. Throws std::runtime_error: one line that names file, object and fault.
+// `where` is "builtin:NAME[?key=value&...]" or a .gltf or .glb file. `progress` is called during loading.
+// Throws std::runtime_error: one line that names file, object and fault.
 Scene loadScene(const std::string& where, const LoadProgress& progress = {});
 
-// Reads what tells whether `where` is a scene at all, before its data: that the file is there, the lengths of
-// its container, that its JSON is sound, version and required extensions. Throws as loadScene().
+// Checks quickly whether `where` is a scene, without reading its data: the file exists, and its container
+// lengths, JSON, version and required extensions are valid. Throws as loadScene().
 void checkScene(const std::string& where);
 
 }  // namespace diptych

@@ -56,7 +56,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     r.materials = static_cast<std::uint32_t>(scene.materials.size());
 
     std::vector<bool> used(scene.materials.size(), false);
-    // The last node counted of each kind; a node's instances follow each other.
+    // The last node counted of each type; a node's instances are consecutive.
     int skinned = -1, morphed = -1;
     std::set<int> skins;
     for (const Instance& instance : pose.instances) {

@@ -10,7 +10,7 @@
 namespace diptych {
 namespace {
 
-// Lights the view with the environment's sun, which is looked for once.
+// Adds the environment's sun to the view's lights. The search for it runs once.
 void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<const EnvironmentSun>& kept,
              SceneView& result) {
     if (!kept) kept = std::make_shared<const EnvironmentSun>(environmentSun(*scene.environment));
@@ -22,8 +22,8 @@ void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<con
             turnedSun(kept->light, request.environment_turned, request.environment_factor));
 }
 
-// The side from which the default sun shines, whichever camera is chosen: from what the scene's first camera
-// looks at to its eye, at 0 s, so that the sun does not move with it. Nothing where the scene has none.
+// The direction from which the default sun shines, whichever camera is chosen: from the target of the
+// scene's first camera to its eye at 0 s, so the sun does not move with the camera. None without cameras.
 std::optional<glm::dvec3> firstBackward(const Scene& scene, const ViewRequest& request, const Pose& pose) {
     if (scene.cameras.empty()) return std::nullopt;
     const std::vector<Camera> cameras =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything a picture shows: a scene at one time, seen by one camera, under all its lights. It is made once
-// and passed to all code that draws or judges the picture, so that all of it uses the same data.
+// Everything an image shows: a scene at one time, from one camera, under all its lights. It is built once
+// and passed to all code that renders or evaluates the image, so that all use the same data.
 #pragma once
 
 #include "shared/scene/lights/environment_sun.h"
@@ -23,37 +23,39 @@ struct ViewRequest {
     double time = 0;            // s
     std::string camera;         // INDEX, NAME or "eye=... target=...": see makeView()
     int width = 0, height = 0;  // pixels
-    std::string lights;         // a rig or a file, see makeLights(); empty: only the scene's own
+    std::string lights;         // a rig or a file, see makeLights(); empty: none
     std::uint32_t seed = 0;     // of the rig
-    bool scene_lights = true;   // whether its own lights shine, or the sun that a scene without lights gets
-    std::string animation{};    // INDEX or NAME, see poseAt(); empty: all play
-    // Takes the sun out of the environment, as a light (lights/environment_sun.h), of an environment turned
-    // by so many degrees and multiplied by the factor; both are read for this alone.
+    // Enables the scene's own lights, or the default sun of a scene without lights.
+    bool scene_lights = true;
+    std::string animation{};  // INDEX or NAME, see poseAt(); empty: all play
+    // Extracts the sun of the environment as a light (lights/environment_sun.h), with the environment
+    // rotated by environment_turned degrees and scaled by environment_factor. These two are used only for
+    // the sun.
     bool environment_sun = false;
     double environment_turned = 0, environment_factor = 1;
     auto operator<=>(const ViewRequest&) const = default;
 };
 
 struct SceneView {
-    Pose pose;  // its lights are the scene's own only
+    Pose pose;  // has only the scene's own lights
     View view;
-    std::string
-        default_view;  // how the camera was chosen, in words; empty where the request or scene has one
-    // The scene's own, then those of the rig or file, then the environment's sun; or the default sun alone.
+    // How the camera was chosen, for users; empty if the request or the scene has one.
+    std::string default_view;
+    // The scene's own, then the rig's or file's, then the environment's sun; or only the default sun.
     std::vector<Light> lights;
-    const Environment* environment =
-        nullptr;  // that lights: the scene's or what its sun leaves; nullptr: none
-    const Environment* background = nullptr;    // that is seen: the scene's, which must outlive this
-    std::shared_ptr<const EnvironmentSun> sun;  // where one was asked for and there is an environment
-    bool default_sun = false;                   // whether the scene had neither lights nor an environment
+    // Lights the scene: the scene's own, or its residual without the sun; nullptr: none.
+    const Environment* environment = nullptr;
+    const Environment* background = nullptr;    // visible; the scene's, which must outlive this
+    std::shared_ptr<const EnvironmentSun> sun;  // if requested and there is an environment
+    bool default_sun = false;                   // the scene has neither lights nor an environment
     Requirements needs;                         // of the scene under `lights`
 };
 
 // Throws std::runtime_error naming --camera, --animation or --lights if the request is invalid.
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request);
 
-// Caches the views of one scene; each is made at its first request, and the scene is posed once for each
-// time and choice of an animation. The scene must outlive it.
+// Caches the views of one scene. Each is built at its first request; each pair of time and animation is
+// posed once. The scene must outlive it.
 class SceneViews {
 public:
     explicit SceneViews(const Scene& scene) : scene_(scene) {}
@@ -61,10 +63,9 @@ public:
     SceneViews& operator=(const SceneViews&) = delete;
 
     const Scene& scene() const { return scene_; }
-    // The reference stays valid until clear(), or as long as this object.
+    // The reference is valid until clear() or the end of this object.
     const SceneView& at(const ViewRequest& request);
-    // Frees all views and poses, for whoever needs many one after the other; how a scene without a camera is
-    // seen stays known.
+    // Frees all views and poses. The default cameras stay cached.
     void clear();
 
 private:

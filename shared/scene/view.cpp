@@ -44,7 +44,7 @@ glm::dvec3 View::up() const {
     return glm::cross(backward(), right());
 }
 
-// Derived from up and backward, so that the picture is undistorted even if the node is scaled, sheared or
+// Derived from up and backward, so the image is undistorted even if the node is scaled, sheared or
 // mirrored.
 glm::dvec3 View::right() const {
     const glm::dvec3 b = backward();
@@ -54,10 +54,10 @@ glm::dvec3 View::right() const {
 
 // ---- projection --------------------------------------------------------------------------------------
 
-// With d the view depth, n and f the planes, t = tan(fov / 2):
-//     perspective    z = (n f / (f - n)) / d - n / (f - n);   w = d;   without a far plane f is infinite,
-//                    which leaves z = n / d
-//     orthographic   z = (f - d) / (f - n);                   w = 1
+// With view depth d, planes n and f, t = tan(fov / 2):
+// perspective    z = (n f / (f - n)) / d - n / (f - n);   w = d;   without a far plane f is infinite,
+//                which leaves z = n / d
+// orthographic   z = (f - d) / (f - n);                   w = 1
 glm::dmat4 View::clipFromWorld() const {
     const double aspect = static_cast<double>(width) / height;
     const double n = camera.near, f = camera.far;
@@ -84,9 +84,9 @@ gpu::View View::gpuView() const {
     const glm::dvec3 r = right(), u = up(), b = backward();
     const double aspect = static_cast<double>(width) / height;
     const double n = camera.near, f = camera.far;
-    // Half the picture's height: in metres, or in metres per metre of depth. Pixels are square.
+    // Half the image's height, m, or m per m of depth. Pixels are square.
     const double half = camera.orthographic ? camera.ymag : tanHalfFov(camera);
-    const glm::dvec3 corner = (u - r * aspect) * half;  // pixel coordinates (0, 0): left, top
+    const glm::dvec3 corner = (u - r * aspect) * half;  // pixel coordinates (0, 0), top left
     const glm::dvec3 perX = r * (2 * half / height), perY = u * (-2 * half / height);
 
     gpu::View view{};
@@ -204,9 +204,10 @@ const Camera* sceneCamera(const Pose& pose, const std::string& choice) {
     return &pose.cameras[index];
 }
 
-// A camera whose frame is wider than the picture becomes one that sees as wide, and more above and below.
+// Widens the field of view if the camera's frame is wider than the image: the image then shows the full
+// width, and more above and below.
 void fitFrame(View& view) {
-    constexpr double same = 1 + 1e-6;  // files hold the ratio in float32
+    constexpr double same = 1 + 1e-6;  // tolerance: files store the ratio in float32
     Camera& camera = view.camera;
     const double aspect = static_cast<double>(view.width) / view.height;
     const double framed = camera.orthographic ? camera.xmag / camera.ymag : camera.aspect;

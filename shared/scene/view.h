@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a camera and a picture's size to the matrices and vectors that the shaders need, in double.
+// Converts a camera and image size to the shaders' matrices and vectors, in double.
 #pragma once
 
 #include "shared/contract/view.h"
@@ -15,8 +15,9 @@ namespace diptych {
 struct View {
     Camera camera;  // in world space
     int width = 0, height = 0;
-    double target_distance = 1;  // m, from the eye to the point that it looks at
-    double wider_frame = 0;      // width over height of the camera's frame where the picture is narrower; 0
+    double target_distance = 1;  // m, from the eye to its target
+    // Width over height of the camera's frame if the image is narrower; else 0.
+    double wider_frame = 0;
 
     glm::dvec3 eye() const;
     glm::dvec3 target() const;
@@ -28,17 +29,17 @@ struct View {
     // origin.
     glm::dmat4 clipFromWorld() const;
 
-    gpu::View gpuView() const;  // the light counts in it are left 0
+    gpu::View gpuView() const;  // light counts are 0
 };
 
-// All of the camera's frame is in the picture (glTF 2.0, 3.10.3): a picture that is narrower than the frame
-// shows more above and below it, and a wider one more at its sides.
+// The image contains all of the camera's frame (glTF 2.0, 3.10.3). An image narrower than the frame shows
+// more above and below, a wider one more at the sides.
 //
-// `choice` is Settings::camera: one of the scene's own cameras, a free camera, or empty for the first of its
-// cameras or, where it has none, the default view. Throws std::runtime_error naming --camera and what is
-// accepted.
+// `choice` is Settings::camera: a camera of the scene, a free camera, or empty. Empty means the first
+// camera, or the default view if there is none. Throws std::runtime_error that names --camera and the
+// accepted values.
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height);
-// The same with a default view that the caller keeps; it is asked for where the camera needs it.
+// As above; `defaultView` is called only if needed, and its result is cached by the caller.
 using DefaultViewOf = std::function<const DefaultView&()>;
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
               const DefaultViewOf& defaultView);

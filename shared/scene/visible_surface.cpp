@@ -20,14 +20,14 @@
 namespace diptych {
 namespace {
 
-// Of a triangle: whose it is and which sides of it are drawn.
+// The instance of a triangle, and whether both sides are drawn.
 struct Owner {
     std::uint32_t instance : 31;
     std::uint32_t double_sided : 1;
 };
 
-// The finalizer of splitmix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators"):
-// which triangles are kept depends on their number alone.
+// The finalizer of splitmix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number
+// Generators"): triangles are kept by index, so the subset is deterministic.
 double uniformOf(std::uint64_t i) {
     i += 0x9e3779b97f4a7c15u;
     i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -35,13 +35,12 @@ double uniformOf(std::uint64_t i) {
     return static_cast<double>((i ^ (i >> 31)) >> 11) * 0x1p-53;
 }
 
-// A query and the owners of its triangles.
 struct SeenContext {
-    EmbreeContext context;  // first: Embree gives back a pointer to it
+    EmbreeContext context;  // must be first: Embree returns a pointer to it
     const std::vector<Owner>* owners;
 };
 
-// Corners are stored so that the geometric normal of Embree is that of the front side.
+// Corners are stored so that Embree's geometric normal points to the front side.
 void passBackFaces(const RTCFilterFunctionNArguments* a) {
     const auto& context = *reinterpret_cast<const SeenContext*>(a->context);
     const float towards = RTCHitN_Ng_x(a->hit, 1, 0) * RTCRayN_dir_x(a->ray, 1, 0) +
@@ -53,12 +52,12 @@ void passBackFaces(const RTCFilterFunctionNArguments* a) {
 }  // namespace
 
 struct VisibleSurface::Traced {
-    // World space m to where Embree computes in float32: the bounds' sphere becomes the unit sphere, so that
-    // neither a far nor a huge scene leaves its range.
+    // Maps world space (m) to Embree's float32 space: the bounding sphere becomes the unit sphere, so
+    // distant and huge scenes stay in range.
     glm::dvec3 centre{0};
     double radius = 1;
-    std::vector<glm::vec3> corners;  // three a triangle
-    std::vector<Owner> owners;       // of each triangle
+    std::vector<glm::vec3> corners;  // three per triangle
+    std::vector<Owner> owners;       // per triangle
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
@@ -74,7 +73,7 @@ struct VisibleSurface::Traced {
         std::array<glm::vec3, 3> scaled;
         for (std::size_t i = 0; i < 3; ++i) {
             scaled[i] = glm::vec3((world[i] - centre) / radius);
-            // The bounds hold every vertex; what a sample was enlarged by may lead a little further out.
+            // The bounds contain every vertex, but an enlarged triangle may extend a little further.
             if (!(glm::dot(scaled[i], scaled[i]) < 1e6f)) return;
         }
         const glm::vec3 normal = glm::cross(scaled[1] - scaled[0], scaled[2] - scaled[0]);
@@ -83,7 +82,7 @@ struct VisibleSurface::Traced {
         owners.push_back(owner);
     }
 
-    // One thread builds, so that surfaces which coincide are met in the same order every time.
+    // Built by one thread, so that coincident surfaces are hit in a deterministic order.
     void build() {
         device = rtcNewDevice("threads=1");
         if (!device) throw std::runtime_error("Embree failed to start");
@@ -91,7 +90,7 @@ struct VisibleSurface::Traced {
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | embree_filter_flag);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        corners.emplace_back(0);  // Embree reads 16 bytes of the last one
+        corners.emplace_back(0);  // padding: Embree reads 16 bytes at the last corner
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, corners.data(), 0,
                                    sizeof(glm::vec3), 3 * owners.size());
         auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
@@ -116,8 +115,8 @@ VisibleSurface::VisibleSurface(const Scene& scene, const Pose& pose, const Bound
     std::uint64_t triangles = 0;
     for (const Instance& instance : pose.instances)
         triangles += primitiveOf(scene, instance).indices.size() / 3;
-    // Cook, Halstead, Planck and Ryu 2007, "Stochastic Simplification of Aggregate Detail": what is left of
-    // many small elements is enlarged by what its share lacks.
+    // Cook, Halstead, Planck and Ryu 2007, "Stochastic Simplification of Aggregate Detail": the remaining
+    // elements are enlarged so that the total area stays the same.
     const double kept = std::min(1.0, static_cast<double>(limit) / static_cast<double>(triangles));
     const double enlarged = std::sqrt(1 / kept);
     std::uint64_t number = 0;
@@ -156,7 +155,7 @@ std::optional<VisibleSurface::Seen> VisibleSurface::nearest(const glm::dvec3& or
                                                             const glm::dvec3& direction) const {
     if (!traced_->scene) return std::nullopt;
     const glm::dvec3 from = (origin - traced_->centre) / traced_->radius;
-    // Embree takes no ray from nowhere or from beyond its range.
+    // Embree needs a finite origin within its range and a non-zero direction.
     if (!(glm::dot(from, from) < 1e12) || !(glm::dot(direction, direction) > 0)) return std::nullopt;
     SeenContext query{{}, &traced_->owners};
     RTCRayHit request{};

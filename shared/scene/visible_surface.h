@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray through a posed scene meets, roughly and quickly: for choosing a view, not for a picture.
+// A fast, approximate ray caster for a posed scene; used to choose a view, not to render.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -16,11 +16,11 @@ namespace diptych {
 
 class VisibleSurface {
 public:
-    // Above this many triangles a random, but always the same, part of them is kept, each enlarged so that
-    // their area stays what it was.
+    // Above this count, a random but deterministic subset of triangles is kept, enlarged to the same total
+    // area.
     static constexpr std::uint64_t mostTriangles = 1 << 19;
 
-    // `bounds`: of the pose. Triangles without a finite place or an area are left out.
+    // `bounds`: of the pose. Triangles with zero area or non-finite positions are omitted.
     VisibleSurface(const Scene& scene, const Pose& pose, const Bounds& bounds,
                    std::uint64_t limit = mostTriangles);
     ~VisibleSurface();
@@ -31,10 +31,10 @@ public:
         double distance = 0;         // m, for a ray of unit direction
         glm::dvec3 normal{0};        // unit, towards the ray's origin
         std::uint32_t instance = 0;  // into Pose::instances
-        bool front = true;           // false: the other side of a double-sided surface
+        bool front = true;           // false: the back of a double-sided surface
     };
-    // The nearest surface that is drawn: a back face of a single-sided material is passed through. Textures
-    // are not read: a masked or blended surface is a whole one.
+    // The nearest drawn surface. Back faces of single-sided materials are skipped. Textures are not read:
+    // masked and blended surfaces are opaque.
     std::optional<Seen> nearest(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
 private:

@@ -18,7 +18,7 @@ std::string lower(std::string_view word) {
     return text;
 }
 
-// Optimal string alignment: rows of the table for the prefixes of `a`, columns for those of `b`.
+// Optimal string alignment: rows are prefixes of `a`, columns prefixes of `b`.
 std::size_t lettersApart(const std::string& a, const std::string& b) {
     std::vector<std::vector<std::size_t>> apart(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) apart[i][0] = i;
@@ -33,7 +33,7 @@ std::size_t lettersApart(const std::string& a, const std::string& b) {
     return apart[a.size()][b.size()];
 }
 
-// Longer words are nobody's mistyped name, and would take time.
+// Longer words are not typing errors, and would take time.
 constexpr std::size_t longest = 64;
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace diptych {
 
-// The candidate that is nearest to a mistyped word, by the least number of letters that are inserted,
-// removed, replaced or exchanged with their neighbour (Damerau 1964); upper and lower case are the same.
-// Empty where the nearest is further than a third of the word's letters.
+// The candidate closest to a mistyped word: the fewest letters inserted, removed, replaced or swapped with
+// their neighbour (Damerau 1964), ignoring case. Empty if the distance exceeds a third of the word's
+// length.
 std::string_view nearestWord(std::string_view word, std::span<const std::string> candidates);
 
 // "; did you mean albedo?", or empty.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of what a file or an option says: one line that says what is wrong, where and what to do.
+// Errors in a file or option: one line that says what is wrong, where and what to do.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ namespace diptych {
 [[noreturn]] inline void fail(const std::string& what) {
     throw std::runtime_error(what);
 }
-// Names the part that is at fault first: "WHO: WHY".
+// "WHO: WHY"; `who` names the faulty part.
 [[noreturn]] inline void fail(const std::string& who, const std::string& why) {
     throw std::runtime_error(who + ": " + why);
 }

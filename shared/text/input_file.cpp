@@ -22,11 +22,11 @@ constexpr int reading = O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
 [[noreturn]] void failToOpen(int error) {
     if (error == ENOENT || error == ENOTDIR) fail("no such file");
     if (error == ELOOP) fail("is a link; links are not followed here");
-    if (error == ENXIO) fail("is not a regular file");  // a socket, or a device that is not there
+    if (error == ENXIO) fail("is not a regular file");  // a socket, or a missing device
     fail("cannot be read: " + std::generic_category().message(error));
 }
 
-// Opens every folder on the way without following a link.
+// Opens each folder on the way without following links.
 int openBelow(const fs::path& root, const std::string& name) {
     int folder = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) failToOpen(errno);
@@ -35,7 +35,7 @@ int openBelow(const fs::path& root, const std::string& name) {
                                                       : ::openat(folder, part.c_str(), flags | O_NOFOLLOW);
         const int error = errno;
         struct stat there {};
-        // O_DIRECTORY answers ENOTDIR to a link.
+        // O_DIRECTORY fails with ENOTDIR for a link.
         const bool link = next < 0 && ::fstatat(folder, part.c_str(), &there, AT_SYMLINK_NOFOLLOW) == 0 &&
                           S_ISLNK(there.st_mode);
         ::close(std::exchange(folder, next));
@@ -78,7 +78,7 @@ void InputFile::check(std::uint64_t most_bytes) {
     const int error = errno;
     size_ = known ? static_cast<std::uint64_t>(status.st_size) : 0;
     if (known && S_ISREG(status.st_mode) && size_ <= most_bytes) return;
-    ::close(std::exchange(descriptor_, -1));  // the destructor of what was not made does not run
+    ::close(std::exchange(descriptor_, -1));  // the destructor does not run if the constructor throws
     if (!known) failToOpen(error);
     if (S_ISDIR(status.st_mode)) fail("is a folder");
     if (!S_ISREG(status.st_mode)) fail("is not a regular file");

@@ -29,11 +29,12 @@ void check(const JsonShape& shape, const JsonLimits& limits) {
     checkCount(shape.values, limits.values, "values");
 }
 
-// Parses a text of which little is kept.
+// For parsing with a filter, which counts the remaining values itself.
 constexpr JsonLimits unlimited{std::numeric_limits<std::size_t>::max()};
 
 [[noreturn]] void failNoJson(std::string_view message) {
-    const std::size_t at = message.find("] ");  // "[json.exception.parse_error.101] parse error at ..."
+    // Skips "[json.exception.parse_error.101] " before "parse error at ...".
+    const std::size_t at = message.find("] ");
     fail("is not JSON: " + oneLine(message.substr(at == message.npos ? 0 : at + 2)));
 }
 
@@ -73,7 +74,7 @@ ordered_json parseUniqueJson(std::string_view text) {
     return parsed;
 }
 
-// Not of ordered_json, whose elements move while others are left out.
+// Not for ordered_json, whose elements move while others are dropped.
 json parseJson(std::string_view text, const WantedKey& wanted) {
     std::size_t values = 0;
     return parse<json>(text, unlimited, [&](int depth, json::parse_event_t event, json& value) {

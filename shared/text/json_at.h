@@ -15,8 +15,8 @@
 
 namespace diptych {
 
-// A value of parsed JSON and its place in the file, for reading what has a fixed shape. Everything that does
-// not fit throws std::runtime_error that names the place: "frames[2]: has no \"name\"".
+// A value of parsed JSON and its path, for reading data of fixed shape. All mismatches throw
+// std::runtime_error with the path: "frames[2]: has no \"name\"".
 template <class Json>
 class JsonAt {
 public:
@@ -70,7 +70,7 @@ public:
         return json_->template get<double>();
     }
     double numberOr(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
-    // A whole number from `least` to `most`.
+    // An integer from `least` to `most`.
     template <class Whole>
     Whole whole(Whole least, Whole most) const {
         const bool fits = json_->is_number_unsigned()
@@ -82,7 +82,7 @@ public:
         if (!fits) fail(fmt::format("is not a whole number from {} to {}", least, most));
         return json_->template get<Whole>();
     }
-    // An index into something of `count` elements.
+    // An index into `count` elements.
     std::size_t index(std::size_t count) const {
         if (count == 0) fail("is an index into an empty list");
         return whole<std::size_t>(0, count - 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one way in which JSON becomes text for a file or another program.
+// Writes JSON as text. All JSON for files and other programs goes through this.
 #pragma once
 
 #include "shared/text/one_line.h"
@@ -10,9 +10,9 @@
 
 namespace diptych {
 
-// Controls (C1 and DEL too) and what sets the direction of text stand as "\u009b" in strings, so that `cat`
-// shows the file as it is; they read back as what they are. Bytes that are not UTF-8 become U+FFFD. `indent`:
-// spaces a level; -1: all on one line.
+// Escapes controls (including C1 and DEL) and bidirectional formatting characters, as in "\u009b", so
+// `cat` of the file is safe; they read back unchanged. Invalid UTF-8 becomes U+FFFD. `indent`: spaces per
+// level; -1: all on one line.
 template <class Json>
 std::string jsonText(const Json& json, int indent = 2) {
     return shownText(json.dump(indent, ' ', false, Json::error_handler_t::replace));

@@ -10,8 +10,7 @@
 
 namespace diptych {
 
-// Returns the result of read(). Any error in it is rethrown as a std::runtime_error whose line begins with
-// the file's name.
+// Returns read(). Rethrows any error as a std::runtime_error, one line that begins with the file's name.
 template <class Read>
 auto named(const std::string& name, const Read& read) {
     try {

@@ -32,7 +32,7 @@ Character characterAt(std::string_view text) {
         if (!continues(text[i])) return {};
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    // Overlong encodings, surrogates, and code points beyond U+10FFFF.
+    // Overlong encodings, surrogates and code points beyond U+10FFFF.
     const bool wrong = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000) ||
                        (code >= 0xd800 && code < 0xe000) || code > 0x10ffff;
     return wrong ? Character{} : Character{code, size};
@@ -65,8 +65,8 @@ std::string oneLine(std::string_view text, std::size_t most) {
 }
 
 std::string messageLine(std::string_view text) {
-    // The longest that the program says of itself, all names of a list, has about 1,500 bytes; a screen of 24
-    // lines of 80 columns shows 1,920.
+    // The program's longest message, a list of all names, has about 1,500 bytes. A screen of 24 x 80
+    // characters shows 1,920.
     constexpr std::size_t head = 1400, tail = 500;
     const auto spaced = [](std::string_view part) {
         std::string line(part);

@@ -5,7 +5,7 @@
 
 namespace diptych {
 
-// Whether `pattern` matches all of `text`; * stands for any number of characters, ? for one.
+// Whether `pattern` matches all of `text`; * matches any number of characters, ? one.
 bool matches(std::string_view pattern, std::string_view text);
 
 }  // namespace diptych

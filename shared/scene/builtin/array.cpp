@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any number of objects, triangles, meshes, materials and textures in one view, to see how a frame's time and
-// memory grow with each.
+// Configurable numbers of objects, triangles, meshes, materials and textures in one view. Shows how a
+// frame's time and memory grow with each.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
@@ -13,19 +13,18 @@
 namespace diptych::builtin {
 namespace {
 
-// The wall that the objects share, m, as pictures are mostly shaped; and how far away the camera sees it
-// whole with some margin.
+// The objects fill a wall of 16:9, m. The camera sees all of it from eyeDistance with some margin.
 constexpr double wallWidth = 16, wallHeight = 9, eyeDistance = 8.5;
-constexpr std::uint32_t textureSide = 1024;  // 4 MiB, and a third more with its mip levels
+constexpr std::uint32_t textureSide = 1024;  // 4 MiB, plus a third for mip levels
 
-// A sphere of about so many triangles, at least 8; of fewer a square that faces the camera.
+// A sphere of about `triangles` triangles, or a square that faces the camera if fewer than 8.
 Primitive shapeOf(double radius, double triangles) {
     if (triangles < 8) return quad({-radius, -radius, 0}, {2 * radius, 0, 0}, {0, 2 * radius, 0});
     const int rings = std::max(2, static_cast<int>(std::lround((1 + std::sqrt(1 + triangles)) / 2)));
     return sphere(radius, 2 * rings, rings);
 }
 
-// Noise, so that no two textures are alike and no texel like its neighbour.
+// White noise: all textures differ, and so do adjacent texels.
 TextureImage noiseTexture(std::uint32_t number) {
     TextureImage image{fmt::format("noise {}", number), int{textureSide}, int{textureSide}, {}};
     image.rgba.resize(std::size_t{textureSide} * textureSide * 4);
@@ -62,7 +61,7 @@ Scene array(const ArrayCounts& counts) {
         if (m < images) b.scene.materials.back().base_color_texture = b.texture(noiseTexture(m));
     }
     const double triangles = static_cast<double>(counts.triangles) / objects;
-    for (std::uint32_t m = 0; m < meshes; ++m)  // no two are alike
+    for (std::uint32_t m = 0; m < meshes; ++m)  // all meshes differ
         b.addMesh(shapeOf((0.4 + 0.05 * m / meshes) * cell, triangles), static_cast<int>(m % materials),
                   fmt::format("mesh {}", m));
     b.scene.nodes.reserve(objects);

@@ -22,9 +22,9 @@ struct Ball {
     double radius;
 };
 
-// Irradiance over pi at a place under a sky of radiance 1, partly hidden by black balls: each ball hides its
-// configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010; the ball must be wholly above the
-// horizon of the place).
+// Irradiance / pi at a point under a sky of radiance 1 with black balls. Each ball blocks its
+// configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010); it must be wholly above the
+// horizon of the point.
 double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<const Ball> balls) {
     double share = 1;
     for (const Ball& ball : balls) {
@@ -36,7 +36,7 @@ double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<con
     return std::max(share, 0.0);
 }
 
-// Makes a lightmap: texel(u, v) is its linear light; u goes right and v down the picture.
+// Makes a lightmap; texel(u, v) is linear radiance, u to the right and v down.
 template <class Texel>
 TextureImage floats(const std::string& name, int size, const Texel& texel) {
     TextureImage image{name, size, size, {}};
@@ -50,7 +50,7 @@ TextureImage floats(const std::string& name, int size, const Texel& texel) {
     return image;
 }
 
-// The second UV set is the first, mirrored left to right and turned by a quarter: using the wrong set
+// The second UV set is the first, mirrored horizontally and rotated by 90 degrees: use of the wrong set
 // becomes visible.
 Primitive unwrapped(Primitive shape) {
     for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
@@ -59,11 +59,11 @@ Primitive unwrapped(Primitive shape) {
 
 }  // namespace
 
-// A floor and a wall under a sky that two balls partly hide, and a stripe of 40 W/(sr m^2) along the wall's
-// foot: the floats of the floor's lightmap go far beyond the range of 8 bits. The balls' own lightmaps have
-// 8 bits, with an intensity of 1.5. In front, the same tile five times: without a lightmap, with one, also
-// under an occlusion map, as metal, which reflects none of the baked light, and unlit. A weak sun and a lamp
-// light everything as well.
+// A floor and a wall under a sky that two balls partly hide, and a stripe of 40 W/(sr m^2) along the
+// wall's foot. The floor's lightmap has floats far beyond the range of 8 bits; those of the balls have 8
+// bits and an intensity of 1.5. In front are five tiles: without a lightmap, with one, with an occlusion
+// map too, metallic (reflects no baked light), and unlit. A weak sun and a point light light everything as
+// well.
 Scene lightmaps() {
     Builder b;
     b.camera("front", {0, 2.4, 6.5}, {0, 0.7, 0}, 38, 0.1, 100);
@@ -80,7 +80,7 @@ Scene lightmaps() {
     };
     const glm::dvec3 sky(0.55, 0.7, 0.9), glow(40, 9, 2);
 
-    // Lightmap coordinates (u, v) of unwrapped() are (1 - v, u) in the first UV set.
+    // The lightmap's (u, v) of unwrapped() equals (1 - v, u) of the first UV set.
     const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f},
                           floats("floor light", 128,
                                  [&](double u, double v) {
@@ -103,7 +103,7 @@ Scene lightmaps() {
     for (const Ball& ball : balls) {
         TextureImage image{"ball light", 32, 32, {}};
         for (int y = 0; y < 32; ++y)
-            for (int x = 0; x < 32; ++x) {  // x grows downwards on the ball
+            for (int x = 0; x < 32; ++x) {  // x runs down the ball
                 for (const int top : {200, 215, 235})
                     image.rgba.push_back(static_cast<std::uint8_t>(top - 5 * x));
                 image.rgba.push_back(255);

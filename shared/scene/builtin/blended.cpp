@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Test scenes of alpha blending: what an order of draws gets right, and what it does not.
+// Test scenes of alpha blending, with cases that draw order solves and cases that it cannot.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -19,7 +19,7 @@ int blended(Builder& b, const std::string& name, const Surface& surface, float o
     return material;
 }
 
-// `count` parallel panes one behind the other, the last one in front.
+// `count` parallel panes, sorted from back to front.
 void addPanes(Builder& b, int count, const glm::dvec3& corner, float opacity) {
     for (int i = 0; i < count; ++i) {
         const float hue = static_cast<float>(i % 4) / 3;
@@ -35,18 +35,18 @@ void addPanes(Builder& b, int count, const glm::dvec3& corner, float opacity) {
 Scene glass() {
     Builder b;
     b.camera("front", {0.2, 1.5, 6}, {0, 1.1, 0}, 44, 0.1, 100);
-    // Cuts through a ball that it stands in.
+    // This camera is inside a ball and its near plane cuts the ball.
     b.camera("inside", {2.2, 0.62, 0.75}, {0, 0.8, -0.5}, 60, 0.05, 100);
     const Primitive floor = quad({-4, 0, 3}, {8, 0, 0}, {0, 0, -5}, 8, 5);
     b.add("floor", floor, b.material("floor", {{0.5f, 0.48f, 0.45f}, 0, 0.6f}), glm::dvec3(0.0));
-    // The upper half of all that follows is seen against the sky.
+    // Everything that follows has its upper half against the sky.
     const Primitive wall = quad({-3.2, 0, -1.2}, {6.4, 0, 0}, {0, 1.1, 0});
     const int plaster = b.material("wall", {{0.7f, 0.7f, 0.65f}, 0, 0.8f});
     b.add("wall", wall, plaster, glm::dvec3(0.0));
 
     addPanes(b, 32, {-3.1, 0.3, -1}, 0.1f);
     addPanes(b, 4, {-2.0, 0.3, -0.6}, 0.5f);
-    // Both sides and one, a metal, and what the camera stands in.
+    // One-sided and two-sided balls and a metallic one; the second contains the camera "inside".
     const int green = blended(b, "green", {{0.2f, 0.7f, 0.3f}, 0, 0.1f}, 0.4f);
     b.add("one side", sphere(0.35, 48, 24), green, glm::dvec3(0.9, 0.36, 0.6));
     const int both = blended(b, "both sides", {{0.3f, 0.6f, 0.9f}, 0, 0.15f}, 0.3f);
@@ -54,7 +54,7 @@ Scene glass() {
     b.add("both sides", sphere(0.4, 48, 24), both, glm::dvec3(2.2, 0.6, 0.6));
     b.add("metal", sphere(0.3, 48, 24), blended(b, "metal", {{0.9f, 0.7f, 0.3f}, 1, 0.3f}, 0.6f),
           glm::dvec3(1.55, 1.5, -0.4));
-    // Opacity 0 and 1, of a texture, of vertex colours beyond 1, and what no light reaches.
+    // Opacity 0, 1, from a texture, and from vertex colours beyond 1; and a surface that no light reaches.
     const glm::dvec3 right(0.5, 0, 0), up(0, 0.5, 0);
     b.add("nothing", quad({-1.9, 1.5, 0.2}, right, up), blended(b, "nothing", {}, 0), glm::dvec3(0.0));
     b.add("all", quad({-1.3, 1.5, 0.2}, right, up), blended(b, "all", {{0.8f, 0.5f, 0.2f}, 0, 0.5f}, 1),
@@ -93,16 +93,16 @@ Scene crossed() {
     b.scene.materials.back().double_sided = true;
     const int blue = blended(b, "blue", {{0.1f, 0.2f, 0.8f}, 0, 0.4f}, 0.5f);
     b.scene.materials.back().double_sided = true;
-    // Panes that pass through each other: no order of draws is right.
+    // Intersecting panes: no draw order is right.
     for (const auto& [material, degrees] : {std::pair(red, 40.0), {blue, -40.0}})
         b.add("crossed", quad({-0.5, 0, 0}, {1, 0, 0}, {0, 1, 0}), material,
               at(-0.7, 0.3, 0) * turned(degrees));
-    // In one plane with each other, and with the wall, by the same corners and by others.
+    // Coplanar panes, with the same corners as each other, and on the wall.
     for (const int material : {red, blue})
         b.add("coplanar", quad({0.1, 0.6, -0.4}, {0.6, 0, 0}, {0, 0.8, 0}), material, glm::dvec3(0.0));
     for (const int material : {red, blue})
         b.add("on the wall", quad({0.9, 0.3, -0.8}, {0.5, 0, 0}, {0, 0.6, 0}), material, glm::dvec3(0.0));
-    // A ring whose near and far side are one draw.
+    // A ring: its near and far sides are in one draw call.
     b.add("ring", torus(0.35, 0.12), red, at(0.6, 0.5, 0.7) * turned(70, {1, 0, 0.3}));
     b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
     b.point({-0.5, 1.4, 1.2}, {1.0f, 0.7f, 0.4f}, 2, 4);

@@ -104,7 +104,7 @@ Camera& Builder::camera(const std::string& name, const glm::dvec3& eye, const gl
     made.yfov = glm::radians(yfovDegrees);
     made.near = near;
     made.far = far;
-    // The matrix is set column by column: inverting a view matrix would lose digits far from the origin.
+    // Built from its axes, because inverting a view matrix would lose digits far from the origin.
     const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
     made.world_from_camera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(right, forward), 0),
                                         glm::dvec4(-forward, 0), glm::dvec4(eye, 1));

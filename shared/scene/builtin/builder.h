@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Helper that builds a built-in scene: each call adds one object to `scene`.
+// Builds a scene; each call adds one object to `scene`.
 #pragma once
 
 #include "shared/scene/builtin/shapes.h"
@@ -22,11 +22,11 @@ class Builder {
 public:
     Scene scene;
 
-    // Adds a material and returns its index; `scene.materials.back()` may be changed afterwards.
+    // Adds a material and returns its index; the caller may then modify `scene.materials.back()`.
     int material(const std::string& name, const Surface& surface);
 
-    // Adds a texture and returns a slot that reads it, repeated `tiles` times over [0, 1] of the first UV
-    // set.
+    // Adds a texture and returns a slot that reads it by the first UV set, repeated `tiles` times over [0,
+    // 1].
     TextureSlot texture(TextureImage image, double tiles = 1, const Sampler& sampler = {});
 
     // Adds a node whose mesh is one primitive; returns the node's index.
@@ -36,15 +36,14 @@ public:
     int addMesh(Primitive shape, int material, const std::string& name);
     int addNode(const std::string& name, int mesh, const glm::dmat4& parentFromNode, int parent = -1);
 
-    // Intensities in candela, lux for the sun; metres; half angles of the cone in degrees. `direction` need
-    // not be unit.
+    // Units: candela, for the sun lux; m; cone half angles in degrees. `direction` need not be normalized.
     void point(const glm::dvec3& position, const glm::vec3& color, float candela,
                float range = std::numeric_limits<float>::infinity());
     void spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float candela,
               float range, double innerDegrees, double outerDegrees);
     void sun(const glm::dvec3& direction, const glm::vec3& color, float lux);
-    // Adds an area light of a square metre with the given nits, shining towards `target`. Returns it, so
-    // that its shape can be changed.
+    // Adds an area light of 1 m^2 that shines towards `target`. Returns it, so that the caller can change
+    // its shape.
     Light& rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
                 float range = std::numeric_limits<float>::infinity());
 

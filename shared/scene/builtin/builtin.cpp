@@ -19,12 +19,12 @@
 namespace diptych {
 namespace {
 
-// A number that may follow the name: "spheres?lights=64".
+// A number after the name, as in "spheres?lights=64".
 struct Parameter {
     std::string_view name;
-    std::uint32_t usual, most;  // where none is given, and the largest that is taken
+    std::uint32_t usual, most;  // default and largest value
 };
-using Numbers = std::span<const std::uint32_t>;  // of the parameters, in their order
+using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
 struct Row {
     std::string_view name, shows;
@@ -35,7 +35,7 @@ struct Row {
 };
 
 constexpr std::array sphereParameters{Parameter{"lights", 256, 0x7fffffffu}};
-// Their product stays within what indices of 32 bits reach.
+// The maxima keep products within 32-bit indices.
 constexpr std::array arrayParameters{
     Parameter{"objects", 100, 10'000'000}, Parameter{"triangles", 20'000, 1'000'000'000},
     Parameter{"meshes", 1, 10'000'000}, Parameter{"materials", 4, 10'000'000},
@@ -116,14 +116,14 @@ std::vector<std::string> knownNames() {
     return names;
 }
 
-// "lights=N" of each, joined.
+// Joins "lights=N" of each parameter.
 std::string namesOf(std::span<const Parameter> parameters, std::string_view joined) {
     std::vector<std::string> names;
     for (const Parameter& parameter : parameters) names.push_back(fmt::format("{}=N", parameter.name));
     return fmt::format("{}", fmt::join(names, joined));
 }
 
-// Parses "lights=64", or several with & between them.
+// Parses "lights=64", or several separated by &.
 std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, std::string_view query) {
     if (row.makeWith == nullptr)
         throw std::runtime_error(fmt::format("builtin:{}: {} takes no parameters", name, row.name));

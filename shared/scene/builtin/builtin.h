@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Built-in scenes: they need no file, and are computed, the same on every machine.
+// Built-in scenes: computed, need no file, and are identical on every machine.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,18 +11,16 @@ namespace diptych {
 
 struct BuiltinName {
     std::string name;       // without "builtin:"
-    std::string parameter;  // "lights=256": the parameter and its default, several with & between them; empty
-                            // if it takes none
-    std::string shows;      // one line that describes it
-    bool for_tests;         // made to test one way in which two paths may differ, not to be looked at
+    std::string parameter;  // "lights=256": parameters and defaults, joined by &; empty if none
+    std::string shows;      // one line
+    bool for_tests;         // tests one difference between the paths; not made to look good
 };
 
-// In the order of the list that users see: pictures first.
+// In the order of the list for users: display scenes first.
 std::vector<BuiltinName> builtinNames();
 
-// `name` is what follows "builtin:", e.g. "gallery" or "spheres?lights=64". The name of the returned scene
-// includes the prefix. Throws std::runtime_error: one line that names what is unknown and lists what there
-// is.
+// `name` follows "builtin:", such as "gallery" or "spheres?lights=64". The scene's name includes the
+// prefix. Throws std::runtime_error: one line with the unknown name or parameter and the valid ones.
 Scene makeBuiltin(const std::string& name);
 
 }  // namespace diptych

@@ -9,9 +9,9 @@
 
 namespace diptych::builtin {
 
-// The white furnace test of Heitz et al., as far as punctual lights can do it: everything is white and lit
-// equally from all sides. If an environment of radiance 1 replaces the suns, objects whose BRDF loses no
-// energy become invisible before the background of radiance 1.
+// The white furnace test of Heitz et al., approximated with directional lights: all surfaces are white and
+// lit equally from all sides. If an environment of radiance 1 replaces the lights, objects whose BRDF
+// loses no energy vanish against the background of radiance 1.
 Scene furnace() {
     Builder b;
     b.scene.background = glm::vec3(1);
@@ -27,10 +27,10 @@ Scene furnace() {
                   glm::dvec3(0.7 * (column - 5), row == 0 ? -0.55 : 0.55, 0));
         }
 
-    // Suns of equal solid angle 4 pi / N on a spherical Fibonacci lattice (Gonzalez 2010, "Measurement of
-    // Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices"). Each replaces radiance 1 over its
-    // solid angle, which is 4 pi / N lux; a plane then receives about pi lux, and a white Lambertian surface
-    // has radiance 1.
+    // Suns on a spherical Fibonacci lattice, each of solid angle 4 pi / N. Source: Gonzalez 2010,
+    // "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices". Each replaces
+    // radiance 1 over its solid angle, so it has 4 pi / N lux. A plane then receives about pi lux, and a
+    // white Lambertian surface has radiance 1.
     constexpr int SUNS = 64;
     for (int i = 0; i < SUNS; ++i) {
         const double y = 1 - (2 * i + 1.0) / SUNS, r = std::sqrt(1 - y * y), theta = i * 2.399963229728653;

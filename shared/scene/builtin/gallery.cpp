@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The default scene: a sculpture hall in the evening.
+// The default scene: a sculpture gallery in the evening.
 #include "shared/scene/builtin/gallery.h"
 
 #include "shared/scene/builtin/scenes.h"
@@ -47,7 +47,7 @@ void glow(Room& room) {
 
 void lamps(Room& room) {
     Builder& b = room.b;
-    for (int i = 0; i < 8; ++i) {  // down the brick wall, up to the beams, and over the arcade
+    for (int i = 0; i < 8; ++i) {  // down the brick wall, up to the beams, and above the arcade
         const double z = NEAR_END - 2.6 - 2.0 * i;
         b.spot({LEFT + 0.75, CEILING - 0.4, z}, {LEFT, 1.5, z}, WARM, 40, 6, 10, 36);
         if (i % 2 == 1) b.spot({LEFT + 0.5, 2.4, z}, {LEFT + 2.2, CEILING, z}, WARM, 9, 6, 20, 60);
@@ -70,7 +70,7 @@ void lamps(Room& room) {
     b.spot({PLANTER.x + 0.9, CEILING - 0.5, PLANTER.z + 1.0}, {PLANTER.x, 1.1, PLANTER.z}, IVORY, 26, 6, 10,
            20);
     b.spot({PLANTER.x + 1.2, 0.4, PLANTER.z + 2.2}, {PLANTER.x, 1.0, PLANTER.z}, IVORY, 6, 5, 10, 24);
-    for (int i = 0; i < 8; ++i) {  // light given off by the neon
+    for (int i = 0; i < 8; ++i) {  // light emitted by the neon ring
         const double angle = glm::radians(45.0 * i);
         b.point({KNOT.x + 1.45 * std::cos(angle), 2.45 + 1.45 * std::sin(angle), FAR_END + 0.55}, CYAN, 1.8f,
                 4);

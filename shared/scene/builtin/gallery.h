@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The layout of the sculpture hall. Metres; x to the right, the hall runs from the camera at z = 5.5 to the
-// end wall at z = -10; the brick wall is on the left, the arcade on the right.
+// The layout of the gallery, m. x points to the right. The hall runs from the camera at z = 5.5 to the end
+// wall at z = -10; the brick wall is on the left, the arcade on the right.
 #pragma once
 
 #include "shared/scene/builtin/builder.h"
@@ -16,7 +16,7 @@ inline constexpr double LEFT = -4.5, RIGHT = 4.2, NEAR_END = 6, FAR_END = -10, C
 inline constexpr vec3 WARM{1.0f, 0.62f, 0.32f}, COOL{0.42f, 0.66f, 1.0f}, CYAN{0.25f, 0.85f, 1.0f},
     ROSE{1.0f, 0.28f, 0.42f}, IVORY{1.0f, 0.86f, 0.7f};
 
-// The place of an object on the floor: centre and half extents in x and z.
+// Floor area of an object: centre and half extents in x and z.
 struct Footprint {
     double x, z, half_x, half_z;
 };
@@ -27,7 +27,7 @@ struct Room {
     Builder b;
     int stone = 0, brass = 0, dark_wood = 0;
 
-    // Adds a material with these two textures; `b.scene.materials.back()` may be changed afterwards.
+    // Adds a material with these two textures; the caller may then modify `b.scene.materials.back()`.
     int textured(const std::string& name, const Surface& surface, const TextureSlot& color,
                  const TextureSlot& normal);
     int glowing(const std::string& name, const vec3& radiance);

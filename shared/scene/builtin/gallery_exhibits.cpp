@@ -10,7 +10,7 @@
 namespace diptych::builtin {
 namespace {
 
-// Spheres, metallic by roughness: ceramics in front, gold behind, metallic 0.5 between.
+// Spheres, metallic by roughness: ceramics in front, metallic 0.5 in the middle, gold behind.
 void stage(Room& room) {
     Builder& b = room.b;
     const vec3 colors[] = {{0.02f, 0.26f, 0.3f}, {0.72f, 0.2f, 0.16f}, {1.0f, 0.72f, 0.32f}};
@@ -44,7 +44,7 @@ Primitive pedestal(double radius, double height) {
 
 void sculptures(Room& room) {
     Builder& b = room.b;
-    // The end of the hall: a knot before a ring of light.
+    // At the end of the hall: a knot in front of a ring of light.
     b.add("tall pedestal", pedestal(0.6, 1.5), room.stone, dvec3(KNOT.x, 0, KNOT.z));
     const int copper = b.material("brushed copper", {{0.95f, 0.56f, 0.4f}, 1, 1});
     b.scene.materials.back().metallic_roughness_texture = b.texture(brushed("brushed", 256), 3);
@@ -52,7 +52,7 @@ void sculptures(Room& room) {
     b.add("ring of light", torus(1.45, 0.06, 96, 16), room.glowing("cyan neon", CYAN * 5.0f),
           at(KNOT.x, 2.45, FAR_END + 0.35) * turned(90, {1, 0, 0}));
 
-    // In front on the right: a gem with an index of refraction of 2.4 and a tinted specular colour.
+    // Front right: a gem with ior 2.4 and a tinted specular colour.
     b.add("pedestal", pedestal(0.36, 0.92), room.stone, dvec3(GEM.x, 0, GEM.z));
     b.material("cut stone", {{0.12f, 0.04f, 0.26f}, 0, 0.2f});
     Material& cut = b.scene.materials.back();
@@ -61,7 +61,7 @@ void sculptures(Room& room) {
     b.add("cut stone", gem(0.56), static_cast<int>(b.scene.materials.size() - 1),
           at(GEM.x, 0.9, GEM.z) * turned(11));
 
-    // Vertex colours show a glaze that runs down. The specular strength is low, as of an unglazed body.
+    // Vertex colours show a glaze that runs down. The low specular strength suggests unglazed clay.
     b.material("glaze", {vec3(1), 0, 0.25f});
     b.scene.materials.back().specular = 0.6f;
     const Primitive vase = lathe({{0, 0},
@@ -110,12 +110,13 @@ void greenery(Room& room) {
     green.alpha_mode = AlphaMode::mask;
     green.double_sided = true;
     Primitive leaves;
-    for (int i = 0; i < 46; ++i) {  // at multiples of the golden angle, the inner ones steeper and longer
+    // Leaves are at multiples of the golden angle; inner ones are steeper and longer.
+    for (int i = 0; i < 46; ++i) {
         const double t = i / 45.0, size = 0.62 + 0.5 * (1 - t);
         const Primitive blade = quad({-0.28 * size, 0, 0}, {0.56 * size, 0, 0}, {0, size, 0}, 1, 6);
         Primitive bent = blade;
-        for (std::size_t k = 0; k < bent.positions.size();
-             ++k) {  // along a circular arc whose radius is 1.5 leaf lengths
+        // Bends the leaf along a circular arc with a radius of 1.5 leaf lengths.
+        for (std::size_t k = 0; k < bent.positions.size(); ++k) {
             const float angle = blade.positions[k].y / (1.5f * static_cast<float>(size));
             const float radius = 1.5f * static_cast<float>(size);
             bent.positions[k].y = radius * std::sin(angle);

@@ -8,8 +8,8 @@
 namespace diptych::builtin {
 namespace {
 
-// How much of the sky a point of the floor sees beside the objects that stand there, squared for a stronger
-// effect: punctual lights cast no shadows, so the floor's vertex colours darken it around the objects.
+// Approximate sky visibility of a floor point, squared for a stronger effect. Vertex colours darken the
+// floor around objects, because local lights cast no shadows by default.
 float openness(const vec3& p) {
     const auto near = [](double distance, double reach) {
         const double t = std::clamp(distance / reach, 0.0, 1.0);

@@ -28,9 +28,7 @@ Builder stage() {
 
 }  // namespace
 
-// Strong lights with short ranges: light left at the end of a range would show as a rim. Some touch the
-// floor in a single point, one ends just above it, one contains the eye, one ends on the foremost point of a
-// ball.
+// Bright lights with short ranges: light remaining at the end of a range would show as a rim.
 Scene rangeEdge() {
     Builder b = stage();
     for (int i = 0; i < 4; ++i)
@@ -38,7 +36,7 @@ Scene rangeEdge() {
                 0.9f + 0.1f * static_cast<float>(i));
     b.point({-3, 1, 2.5}, {1.0f, 0.3f, 0.3f}, 5, 1.0f);        // touches the floor
     b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 5, 0.999f);       // ends a millimetre above it
-    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // contains the eye
+    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // contains the camera
     b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 6, 2.0f);  // ends on the foremost point of a ball
     b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, 15, 25);  // ends on the floor
     b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, 0, 40);    // ends on the wall
@@ -50,7 +48,7 @@ Scene suns() {
     b.sun({-0.5, -1, -0.5}, {1.0f, 0.9f, 0.8f}, 2);
     b.sun({0.9, -0.3, -0.3}, {0.3f, 0.5f, 1.0f}, 1);
     b.sun({0, -1, 0}, glm::vec3(1), 0.2f);
-    b.sun({0, 1, 0}, {1.0f, 0.2f, 0.1f}, 5);  // from below: lights the balls' undersides only
+    b.sun({0, 1, 0}, {1.0f, 0.2f, 0.1f}, 5);  // from below: lights only the undersides of the balls
     return std::move(b.scene);
 }
 
@@ -61,11 +59,11 @@ Scene points() {
                 {i % 2 == 0 ? 1.0f : 0.4f, 0.7f, i % 2 == 0 ? 0.4f : 1.0f}, 2.0f,
                 i % 3 == 0 ? std::numeric_limits<float>::infinity() : 3.0f);
     b.point({0, 0.45, 0.3}, glm::vec3(1), 1, 2);    // inside a ball
-    b.point({-4, 0, 2}, {1.0f, 0.5f, 0.5f}, 1, 2);  // in the plane of the floor
+    b.point({-4, 0, 2}, {1.0f, 0.5f, 0.5f}, 1, 2);  // in the floor plane
     return std::move(b.scene);
 }
 
-// Inner and outer cones from very narrow to a half-space, one with a hard edge, and one without a range.
+// Cones from very narrow to a half-space; one has a hard edge, and one has no range.
 Scene spots() {
     Builder b = stage();
     const double cones[][2] = {{0, 5}, {0, 30}, {14.9, 15}, {20, 40}, {25, 25.0001}, {60, 90}};
@@ -75,18 +73,18 @@ Scene spots() {
                {1.0f, 0.6f + 0.06f * static_cast<float>(i), 0.4f + 0.1f * static_cast<float>(i)}, 9,
                i == 3 ? std::numeric_limits<float>::infinity() : 6.0f, cones[i][0], cones[i][1]);
     }
-    // Along the floor, at a grazing angle.
+    // At a grazing angle along the floor.
     b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, 4, 9);
     return std::move(b.scene);
 }
 
-// Two-sided and one-sided, above the floor and through it, with ranges and without, near and far, and one
-// around a ball.
+// Area lights of all shapes: one-sided and two-sided, above and through the floor, with and without
+// ranges, near and far; one encloses a ball.
 Scene areas() {
     Builder b = stage();
     b.rect({-3, 2.4, -1.8}, {-2, 0.5, 1}, {1.0f, 0.7f, 0.4f}, 8).height = 0.5f;
     Light& panel =
-        // Its lower part is below the floor.
+        // The lower part is below the floor.
         b.rect({0.6, 0.3, 1.4}, {0.6, 0.5, 0}, {0.5f, 1.0f, 0.6f}, 2, 2.5f);
     panel.width = 0.4f, panel.two_sided = true;
     Light& disc = b.rect({0, 3, 0.5}, {0, 0, 0.5}, {0.8f, 0.9f, 1.0f}, 9, 6);
@@ -95,19 +93,19 @@ Scene areas() {
     dish.kind = LightKind::disc, dish.radius = 0.4f;
     Light& tube = b.rect({2, 0.25, 1.5}, {2, 0, 1.5}, {0.4f, 0.6f, 1.0f}, 25);
     tube.kind = LightKind::tube, tube.radius = 0.05f, tube.axis = glm::normalize(glm::dvec3(1, 0.1, 0.3));
-    // Its lower part is below the floor.
+    // The lower part is below the floor.
     Light& column = b.rect({-4, 0.4, 1}, {-3, 0.4, 1}, {1.0f, 0.9f, 0.6f}, 4, 3);
     column.kind = LightKind::tube, column.radius = 0.3f, column.length = 1.5f, column.axis = {0.2, 0.96, 0.2};
     column.axis = glm::normalize(column.axis);
     Light& barrel =
-        // Encloses a ball, which stays dark inside.
+        // Encloses a ball, which stays dark.
         b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);
     barrel.kind = LightKind::tube, barrel.radius = 0.5f, barrel.length = 1.2f;
     return std::move(b.scene);
 }
 
-// It has a camera, so that no default view is made. The tool may add its default sun; the paths alone must
-// draw black.
+// Has a camera, so that there is no default view. The program may add its default sun; the paths alone
+// must render black.
 Scene unlit() {
     return std::move(stage().scene);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The test scene of what moves: joints, morph targets, nodes and lights, in the first two seconds.
+// The test scene of animation: joints, morph targets, nodes and lights, over the first two seconds.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -34,7 +34,7 @@ std::vector<float> negated(std::vector<float> values) {
 
 class Stage : public Builder {
 public:
-    // A node that animations move.
+    // Adds a node that animations move.
     int addMover(const std::string& name, const Transform& transform, int parent = -1) {
         const int node =
             addNode(name, -1,
@@ -46,8 +46,8 @@ public:
         return node;
     }
 
-    // Joints one above the other along +Y, `step` metres apart, the first under `root`; a skin of them in
-    // the order of their heights, bound where they are without the root's transform.
+    // Adds a chain of joints along +Y, `step` metres apart, the first under `root`, and a skin with them
+    // in that order. The bind pose ignores the root's transform.
     int addChain(const std::string& name, int count, double step, int root) {
         Skin skin{.name = name, .joints = {}, .joint_from_mesh = {}, .skeleton = root};
         for (int j = 0; j < count; ++j) {
@@ -73,7 +73,7 @@ public:
         return node;
     }
 
-    // A channel of an animation; `keys` are one for each time, three with a cubic spline.
+    // Adds a channel; `keys` has one entry per time, or three for a cubic spline.
     void animate(int animation, int node, AnimatedPart part, Interpolation interpolation,
                  std::vector<float> times, std::initializer_list<std::vector<float>> keys) {
         Keyframes frames{interpolation, std::move(times), {}, keys.begin()->size()};
@@ -85,7 +85,8 @@ public:
     }
 };
 
-// Gives every vertex the joints of largest weight(joint, position), as many as `sets` sets hold, at most.
+// Assigns every vertex the joints with the largest weight(joint, position), as many as `sets` joint sets
+// can store.
 Primitive bound(Primitive shape, int joints, std::size_t sets,
                 const std::function<double(int, const glm::dvec3&)>& weight) {
     shape.joint_sets.resize(sets);
@@ -110,7 +111,7 @@ Primitive bound(Primitive shape, int joints, std::size_t sets,
     return shape;
 }
 
-// A column of that radius and height on y = 0, with a flat top.
+// A column of that radius and height that stands on y = 0, with a flat top.
 Primitive column(double radius, double height, int rings) {
     std::vector<glm::dvec2> profile;
     for (int r = 0; r <= rings; ++r) profile.emplace_back(radius, height * r / rings);
@@ -118,7 +119,7 @@ Primitive column(double radius, double height, int rings) {
     return lathe(profile, 16);
 }
 
-// From 0 below the joint at `height` to 1 above it, over a metre times `width`.
+// Smooth step from 0 below `height` to 1 above it, `width` metres wide.
 double above(double y, double height, double width) {
     const double t = std::clamp((y - height) / width + 0.5, 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -128,8 +129,8 @@ double upperOfTwo(int joint, const glm::dvec3& p) {
     return joint == 1 ? upper : 1 - upper;
 }
 
-// An ellipsoid at weight 1 of the first target, with its exact normals; the second slides the picture and
-// dyes the upper half.
+// The first target makes an ellipsoid with exact normals; the second shifts the texture and tints the
+// upper half.
 Primitive morphingBall(const TextureSlot& map) {
     Primitive ball =
         paint(sphere(0.45, 24, 12), [](const glm::vec3&) { return glm::vec4(0.9f, 0.8f, 0.7f, 1); });
@@ -141,7 +142,7 @@ Primitive morphingBall(const TextureSlot& map) {
         squash.normals.push_back(glm::normalize(n / stretch) - n);
         dye.texcoords[0].emplace_back(0.5f * ball.texcoords[0][v].y, 0.0f);
         const float up = std::max(p.y, 0.0f);
-        dye.colors.emplace_back(-2 * up, -up, 2 * up, 0.0f);  // beyond 0..1 at the top
+        dye.colors.emplace_back(-2 * up, -up, 2 * up, 0.0f);  // beyond 0 to 1 at the top
     }
     ball.targets = {squash, dye};
     makeTangents(ball, map);
@@ -164,7 +165,7 @@ Primitive morphingFacets() {
     return facets;
 }
 
-// A leaf that bends forward as a parabola.
+// A leaf that bends forward into a parabola.
 Primitive bendingLeaf() {
     Primitive leaf = quad({-0.4, 0, 0}, {0.8, 0, 0}, {0, 1, 0}, 3, 8);
     MorphTarget bend;
@@ -179,11 +180,11 @@ Primitive bendingLeaf() {
 
 }  // namespace
 
-// From left to right: a column of two bones that bends while its upper half is stretched 4:1, a tentacle
-// whose vertices follow eight joints, a ball whose shape, picture and colour are morphed under a normal map,
-// a normal-mapped column under a mirrored root, twisting facets, and a translucent flag; in front a leaf that
-// bends, and a box that slides past and throws its shadow. The flag's mesh hangs below the box in the node
-// tree, which must not move it. A lamp goes around above.
+// From left to right: a column of two bones that bends while its upper half stretches 4:1; a tentacle with
+// eight joints; a ball with morphed shape, UV and colour under a normal map; a normal-mapped column under
+// a mirrored root; twisting facets; and a translucent flag. In front: a bending leaf, and a sliding box
+// that casts a shadow. The flag's mesh is a child of the box in the node tree, which must not move it. A
+// light circles above.
 Scene motion() {
     constexpr AnimatedPart T = AnimatedPart::translation, R = AnimatedPart::rotation, S = AnimatedPart::scale,
                            W = AnimatedPart::weights;
@@ -242,7 +243,7 @@ Scene motion() {
     b.scene.materials.back().base_color.a = 0.6f;
     b.scene.materials.back().alpha_mode = AlphaMode::blend;
     b.scene.materials.back().double_sided = true;
-    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * turned(-90, Z));  // +Y points to the right
+    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * turned(-90, Z));  // its +Y points to the right
     const int flag = b.addChain("flag", 3, 0.45, pole);
     const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
     b.scene.nodes.back().mesh =

@@ -20,8 +20,7 @@ int relief(Builder& b, const std::string& name, const glm::vec3& color, double t
 
 }  // namespace
 
-// Where depths are equal, every pass must resolve them alike: the first drawn wins in all passes, or the
-// last in all.
+// All passes must resolve equal depths alike: in all of them the first draw wins, or in all the last.
 Scene coplanar() {
     Builder b;
     b.camera("above", {1.5, 2.6, 5}, {0, 0.3, 0}, 36, 0.1, 100);
@@ -29,8 +28,8 @@ Scene coplanar() {
         {0.8f, 0.2f, 0.1f}, {0.1f, 0.6f, 0.2f}, {0.1f, 0.2f, 0.8f}, {0.7f, 0.6f, 0.1f}};
     int materials[4];
     for (int i = 0; i < 4; ++i) materials[i] = b.material(fmt::format("colour {}", i), {colors[i], 0, 0.4f});
-    // Four times the same square; then squares in the same plane with different corners, so that their
-    // interpolated depths agree in most pixels only; then the same triangles in the other order.
+    // First the same square four times. Then coplanar squares with different corners: their interpolated
+    // depths agree only in most pixels. Then the same triangles twice in one mesh.
     const Primitive square = quad({-2.5, 0, 2}, {2, 0, 0}, {0, 0, -2});
     for (int material : materials) b.add("equal squares", square, material, glm::dvec3(0.0));
     for (int i = 0; i < 4; ++i)
@@ -41,7 +40,7 @@ Scene coplanar() {
     const Primitive once = twice;
     append(twice, once);
     b.add("double triangles", twice, materials[3], glm::dvec3(0.0));
-    // Intersecting bodies: their depths meet along the seam.
+    // Intersecting bodies, whose depths are equal along the seam.
     b.add("ball", sphere(0.6, 64, 32), materials[0], glm::dvec3(1, 0.4, -1));
     b.add("box", box({0.9, 0.9, 0.9}), materials[2], at(1.4, 0.35, -0.8) * turned(30, {1, 2, 0}));
     b.add("ring", torus(0.7, 0.15), materials[1], at(1, 0.5, -1) * turned(60, {1, 0, 1}));
@@ -51,7 +50,7 @@ Scene coplanar() {
     return std::move(b.scene);
 }
 
-// Objects from 0.2 m to 90 km, far plane at 1e5 m; they are in the corner of a wide view.
+// Objects from 0.2 m to 90 km in the corner of a wide view; the far plane is at 1e5 m.
 Scene deep() {
     Builder b;
     const glm::dvec3 eye(0, 1.7, 0);
@@ -59,7 +58,7 @@ Scene deep() {
     b.scene.background = {0.2f, 0.3f, 0.5f};
     b.add("plain", quad({-1e5, 0, 1e5}, {2e5, 0, 0}, {0, 0, -2e5}),
           b.material("plain", {{0.3f, 0.28f, 0.22f}, 0, 0.7f}), glm::dvec3(0.0));
-    // Each distance is about ten times the one before, and so is the size: all look equally large.
+    // Distances and sizes grow alike by about ten times, so that all appear equally large.
     const double distances[] = {0.2, 1, 10, 100, 1000, 1e4, 9e4};
     for (int i = 0; i < 7; ++i) {
         const double d = distances[i], angle = -0.3 + 0.22 * i;
@@ -75,7 +74,7 @@ Scene deep() {
     return std::move(b.scene);
 }
 
-// Each pair shows the same relief, mirrored by its node on the right: in both, the bricks must stand out.
+// Each pair shows the same relief, mirrored by a node on the right. The bricks must protrude in both.
 Scene mirrored() {
     Builder b;
     b.camera("front", {0.05, 0, 7}, {0.05, 0, 0}, 36, 0.1, 100);
@@ -108,7 +107,7 @@ Scene stretched() {
     b.addNode("thin", ball, at(-1.3, 0.6, 0) * turned(35, {0, 0, 1}) * scaled(0.15, 1.8, 0.6));
     b.addNode("flat stone", stone, at(-3, -0.8, 0) * scaled(1.5, 0.6, 1.5));
     b.addNode("tiny unit", stone, at(-1.2, -0.8, 0) * scaled(1e-4, 1e-4, 1e-4) * scaled(1.2e4, 0.8e4, 1e4));
-    // A rotation under a non-uniform scale is a shear: normals need the inverse transpose.
+    // Rotation under non-uniform scale is a shear: normals need the inverse transpose.
     const int squeeze = b.addNode("squeeze", -1, at(1.1, 0, 0) * scaled(1.6, 0.5, 1));
     b.addNode("sheared box", cube, at(0.1, 1.2, 0) * turned(40, {0.3, 1, 1}), squeeze);
     const int deeper = b.addNode("turn", -1, at(0.2, -1.4, 0) * turned(30, {0, 0, 1}), squeeze);
@@ -119,8 +118,7 @@ Scene stretched() {
     return std::move(b.scene);
 }
 
-// In float32 a coordinate near 1e6 m has steps of 62 mm: surfaces stay smooth only if positions are relative
-// to the camera.
+// Near 1e6 m, float32 has steps of 62 mm: surfaces stay smooth only with camera-relative positions.
 Scene farAway() {
     Builder b;
     const glm::dvec3 here(1e6, 2e5, -1e6);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes that builtin.cpp lists; each function makes one. A comment names the fault that a test scene
-// catches.
+// The scenes listed in builtin.cpp. The comment beside a test scene names the bug that it catches.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -13,12 +12,12 @@ Scene gallery();
 Scene spheres(std::uint32_t lights);
 Scene furnace();
 
-// array.cpp: how a frame grows
+// array.cpp: scalability
 struct ArrayCounts {
     std::uint32_t objects, triangles, meshes, materials, texture_mib;
 };
-// `triangles` of all objects together, as near as spheres come. There are at least as many meshes as
-// materials, as many materials as textures of 4 MiB, and no more meshes than objects.
+// `triangles` is the approximate total over all objects. Counts are adjusted so that textures of 4 MiB <=
+// materials <= meshes <= objects.
 Scene array(const ArrayCounts& counts);
 
 // surfaces.cpp: surface properties that a G-buffer must store
@@ -37,7 +36,7 @@ Scene lightmaps();       // baked light lost, doubled, clamped or from the wrong
 // places.cpp: positions, visibility, transforms
 Scene coplanar();    // depth ties
 Scene glass();       // blending order, sides and lights; opacity 0, 1 and beyond
-Scene crossed();     // surfaces that no order of draws blends correctly
+Scene crossed();     // surfaces that no draw order blends correctly
 Scene deep();        // position from depth, off-centre in a wide view
 Scene mirrored();    // bitangents and winding under inherited mirroring
 Scene stretched();   // normals under non-uniform scale and shear
@@ -47,17 +46,17 @@ Scene triangle();    // the smallest input
 Scene empty();       // no mesh
 Scene background();  // nothing in view
 
-// calibration.cpp: what a renderer of others is held against
+// calibration.cpp: compares other renderers
 Scene calibration();
 
 // turned_maps.cpp: normal maps under KHR_texture_transform
 Scene tangents();  // tangents of untransformed or resting texture coordinates
 
-// motion.cpp: what moves
-Scene motion();  // a pose that is left out, late or half
+// motion.cpp: animation
+Scene motion();  // a pose that is missing, late or incomplete
 
 // lamps.cpp: lights
-Scene rangeEdge();  // light left at the end of the range
+Scene rangeEdge();  // light remaining at the end of the range
 Scene suns();
 Scene points();
 Scene spots();

@@ -38,8 +38,8 @@ void triangle(Primitive& shape, std::uint32_t a, std::uint32_t b, std::uint32_t 
     shape.indices.insert(shape.indices.end(), {a, b, c});
 }
 
-// Appends (columns + 1) x (rows + 1) vertices, `at(i, j)` with i growing to the right and j downwards, as
-// seen from outside. In a row that collapses to one point, triangles without area are left out.
+// Appends (columns + 1) x (rows + 1) vertices `at(i, j)`; seen from outside, i grows to the right and j
+// downwards. Omits the degenerate triangles of a row that collapses to a point.
 template <class At>
 void grid(Primitive& shape, int columns, int rows, bool pointAbove, bool pointBelow, At&& at) {
     const auto first = static_cast<std::uint32_t>(shape.positions.size());
@@ -57,8 +57,8 @@ void grid(Primitive& shape, int columns, int rows, bool pointAbove, bool pointBe
         }
 }
 
-// Adds a flat polygon, corners counter-clockwise seen from outside; one normal, texture coordinates in
-// metres.
+// Appends a flat polygon with one normal. Its corners are counter-clockwise seen from outside; texture
+// coordinates are in metres.
 void facet(Primitive& shape, const std::vector<dvec3>& corners) {
     const dvec3 right = glm::normalize(corners[1] - corners[0]);
     const dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -97,7 +97,7 @@ Primitive box(const dvec3& size, double bevel) {
     Primitive shape;
     const dvec3 half = size / 2.0;
     const dvec3 flat = half - bevel;
-    // Side `sign` of `axis`; the other two axes, in cyclic order, are right and up seen from outside.
+    // Side `sign` of `axis`. Seen from outside, the other two axes, in cyclic order, point right and up.
     const auto axisVector = [](int axis, double length) {
         dvec3 v(0.0);
         v[axis] = length;
@@ -105,7 +105,7 @@ Primitive box(const dvec3& size, double bevel) {
     };
     for (int axis : {0, 1, 2})
         for (double sign : {-1.0, 1.0}) {
-            // On the x and z sides the image is upright; on the top and bottom sides its top is towards -z.
+            // The image is upright on the x and z sides; on the top and bottom its top is towards -z.
             const int upAxis = axis == 1 ? 2 : 1;
             const dvec3 normal = axisVector(axis, sign), up = axisVector(upAxis, axis == 1 ? -1.0 : 1.0);
             const dvec3 right = glm::cross(up, normal);
@@ -116,7 +116,7 @@ Primitive box(const dvec3& size, double bevel) {
         }
     if (bevel <= 0) return shape;
 
-    for (int axis : {0, 1, 2})  // the edges parallel to this axis
+    for (int axis : {0, 1, 2})  // edges parallel to this axis
         for (double s : {-1.0, 1.0})
             for (double t : {-1.0, 1.0}) {
                 const int other = (axis + 1) % 3, third = (axis + 2) % 3;
@@ -159,7 +159,7 @@ Primitive lathe(const std::vector<dvec2>& profile, int segments) {
     const double smooth = std::cos(TAU / 9);
     double length = 0;
     for (std::size_t k = 1; k < profile.size(); ++k) length += glm::distance(profile[k - 1], profile[k]);
-    const auto normalOf = [&](std::size_t k) {  // outwards, of the segment that ends in point k
+    const auto normalOf = [&](std::size_t k) {  // outward normal of the segment that ends at point k
         const dvec2 d = glm::normalize(profile[k] - profile[k - 1]);
         return dvec2(d.y, -d.x);
     };
@@ -186,8 +186,8 @@ Primitive lathe(const std::vector<dvec2>& profile, int segments) {
 
 Primitive tube(const std::function<dvec3(double)>& curve, double radius, int segments, int sides) {
     const auto forward = [&](double s) { return glm::normalize(curve(s + 1e-4) - curve(s - 1e-4)); };
-    // A frame moved along the curve without rotation about the tangent (parallel transport). The rotation
-    // that remains after one round is distributed evenly over the length, so that both ends match.
+    // A frame moved along the curve by parallel transport. The rotation left after one loop is spread
+    // evenly over the length, so that both ends match.
     std::vector<dvec3> across;
     dvec3 n = glm::cross(forward(0), std::abs(forward(0).y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
     for (int i = 0; i <= segments; ++i) {
@@ -254,7 +254,7 @@ Primitive archway(double width, double height, double depth, double opening, dou
     };
     flat(-width / 2, 0, -radius, height);
     flat(radius, 0, width / 2, height);
-    const auto arc = [&](int k) {  // point k of the arc, from its left end to its right one
+    const auto arc = [&](int k) {  // point k of the arc, left to right
         const double angle = TAU / 2 * (1 - static_cast<double>(k) / segments);
         return dvec2(radius * std::cos(angle), spring + radius * std::sin(angle));
     };
@@ -265,10 +265,9 @@ Primitive archway(double width, double height, double depth, double opening, dou
         triangle(shape, a, b, c);
         triangle(shape, a, c, d);
     }
-    // The inner surface of the opening, along its whole edge; u into the wall, v along the edge from its
-    // right foot.
+    // The inner surface of the opening. u runs into the wall, v along the edge from its right foot.
     const double length = 2 * spring + TAU / 2 * radius;
-    const auto edge = [&](int k) -> Vertex {  // k: right foot, the arc backwards, left foot
+    const auto edge = [&](int k) -> Vertex {  // k: right foot, the arc from right to left, left foot
         const dvec2 p = k == 0             ? dvec2(radius, 0)
                         : k > segments + 1 ? dvec2(-radius, 0)
                                            : arc(segments + 1 - k);

@@ -13,7 +13,7 @@
 namespace diptych::builtin {
 namespace {
 
-// Key, fill and rim lights for scenes about materials: three sharp highlights on every sphere.
+// Key, fill and rim lights: three sharp highlights on every sphere.
 void studio(Builder& b) {
     b.sun({-0.4, -0.8, -0.6}, glm::vec3(1), 2);
     b.point({-4, 3, 5}, {1.0f, 0.75f, 0.5f}, 30, 20);
@@ -22,14 +22,14 @@ void studio(Builder& b) {
 
 }  // namespace
 
-// Octahedral seams lie in the planes x = 0, y = 0 and z = 0: every sphere crosses some of them. The inner
-// sides of the bowls show the normals that no outer side shows, and roughness 0.05 to 0.3 makes steps
-// visible.
+// Octahedral encodings have seams in the planes x = 0, y = 0 and z = 0; every sphere crosses some. The
+// insides of the bowls show the normals that no outside shows. Roughness of 0.05 to 0.3 makes quantization
+// steps visible.
 Scene normals() {
     Builder b;
     b.camera("front", {0.7, 0.9, 7}, {0, 0, 0}, 32, 0.1, 100);
     const Primitive ball = sphere(0.6, 96, 48);
-    Primitive bowl = ball;  // turned inside out
+    Primitive bowl = ball;  // inverted
     for (std::size_t i = 0; i < bowl.indices.size(); i += 3) std::swap(bowl.indices[i], bowl.indices[i + 1]);
     for (glm::vec3& n : bowl.normals) n = -n;
     for (glm::vec4& t : bowl.tangents) t.w = -t.w;
@@ -46,9 +46,8 @@ Scene normals() {
     return std::move(b.scene);
 }
 
-// Columns: radiance 1e-6 to 1e6 by decades. Rows: grey; one strong component beside two that are a
-// thousandth of it, which a shared exponent cannot hold; textured, so that values between 0 and the factor
-// occur.
+// Columns: radiance 1e-6 to 1e6 by decades. Rows: grey; one strong component and two at a thousandth of
+// it, beyond a shared exponent; textured, so that values between 0 and the factor occur.
 Scene emission() {
     Builder b;
     b.camera("front", {0, 0, 10}, {0, 0, 0}, 24, 0.1, 100);
@@ -70,8 +69,8 @@ Scene emission() {
     return std::move(b.scene);
 }
 
-// Ramps by vertex colour, so that a texture's own 8 bits do not limit them: above 0 to 0.05, where 8 linear
-// bits have 13 steps, below 0 to 1; one for each component and a grey one.
+// Ramps by vertex colour, which is not limited to 8 bits. The upper rows run from 0 to 0.05 (13 steps in 8
+// linear bits), the lower from 0 to 1. Each half has a ramp per component and a grey one.
 Scene darkAlbedo() {
     Builder b;
     b.camera("front", {0, 0, 5}, {0, 0, 0}, 30, 0.1, 100);
@@ -86,18 +85,18 @@ Scene darkAlbedo() {
                     [=](const glm::vec3& p) { return glm::vec4(mask * top * ((p.x + 2.2f) / 4.4f), 1); }),
               white, glm::dvec3(0.0));
     }
-    b.sun({0.2, -0.3, -1}, glm::vec3(1), 20);  // bright, so that steps of dark colours are visible
+    b.sun({0.2, -0.3, -1}, glm::vec3(1), 20);  // bright, so that steps in dark colours become visible
     b.point({-1.5, 1, 1}, {1.0f, 0.8f, 0.6f}, 10, 5);
     return std::move(b.scene);
 }
 
-// Columns: index of refraction. Rows: specular 1, 0.5 and 0, and a tint beyond 1 that is clamped after the
+// Columns: index of refraction. Rows: specular 1, 0.5, 0, and a tint beyond 1, which is clamped after the
 // product.
 Scene dielectrics() {
     Builder b;
     b.camera("front", {0, 0.2, 9}, {0, 0, 0}, 31, 0.1, 100);
     const Primitive ball = sphere(0.46, 64, 32);
-    const float iors[] = {1.0f, 1.1f, 1.33f, 1.5f, 1.8f, 2.4f, 0.0f};  // 0 means an infinite index
+    const float iors[] = {1.0f, 1.1f, 1.33f, 1.5f, 1.8f, 2.4f, 0.0f};  // 0: infinite
     const float speculars[] = {1.0f, 0.5f, 0.0f, 1.0f};
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 7; ++column) {
@@ -115,7 +114,7 @@ Scene dielectrics() {
     return std::move(b.scene);
 }
 
-// Leaves and lattices with normal maps: seen from the front, edge-on, from behind, and one behind the other.
+// Leaves and lattices with normal maps, seen from the front, edge-on, from behind, and overlapping.
 Scene cutout() {
     Builder b;
     b.camera("low", {0, 1.1, 5}, {0, 0.8, 0}, 42, 0.05, 100);
@@ -136,7 +135,7 @@ Scene cutout() {
     const int screen = masked("lattice", lattice("lattice", 256), 2, true);
     const Primitive card = quad({-0.5, 0, 0}, {1, 0, 0}, {0, 1.5, 0});
     for (int i = 0; i < 9; ++i) {
-        const double angle = 22.5 * i;  // from facing to edge-on (90 degrees) to the back
+        const double angle = 22.5 * i;  // from front to edge-on (90 degrees) to back
         b.add("leaf", card, leaves, at(-3.2 + 0.8 * i, 0.9, -0.6) * turned(angle));
         b.add("leaf, one side", card, oneSided,
               at(-3.2 + 0.8 * i, -0.3, 0.6) * turned(angle) * scaled(0.7, 0.7, 0.7));
@@ -145,15 +144,15 @@ Scene cutout() {
     b.add("screen along the view", quad({-2.5, 0, 0}, {5, 0, 0}, {0, 2, 0}), screen,
           at(1.4, 0, 1) * turned(84));
     b.add("screen underfoot", quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), screen, glm::dvec3(0.0));
-    // From behind: normals of double-sided materials are flipped.
+    // Lit from behind, because normals of double-sided materials flip.
     b.point({0, 1.6, -3}, {1.0f, 0.7f, 0.4f}, 14, 10);
     b.point({-2, 2, 2.5}, {0.6f, 0.8f, 1.0f}, 12, 10);
     b.sun({0.4, -0.6, -0.7}, glm::vec3(1), 1);
     return std::move(b.scene);
 }
 
-// The upper tiles have occlusion maps of strength 0, 0.5 and 1, the lower ones none: without ambient light,
-// all must be lit alike.
+// The upper tiles have occlusion maps of strength 0, 0.5 and 1, the lower ones none. Without ambient
+// light, all must look alike.
 Scene occlusion() {
     Builder b;
     b.camera("front", {0, 0, 5}, {0, 0, 0}, 34, 0.1, 100);
@@ -167,12 +166,12 @@ Scene occlusion() {
         b.add("occluded", tile, occluded, glm::dvec3(1.35 * (column - 1), 0.68, 0));
         b.add("open", tile, open, glm::dvec3(1.35 * (column - 1), -0.68, 0));
     }
-    b.sun({-0.2, 0, -1}, glm::vec3(1), 2);  // in the plane of symmetry of both rows
+    b.sun({-0.2, 0, -1}, glm::vec3(1), 2);  // in the plane of symmetry between the rows
     b.point({0, 0, 1.5}, {1.0f, 0.8f, 0.5f}, 3, 6);
     return std::move(b.scene);
 }
 
-// 100 x 50 tiles, each with its own material: 10 bits hold 1024 material ids, 12 bits 4096. Neighbours
+// 100 x 50 tiles with one material each: 10 bits hold 1024 material ids, 12 bits 4096. Adjacent tiles
 // differ in every factor.
 Scene manyMaterials() {
     Builder b;
@@ -189,9 +188,9 @@ Scene manyMaterials() {
     return std::move(b.scene);
 }
 
-// Three rows of cards under grazing light, with 16 bits on the left and the same in 8 bits on the right: a
-// dark ramp of base colour (in 8 bits five steps), a normal map of waves with a height of a hundredth (in 8
-// bits terraces), a narrow ramp of roughness on metal (in 8 bits bands).
+// Three rows of cards under grazing light, 16 bits on the left, 8 bits on the right. Rows: a dark ramp of
+// base colour (8 bits: five steps), a normal map of waves 1/100 high (8 bits: terraces), a narrow
+// roughness ramp on metal (8 bits: bands).
 Scene sixteenBits() {
     Builder b;
     b.camera("front", {0, 0, 6}, {0, 0, 0}, 34, 0.1, 100);
@@ -212,7 +211,7 @@ Scene sixteenBits() {
     using Texel = std::array<double, 4>;
     const auto dark = [](int x, int y) { return Texel{x / 3200.0, y / 3200.0, (x + y) / 6400.0, 1}; };
     const auto waves = [](int x, int) {
-        const int t = x % 32;  // a triangle wave of slopes: integers, so exact with any C library
+        const int t = x % 32;  // a triangle wave; integers, so exact with any C library
         return Texel{0.5 + 0.01 * (t < 16 ? t - 8 : 24 - t) / 8.0, 0.5, 1, 1};
     };
     const auto rough = [](int x, int y) { return Texel{1, 0.2 + (x + y) / 6400.0, 1, 1}; };
@@ -234,9 +233,8 @@ Scene sixteenBits() {
     return std::move(b.scene);
 }
 
-// Unlit cards between lit ones. Each has further parameters that must not be read, and would be visible if
-// they were: base colour alone, with a texture, with vertex colours, cut out, cut out by the colour's alpha,
-// from behind.
+// Unlit cards among lit ones. Their other parameters must be ignored, and would be visible otherwise.
+// Cards: base colour, texture, vertex colours, cutout, cutout by the colour's alpha, seen from behind.
 Scene unlitMaterials() {
     Builder b;
     b.camera("front", {0, 0.3, 7.5}, {0, 0, 0}, 34, 0.1, 100);

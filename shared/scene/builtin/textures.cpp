@@ -18,7 +18,7 @@ std::uint32_t hash(int x, int y, std::uint32_t salt) {
     return pcg(static_cast<std::uint32_t>(x) + pcg(static_cast<std::uint32_t>(y) + pcg(salt)));
 }
 
-// A smooth step: 0 at and below 0, FULL at and above FULL.
+// Smooth step from 0 to FULL.
 int smooth(int t) {
     const std::int64_t x = std::clamp(t, 0, FULL);
     return static_cast<int>(x * x / FULL * (3 * FULL - 2 * x) / FULL);
@@ -52,7 +52,7 @@ int octaves(int x, int y, int size, int cells, int count, std::uint32_t salt) {
     return std::min(sum, FULL);
 }
 
-// A cell of a wall pattern: its index, and how far inside it a texel lies, in texels from the nearest edge.
+// A cell of a wall pattern: its indices, and the texel's distance to the nearest edge, in texels.
 struct Cell {
     int column, row, edge;
 };
@@ -68,7 +68,7 @@ std::size_t texelsOf(int size) {
     return static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
 }
 
-// `texel` of every place, in any order: cores share the rows.
+// Evaluates `texel` at every position, rows in parallel.
 template <class Texel>
 HeightField heights(int size, Texel&& texel) {
     HeightField field{size, std::vector<int>(texelsOf(size))};
@@ -110,7 +110,7 @@ int HeightField::at(int x, int y) const {
 
 HeightField brickHeights(int size) {
     return heights(size, [size](int x, int y) {
-        // Worn edges: the distance to them varies by a few texels.
+        // Worn edges: they vary by a few texels.
         const Cell cell = cellAt(x, y, size, 4, 8, true);
         const int worn = cell.edge * 4096 - octaves(x, y, size, 16, 3, 7) / 2;
         const int face = FULL * 3 / 4 + static_cast<int>(hash(cell.column, cell.row, 1) >> 19);
@@ -134,8 +134,7 @@ HeightField plasterHeights(int size) {
 HeightField weaveHeights(int size) {
     return heights(size, [size](int x, int y) {
         const int cell = size / 8, i = x / cell, j = y / cell;
-        // Strands have a round profile across their width, and pass above and below each other along their
-        // length.
+        // Strands have a round profile across, and pass over and under each other along their length.
         const auto arc = [cell](int t) {
             const std::int64_t d = 2 * (t % cell) + 1 - cell;
             return static_cast<int>(FULL - FULL * d * d / (std::int64_t{cell} * cell));
@@ -148,8 +147,9 @@ HeightField weaveHeights(int size) {
 
 TextureImage normalMap(const std::string& name, const HeightField& field, double relief) {
     return image(name, field.size, [&](int x, int y) {
-        // Central differences; v grows downwards, so the slope along the bitangent is the texel above minus
-        // the one below. These products are exact in double, so that no compiler can round them differently.
+        // Central differences. v grows downwards, so the slope along the bitangent is the texel above
+        // minus the one below. The products are exact in double, so compilers cannot round them
+        // differently.
         const double dx = field.at(x - 1, y) - field.at(x + 1, y),
                      dy = field.at(x, y + 1) - field.at(x, y - 1);
         const double dz = std::round(2 * FULL / relief);
@@ -178,7 +178,7 @@ TextureImage checker(const std::string& name, int size, int cells, Rgba8 a, Rgba
 
 TextureImage leaf(const std::string& name, int size) {
     return image(name, size, [size](int x, int y) {
-        // From the tip (at the top) to the stem, in 1/1024 of the size; half the width follows a distorted
+        // From the tip (top) to the stem, in 1/1024 of the size. Half the width follows a distorted
         // parabola.
         const int u = 1024 * x / size - 512, v = 1024 * y / size;
         const int t = std::clamp(v - 20, 0, 800);

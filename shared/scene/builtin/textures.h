@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Procedural textures for the built-in scenes. They tile seamlessly. They are computed in integers (only the
-// normal maps use an exactly rounded square root), so that they are the same bytes on every machine.
+// Procedural textures for the built-in scenes. They tile seamlessly. They are computed in integers (normal
+// maps also use an exactly rounded square root), so they are bitwise identical on every machine.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -14,7 +14,7 @@ namespace diptych {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 
-// Heights of size x size texels, row 0 on top, each 0 to 65535.
+// size x size heights, row 0 on top, each 0 to 65535.
 struct HeightField {
     int size = 0;
     std::vector<int> height;
@@ -23,23 +23,23 @@ struct HeightField {
 
 HeightField brickHeights(int size);    // 4 x 8 bricks in running bond, each slightly different
 HeightField tileHeights(int size);     // 4 x 4 tiles with rounded edges
-HeightField plasterHeights(int size);  // smooth noise of five octaves
+HeightField plasterHeights(int size);  // smooth noise, five octaves
 HeightField weaveHeights(int size);    // 8 x 8 over-and-under strands
 
-// A tangent-space normal map; `relief` is the height, in texels, of the value 65535.
+// A tangent-space normal map; `relief` is the height in texels of the value 65535.
 TextureImage normalMap(const std::string& name, const HeightField& heights, double relief);
 
-// `low` at height 0, `high` at height 65535, interpolated between; then each brick or tile (of `cells` by
-// `rows`; bricks: every second row shifted by half a brick) is darkened by up to `variation` / 255.
+// Interpolates from `low` at height 0 to `high` at height 65535. Then darkens each of `cells` x `rows`
+// bricks or tiles by up to `variation` / 255. Bricks: odd rows are shifted by half a brick.
 TextureImage colorMap(const std::string& name, const HeightField& heights, Rgba8 low, Rgba8 high,
                       int cells = 1, int rows = 1, bool bricks = false, int variation = 0);
 
 TextureImage checker(const std::string& name, int size, int cells, Rgba8 a, Rgba8 b);
-// One green leaf, its stem at the bottom; alpha 0 around it.
+// One green leaf, stem at the bottom; alpha is 0 around it.
 TextureImage leaf(const std::string& name, int size);
 TextureImage lattice(const std::string& name, int size);  // 4 x 4 diamonds of brass, alpha 0 in the openings
 TextureImage brushed(const std::string& name, int size);  // roughness (G) in streaks along u; metallic (B) 1
-// R: darker where heights are low.
+// R, darker at low heights.
 TextureImage occlusion(const std::string& name, const HeightField& heights);
 TextureImage dusk(const std::string& name, int size);    // amber at the horizon to night blue, with stars
 TextureImage glyphs(const std::string& name, int size);  // 8 x 8 glowing signs of 5 x 5 squares, on black

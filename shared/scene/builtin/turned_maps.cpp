@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The test scene of normal maps that are read turned, mirrored, or from the second UV set.
+// The test scene of normal maps that are rotated, mirrored, or read by the second UV set.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -16,8 +16,8 @@ namespace {
 
 struct Turn {
     const char* name;
-    double degrees;       // by which the coordinates are turned
-    double u = 1, v = 1;  // by which they are scaled before; negative: mirrored
+    double degrees;       // rotation of the coordinates
+    double u = 1, v = 1;  // scale before the rotation; negative: mirrored
     int texcoord = 0;
 };
 constexpr Turn turns[] = {{"plain", 0},
@@ -28,7 +28,7 @@ constexpr Turn turns[] = {{"plain", 0},
                           {"v mirrored and turned", 65, 1, -1},
                           {"second set", 20, 1, 1, 1}};
 
-// The second UV set is the first, turned by a quarter.
+// The second UV set is the first, rotated by 90 degrees.
 Primitive withTurnedSet(Primitive shape) {
     for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
     return shape;
@@ -55,11 +55,11 @@ void turnOverTime(Scene& scene, int material, const TextureTransform& rest) {
 
 }  // namespace
 
-// The same tiles on planes above and on columns below, read through a transform (KHR_texture_transform) that
-// differs from left to right: turned by several angles, mirrored, and of the second UV set. Lit from the
-// upper left, tiles stand out everywhere: tangents of untransformed coordinates would light some from the
-// right or from below. Its animation turns all of them by a third of a turn in 4 s, and mirrors them after 3
-// s: tangents of the maps at rest would then be as wrong.
+// The same tiles on planes (top) and columns (bottom). KHR_texture_transform differs from left to right:
+// rotated by several angles, mirrored, and on the second UV set. Light comes from the upper left, so tiles
+// must protrude everywhere. Tangents of untransformed coordinates would light some from the right or
+// below. The animation rotates all maps by 120 degrees in 4 s and mirrors them after 3 s. Tangents of the
+// maps at rest would be as wrong.
 Scene tangents() {
     Builder b;
     b.scene.animations.push_back({"turning", {}, {}});

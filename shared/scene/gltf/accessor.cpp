@@ -35,7 +35,7 @@ std::size_t componentBytes(int type) {
     }
 }
 
-// Each column of a matrix begins at a multiple of 4 bytes (glTF 2.0, 3.6.2.4); a vector is one column.
+// Matrix columns are aligned to 4 bytes (glTF 2.0, 3.6.2.4). A vector is one column.
 struct Shape {
     std::size_t columns = 0, rows = 0, component_bytes = 0;
     std::size_t width() const { return columns * rows; }
@@ -44,7 +44,7 @@ struct Shape {
         return columns > 1 ? (bytes + 3) / 4 * 4 : bytes;
     }
     std::size_t bytes() const { return (columns - 1) * columnStride() + rows * component_bytes; }
-    std::size_t at(std::size_t i) const {  // the byte offset of component i in the element
+    std::size_t at(std::size_t i) const {  // byte offset of component i
         return i / rows * columnStride() + i % rows * component_bytes;
     }
 };
@@ -85,8 +85,7 @@ struct Elements {
     const unsigned char* at(std::size_t i) const { return first + i * stride; }
 };
 
-// Checks that `count` elements of `size` bytes, `stride` apart, starting `offset` bytes into a bufferView,
-// lie inside it.
+// Checks that `count` elements of `size` bytes, `stride` apart, from `offset` on, lie inside a bufferView.
 Elements locate(const tinygltf::Model& model, int view, std::size_t offset, std::size_t count,
                 std::size_t size, std::size_t stride, const std::string& who, const char* noun) {
     const std::span<const unsigned char> bytes = viewBytes(model, view, who);
@@ -114,7 +113,7 @@ T load(const unsigned char* at) {
     return value;
 }
 
-// Calls use(T{}), where T is the C++ type of the component type.
+// Calls use(T{}) with the C++ type T of the component type.
 template <class Use>
 void withType(int type, const Use& use) {
     switch (type) {
@@ -133,7 +132,7 @@ void withType(int type, const Use& use) {
     }
 }
 
-// glTF 2.0, 3.11: the most negative integer is also mapped to -1.
+// glTF 2.0, 3.11: the most negative integer maps to -1, too.
 template <class T>
 float number(const unsigned char* at, bool normalized) {
     const T value = load<T>(at);
@@ -144,10 +143,10 @@ float number(const unsigned char* at, bool normalized) {
     return static_cast<float>(value);
 }
 
-// An accessor whose every element has been checked to lie inside its bufferView.
+// An accessor whose elements have all been checked to lie inside their bufferViews.
 class SoundAccessor {
 public:
-    // `width`: the number of components that the caller can use; 0: any.
+    // `width`: required number of components; 0: any.
     SoundAccessor(const tinygltf::Model& model, int index, const std::string& asks, const char* noun,
                   std::size_t width = 0)
         : file_(find(model, index, asks)),
@@ -173,8 +172,8 @@ public:
     const Shape& shape() const { return shape_; }
     std::size_t size(const Selection& which) const { return which ? which->size() : file_.count; }
 
-    // Calls put(i, bytes of element which[i]) for each element, sparse elements last. Elements without bytes
-    // are 0, and put is not called for them.
+    // Calls put(i, bytes of element which[i]) for each element, sparse elements last. Elements without
+    // bytes are 0 and are skipped.
     template <class Put>
     void visit(const Selection& which, const Put& put) const {
         if (own_.first)
@@ -204,14 +203,14 @@ private:
     }
 
     static std::size_t strideOf(const tinygltf::Model& model, int view) {
-        // ViewBytes() reports the fault.
+        // The caller's viewBytes() reports the error.
         if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;
         return model.bufferViews[static_cast<std::size_t>(view)].byteStride;
     }
 
     void locateSparse(const tinygltf::Model& model) {
         const auto& sparse = file_.sparse;
-        // Unsigned since tinygltf 2.9, which then holds what no file of 2^63 bytes could.
+        // tinygltf 2.9 stores negative offsets in an unsigned type.
         const auto negative = [](auto value) { return static_cast<std::int64_t>(value) < 0; };
         if (sparse.count < 0 || negative(sparse.indices.byteOffset) || negative(sparse.values.byteOffset))
             fail(who_, "its sparse count or an offset is negative");
@@ -224,8 +223,8 @@ private:
         sparse_values_ =
             locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
                    shape_.bytes(), shape_.columns * shape_.columnStride(), who_, "sparse values");
-        // Indices of sparse elements must be strictly ascending (glTF 2.0, 3.6.2.3), so that no element is
-        // visited more than twice.
+        // Sparse indices must be strictly ascending (glTF 2.0, 3.6.2.3), so each element is visited at
+        // most twice.
         for (std::size_t s = 0; s < count; ++s) {
             if (sparseIndex(s) >= file_.count)
                 fail(who_,

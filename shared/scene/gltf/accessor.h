@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The only place that turns a file's offsets and counts into memory that is read: index, bufferView, stride,
-// count and every product of them are checked first. Offsets need no alignment. All functions throw
-// std::runtime_error: "accessor 3: ..." or, if an accessor does not suit its use, "WHO: accessor 3 ...".
+// All reads of buffer memory go through here: index, bufferView, stride, count and all their products are
+// checked first. Offsets may be unaligned. All functions throw std::runtime_error: "accessor 3: ...", or
+// "WHO: accessor 3 ..." if an accessor does not suit its use.
 #pragma once
 
 #include <glm/ext/vector_uint4_sized.hpp>
@@ -21,44 +21,44 @@ class Model;
 
 namespace diptych::gltf {
 
-// The bytes of bufferView `index` that its buffer holds, which is an error where they are none; `who` names
-// the caller in errors. Exporters count padding that they do not write.
+// The bytes of bufferView `index` that exist in its buffer; throws if there are none. The result may be
+// shorter than byteLength, because exporters count padding that they do not write. `who` names the caller
+// in errors.
 std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index, const std::string& who);
-// Why these are fewer than the bufferView names: "bufferView 3: 40 bytes from 0 on end past buffer 0 (38
-// bytes)". Empty: they are all.
+// Why viewBytes() is shorter than byteLength: "bufferView 3: 40 bytes from 0 on end past buffer 0 (38
+// bytes)". Empty if it is not.
 std::string cutOf(const tinygltf::Model& model, int index);
 
-// The number of elements of an accessor, after checking that all of them, sparse ones too, lie inside their
-// bufferViews. `noun` is what errors call an element. `width`: the number of components that an element must
-// have; 0: any.
+// Number of elements of an accessor. Checks that all of them, including sparse ones, lie inside their
+// bufferViews. `noun` names an element in errors. `width`: required number of components; 0: any.
 std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::string& who,
                        const char* noun = "elements", std::size_t width = 0);
 
-// The elements to read: ascending, below soundCount(). No value: all.
+// Elements to read, ascending, below soundCount(). nullopt: all.
 using Selection = std::optional<std::span<const std::uint32_t>>;
 
-// Reads an accessor of glm::vec2, vec3 or vec4, of floats or of 8 or 16 bit integers (converted to 0..1 or
-// -1..1 if `normalized`), sparse or not. `who` names the caller, e.g. "mesh 0, primitive 1: POSITION".
+// Reads glm::vec2, vec3 or vec4 from floats or from 8- or 16-bit integers, which become 0 to 1 or -1 to 1
+// if `normalized`. `who` names the caller, as in "mesh 0, primitive 1: POSITION".
 template <class Vec>
 std::vector<Vec> readVectors(const tinygltf::Model& model, int accessor, const std::string& who,
                              const Selection& which = {});
 
-// Reads COLOR_0 of three or four components; with three, alpha is 1. Integers must be normalized.
+// Reads COLOR_0 with three or four components; the default alpha is 1. Integers must be normalized.
 std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& who,
                                   const Selection& which = {});
 
-// The number of components of an element of an accessor that soundCount() has passed.
+// Components per element of an accessor that passed soundCount().
 std::size_t componentsOf(const tinygltf::Model& model, int accessor);
 
-// Reads JOINTS_n: VEC4 of unsigned 8 or 16 bit integers.
+// Reads JOINTS_n: VEC4 of unsigned 8- or 16-bit integers.
 std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int accessor, const std::string& who,
                                      const Selection& which = {});
 
-// Reads indices: SCALAR of unsigned integers. The largest value of the type is an error: it would be
-// primitive restart, which glTF forbids.
+// Reads indices: SCALAR of unsigned integers. Throws for the type's largest value, which means primitive
+// restart and is forbidden in glTF.
 std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& who);
 
-// Elements of any shape as consecutive floats, matrices column by column.
+// Elements of any shape as consecutive floats; matrices are column-major.
 struct Numbers {
     std::vector<float> values;  // count * width
     std::size_t count = 0, width = 0;

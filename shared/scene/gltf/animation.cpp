@@ -30,16 +30,16 @@ bool hasTransform(AnimatedPart part) {
     return part == AnimatedPart::translation || part == AnimatedPart::rotation || part == AnimatedPart::scale;
 }
 
-// How an output is read. Channels that read the same sampler alike share its keyframes.
+// Format of a sampler's output. Channels with the same sampler and format share keyframes.
 struct OutputShape {
-    std::size_t width;  // of its accessor's elements
-    bool several;       // elements a key: the weights of all morph targets
+    std::size_t width;  // components per element of its accessor
+    bool several;       // several elements per key: the weights of all morph targets
     bool rotation;
-    bool integers;  // of any kind: KHR_animation_pointer
+    bool integers;  // any integers may be used: KHR_animation_pointer
     auto operator<=>(const OutputShape&) const = default;
 };
 
-// Which things of the file the scene contains.
+// Objects of the file that the scene contains.
 struct Contained {
     std::set<int> meshes, lights, cameras, materials;
 
@@ -79,7 +79,8 @@ private:
     Scene& scene_;
     Contained contained_;
     const tinygltf::Animation* file_ = nullptr;
-    std::map<std::pair<int, OutputShape>, int> place_;  // (the file's sampler, shape) -> into keyframes
+    // (the file's sampler, shape) -> index of keyframes
+    std::map<std::pair<int, OutputShape>, int> place_;
     std::set<ChannelTarget> moved_;
 
     void animation(std::size_t index) {
@@ -90,7 +91,7 @@ private:
         Animation result;
         result.name = file_->name;
         std::size_t faulty = 0;
-        std::string first;  // the fault of the first of them
+        std::string first;  // the first fault
         for (std::size_t c = 0; c < file_->channels.size(); ++c) {
             try {
                 channel(file_->channels[c], who, fmt::format("channel {}", c), result);
@@ -173,7 +174,7 @@ private:
             .contains(target.object);
     }
 
-    // One animation moves nothing twice, nor an array and one of its elements.
+    // Within one animation, targets must be distinct; an array and one of its elements conflict.
     void claim(const ChannelTarget& target, const std::string& who) {
         const auto taken = [&](AnimatedPart part, int element) {
             return moved_.contains({part, target.object, element});
@@ -263,7 +264,7 @@ private:
         }
     }
 
-    // Channels may share keyframes, but every animated node or mesh has its own weights.
+    // Channels may share keyframes, but every animated node or mesh has its own weights, which count here.
     void checkWeights(const Keyframes& keys, const ChannelTarget& target, const std::string& who) {
         const bool node = isNodePart(target.part);
         if (hasTransform(target.part) || !(node || isMeshPart(target.part))) return;
@@ -285,7 +286,7 @@ private:
         const PartFacts facts = factsOf(target.part);
         const std::size_t width = keys.width;
         const std::size_t stride = keys.interpolation == Interpolation::cubic_spline ? 3 * width : width;
-        const std::size_t first = stride - width > 0 ? width : 0;  // tangents may be any
+        const std::size_t first = stride - width > 0 ? width : 0;  // tangents are unlimited
         for (std::size_t k = first; k < keys.values.size(); k += stride)
             for (std::size_t i = k; i < k + width; ++i) {
                 const double x = keys.values[i];
@@ -299,7 +300,7 @@ private:
             }
     }
 
-    // The numbers have been checked when the node's matrix was made from them.
+    // The values were checked when the node's matrix was computed.
     void giveTransform(int node) {
         Node& target = scene_.nodes[static_cast<std::size_t>(scene_node_[static_cast<std::size_t>(node)])];
         if (target.transform >= 0) return;

@@ -8,9 +8,9 @@
 
 namespace diptych::gltf {
 
-// Reads Scene::animations, and gives the nodes that they move their Node::transform. `sceneNode` as for
-// readMotion(). Channels that move nothing of the scene are ignored, and one with a fault is left out with a
-// note. Keys at one time are a step: the last of them counts from that time on, which is noted.
+// Reads Scene::animations and sets Node::transform of animated nodes. `sceneNode` as for readMotion().
+// Ignores channels that affect nothing in the scene; omits faulty ones with a note. If keys have equal
+// times, the last one counts from that time on, which is noted.
 void readAnimations(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
                     Scene& scene);
 

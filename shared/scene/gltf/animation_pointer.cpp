@@ -19,7 +19,7 @@ namespace diptych::gltf {
 
 namespace {
 
-// {} stands for an index.
+// {} matches an index.
 struct Pattern {
     std::string_view text;
     AnimatedPart part;
@@ -62,7 +62,7 @@ constexpr Pattern pointerPatterns[] = {
     {"/materials/{}/extensions/KHR_materials_transmission/transmissionFactor", AnimatedPart::transmission},
 };
 
-// Where a material has the textures of its slots; followed by one of transformPatterns.
+// Paths to a material's textures; one of transformPatterns follows.
 constexpr Pattern texturePatterns[] = {
     {"/materials/{}/pbrMetallicRoughness/baseColorTexture", {}, gpu::SLOT_base_color},
     {"/materials/{}/pbrMetallicRoughness/metallicRoughnessTexture", {}, gpu::SLOT_metallic_roughness},
@@ -87,7 +87,7 @@ std::optional<int> indexOf(std::string_view text) {
     return value;
 }
 
-// The indices in a pointer, if it begins as the pattern; `rest`: what follows it.
+// The indices in a pointer that begins with the pattern; `rest`: the remainder.
 std::optional<std::vector<int>> indicesIn(std::string_view pointer, std::string_view pattern,
                                           std::string_view& rest) {
     std::vector<int> indices;
@@ -128,7 +128,7 @@ std::optional<Match> matchOf(std::string_view pointer) {
     return std::nullopt;
 }
 
-// ~1 stands for /, which no name that is read has, and ~0 for ~.
+// Only ~0 (for ~) is decoded: no name that is read contains /, which ~1 encodes.
 std::string unescaped(std::string_view pointer) {
     std::string text;
     for (std::size_t i = 0; i < pointer.size(); ++i) {

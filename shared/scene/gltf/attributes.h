@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The attributes of one primitive of the file, an element for each vertex that is kept.
+// Reads the attributes of one primitive for the vertices that are kept.
 #pragma once
 
 #include "shared/scene/gltf/accessor.h"
@@ -26,9 +26,9 @@ bool isUsable(const Vec& v) {
 struct AttributeReader {
     const tinygltf::Model& model;
     const tinygltf::Primitive& file;
-    const std::string& who;           // the primitive, in messages
-    Selection which;                  // the file's vertices that are kept
-    std::vector<std::string>& notes;  // gets what was read otherwise than as the file says
+    const std::string& who;           // names the primitive in messages
+    Selection which;                  // indices of the file's vertices that are kept
+    std::vector<std::string>& notes;  // receives deviations from the file
 
     template <class... Args>
     void note(fmt::format_string<Args...> text, Args&&... args) const {
@@ -37,7 +37,7 @@ struct AttributeReader {
 
     bool has(const std::string& name) const { return file.attributes.contains(name); }
 
-    // Reads an attribute by read(model, accessor, who, which); none if it is not there.
+    // Reads an attribute by read(model, accessor, who, which); empty if it is absent.
     template <class Vec, class Read>
     std::vector<Vec> read(const std::string& name, const Read& read) const {
         const auto at = file.attributes.find(name);
@@ -45,7 +45,7 @@ struct AttributeReader {
         return read(model, at->second, fmt::format("{}: {}", who, name), which);
     }
 
-    // Replaces vectors that are not finite or beyond maxCoordinate by `instead`, with a note that ends in
+    // Replaces vectors that are not finite or beyond maxCoordinate by `instead`. Adds a note that ends in
     // `said`.
     template <class Vec>
     void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name,

@@ -13,10 +13,9 @@ namespace diptych::gltf {
 
 namespace {
 
-// What a file may decode to: 64 bytes for each byte of its buffers, the best ratio of
-// EXT_meshopt_compression (16 equal bytes take 2 bits), and 128 MiB more, because Draco's ratio has no such
-// bound. A file beyond that either lets many objects share one stream, or has a stream that claims more than
-// it holds.
+// Limits the decoded size to 64 bytes per byte of the buffers plus 128 MiB. 64 is the best ratio of
+// EXT_meshopt_compression (16 equal bytes take 2 bits); Draco's ratio is unbounded. A larger file has
+// objects that share a stream, or a stream with a false size.
 constexpr std::size_t freeBytes = std::size_t(128) << 20;
 constexpr std::size_t bytesPerByte = 64;
 
@@ -31,7 +30,7 @@ void decompress(tinygltf::Model& model, const std::vector<bool>& drawn,
     std::map<std::size_t, std::string> undecoded;
     std::vector<MeshoptView> views = findMeshopt(model);
     const std::vector<DracoPrimitive> primitives = findDraco(model, drawn, undecoded);
-    double claimed = 0;  // double, because the sum of the claimed sizes may exceed 64 bits
+    double claimed = 0;  // double, because the sum may exceed 64 bits
     for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
     for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
     if (claimed > static_cast<double>(limit))

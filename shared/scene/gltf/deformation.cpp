@@ -15,7 +15,7 @@ namespace {
 
 void normalizeWeights(const AttributeReader& reader, std::size_t joints,
                       std::span<const std::uint32_t> vertices, Primitive& primitive) {
-    // Each of the four weights of a set may be rounded to 8 bits, an error of half a step.
+    // Each weight may be rounded to 8 bits, an error of half a step.
     const double rounding = 4.0 * static_cast<double>(primitive.joint_sets.size()) * 0.5 / 255;
     std::size_t broken = 0, unweighted = 0, uneven = 0;
     for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
@@ -51,7 +51,7 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
                     counted(unweighted, "vertex", "vertices"));
 }
 
-// RGB deltas leave alpha as it is.
+// RGB deltas do not change alpha.
 std::vector<glm::vec4> readColorDeltas(const tinygltf::Model& model, int accessor, const std::string& who,
                                        const Selection& which) {
     std::vector<glm::vec4> deltas = readColors(model, accessor, who, which);
@@ -91,8 +91,8 @@ void readTargets(const AttributeReader& reader, std::size_t count, Primitive& pr
                 using Delta = typename std::remove_reference_t<decltype(deltas)>::value_type;
                 reader.repair(deltas, Delta(0), what, "0");
             };
-            // A delta needs an attribute to which it is added. Generated normals and tangents are computed
-            // from the morphed positions instead.
+            // A delta needs a base attribute. Generated normals and tangents follow from the morphed
+            // positions instead.
             if (!reader.has(name))
                 reader.note("{}: left out", what);
             else if (name == "POSITION")

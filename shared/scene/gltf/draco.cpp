@@ -88,7 +88,7 @@ struct Result {
     std::vector<std::uint32_t> indices;
 };
 
-// Converts all components of one value from the stream's type to the accessor's.
+// Converts the components of one value from the stream's type to the accessor's.
 template <class T>
 bool convert(const draco::PointAttribute& from, draco::AttributeValueIndex index, std::size_t components,
              unsigned char* to) {
@@ -120,8 +120,8 @@ const Type* typeOf(Key Type::*member, Key key) {
     return at == dracoTypes.end() ? nullptr : at;
 }
 
-// The attribute's values in the type of its accessor. Integers may have another width in the stream, as many
-// exporters write JOINTS_0; normalized integers may not, since their values would change.
+// The attribute's values in the accessor's type. Integers may have another width in the stream, because
+// many exporters write JOINTS_0 so. Normalized integers may not, because their values would change.
 Bytes valuesOf(const draco::Mesh& mesh, const DracoPrimitive::Attribute& attribute,
                const tinygltf::Accessor& to, const std::string& who) {
     const draco::PointAttribute* from = mesh.GetAttributeByUniqueId(attribute.id);
@@ -188,7 +188,7 @@ Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_
     return result;
 }
 
-// Appends a copy of `accessor` that reads bytes of its own; returns its index.
+// Appends a copy of `accessor` for `bytes`; returns its index.
 int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
     tinygltf::BufferView view;
     view.buffer = static_cast<int>(model.buffers.size());
@@ -255,7 +255,7 @@ void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& prim
             primitive.attributes[attribute.name] =
                 append(model, accessorAt(model, attribute.accessor), std::move(results[i].attributes[a]));
         }
-        // Triangle strips are stored as the triangles that they consist of.
+        // Decoding expands triangle strips to triangles.
         tinygltf::Accessor indices;
         indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         indices.type = TINYGLTF_TYPE_SCALAR;

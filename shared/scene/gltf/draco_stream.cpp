@@ -36,8 +36,8 @@ void skip(draco::DecoderBuffer& buffer, std::uint64_t bytes) {
     buffer.Advance(static_cast<std::int64_t>(bytes));
 }
 
-// A decoder of the library, extended to check in advance every number of the stream that decides how much
-// work or memory decoding takes.
+// Wraps a decoder of the library. Checks every count of the stream that determines work or memory before
+// it is used.
 template <class Decoder>
 class Bounded : public Decoder {
 public:
@@ -62,8 +62,7 @@ protected:
         if (faces > expected_.limit / (3 * dracoBytesPerCorner))
             fail(fmt::format("its stream claims {} triangles", faces));
         if (!sequential) {
-            // Each set of seams gets a corner table of its own. Files have one for each attribute with
-            // seams.
+            // Each set of seams gets a corner table. Encoders write one per attribute with seams.
             const std::size_t tables = next<std::uint8_t>(ahead);
             const std::size_t most = std::max<std::size_t>(expected_.attributes, 16);
             if (tables > most)
@@ -72,8 +71,8 @@ protected:
         return Decoder::DecodeConnectivity();
     }
 
-    // Checks the set of seams that an attribute refers to: if two attributes used the same, the library's
-    // counts would be wrong.
+    // Checks the set of seams of an attribute: if two attributes shared one, the library's counts would be
+    // wrong.
     bool CreateAttributesDecoder(std::int32_t id) override {
         if constexpr (std::is_same_v<Decoder, draco::MeshEdgebreakerDecoder>) {
             draco::DecoderBuffer ahead = *this->buffer();
@@ -83,10 +82,10 @@ protected:
         return Decoder::CreateAttributesDecoder(id);
     }
 
-    // At this point all attributes are known and none has memory allocated.
+    // Called when all attributes are known and none is allocated.
     bool DecodeAllAttributes() override {
         checkVertices(this->point_cloud()->num_points());
-        std::size_t bytes = 0;  // for each vertex: an index, the values, and 32 bit integers for them
+        std::size_t bytes = 0;  // per vertex: an index, the values, and 32-bit integers for them
         for (int i = 0; i < this->point_cloud()->num_attributes(); ++i) {
             const draco::PointAttribute& a = *this->point_cloud()->attribute(i);
             bytes += 4 + 4 * a.num_components() + static_cast<std::size_t>(a.byte_stride());
@@ -107,9 +106,9 @@ private:
             fail(fmt::format("its stream holds {} vertices, not {}", count, expected_.vertices));
     }
 
-    // The library asks for an attribute's encoding data just after it has read how the attribute is
-    // predicted. Predicted texture coordinates are followed by their values and by at most one bit for each;
-    // the library trusts the stream's number of bits, up to 2^31, and loops over all of them.
+    // The library requests an attribute's encoding data right after it has read the prediction method.
+    // Predicted texture coordinates have at most one orientation bit per value. The library trusts the
+    // stream's number of bits, up to 2^31, and loops over all of them.
     void checkPrediction(int attribute, std::size_t entries) const {
         const char* head = stream_->data_head();
         const int method = head[-2], transform = head[-1];
@@ -135,8 +134,8 @@ private:
     }
 };
 
-// The position after the metadata that follows the header. The library would keep a list of all nested
-// metadata, which is quadratic in the stream's length.
+// Position after the metadata that follows the header. The library would keep a list of all nested
+// metadata, with quadratic cost.
 std::int64_t endOfMetadata(draco::DecoderBuffer buffer) {
     const std::int64_t begin = buffer.decoded_size();
     const auto skipEntries = [&] {
@@ -144,7 +143,7 @@ std::int64_t endOfMetadata(draco::DecoderBuffer buffer) {
             skip(buffer, next<std::uint8_t>(buffer));  // the metadata's name
             skip(buffer, nextVarint(buffer));
         }
-        return nextVarint(buffer);  // the number of metadata nested inside
+        return nextVarint(buffer);  // number of nested metadata
     };
     const auto skipTree = [&] {
         for (std::uint64_t pending = skipEntries(); pending > 0; --pending) {
@@ -184,14 +183,14 @@ std::unique_ptr<draco::Mesh> decodeDracoStream(std::span<const unsigned char> st
         fail(fmt::format("its stream has bitstream version {}.{}, not 2.2", header.version_major,
                          header.version_minor));
 
-    // Metadata is not needed: the stream is decoded as if it had none.
+    // Metadata is not needed, so it is removed before decoding.
     std::vector<char> bare;
     if (header.flags & METADATA_FLAG_MASK) {
         const auto headerSize = ahead.decoded_size();
         const auto metadata = endOfMetadata(ahead);
         bare.assign(stream.begin(), stream.end());
         bare.erase(bare.begin() + headerSize, bare.begin() + headerSize + metadata);
-        // Offset of the high byte of the flags, the last field of the header.
+        // Offset of the high byte of the flags, which are the last field of the header.
         constexpr std::size_t highFlags = 10;
         bare[highFlags] = static_cast<char>(bare[highFlags] & ~(METADATA_FLAG_MASK >> 8));
         buffer.Init(bare.data(), bare.size());

@@ -31,7 +31,7 @@ const Json* memberOf(const Json& object, const char* key) {
     return at == object.end() ? nullptr : &*at;
 }
 
-// The object "diptych" in the "extras" of `owner`; a key in it that is not `known` gets a note.
+// The object "diptych" in the "extras" of `owner`. Keys that are not `known` get a note.
 const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
                       const std::string& who, Notes& notes) {
     const Json* extras = memberOf(owner, "extras");
@@ -47,13 +47,13 @@ const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view>
     return own;
 }
 
-// The member `key` of that object, the only one that is known.
+// The member `key` of that object; no other key is known.
 const Json* ourExtra(const Json& owner, const char* key, const std::string& who, Notes& notes) {
     const Json* own = ourExtras(owner, {key}, who, notes);
     return own ? memberOf(*own, key) : nullptr;
 }
 
-// The value of "node" of `object`, which is removed from it.
+// Removes "node" from `object` and returns its value; -1 if absent.
 int takeNode(Json& object, std::size_t nodes, const std::string& who) {
     const auto at = object.find("node");
     if (at == object.end()) return -1;
@@ -178,7 +178,7 @@ void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteL
     for (const std::string& note : found->second.notes) notes.add(note);
     light.importance = found->second.importance;
     light.shadow = found->second.shadow;
-    // A broken light is a point light.
+    // A broken light became a point light.
     if (light.kind == LightKind::directional) light.angle = found->second.angle;
 }
 

@@ -42,7 +42,7 @@ bool isBuilt(std::string_view extension) {
 
 // ---- container ---------------------------------------------------------------------------------------
 
-// The byte ranges of the JSON and of the binary chunk.
+// Byte ranges of the JSON and binary chunks.
 struct Container {
     struct Range {
         std::size_t offset = 0, size = 0;
@@ -57,7 +57,7 @@ std::uint32_t word(const Bytes& bytes, std::size_t at) {
            static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
-// glTF 2.0, 4.4: a header of three words, then chunks of length, type, data.
+// glTF 2.0, 4.4: a header of three words, then chunks of length, type and data.
 Container readContainer(const Bytes& bytes) {
     constexpr std::uint32_t json = 0x4e4f534a, binary = 0x004e4942;  // "JSON", "BIN\0"
     if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {{0, bytes.size()}, {}, {}};
@@ -103,7 +103,7 @@ Json parse(std::string_view text) {
     return document;
 }
 
-// Whether a version is newer than the one this reader implements.
+// Whether a version is malformed or newer than 2.0.
 bool isBeyond(const std::string& version) {
     int major = 0, minor = 0;
     char end = 0;
@@ -141,7 +141,7 @@ void checkRequired(const Json& document) {
 
 // ---- buffers and images ------------------------------------------------------------------------------
 
-// A buffer that is only the fallback for readers without EXT_meshopt_compression may have no bytes.
+// A fallback buffer for readers without EXT_meshopt_compression may be empty.
 bool mayBeEmpty(const Json& buffer) {
     static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
     return buffer.contains(meshopt);
@@ -166,8 +166,8 @@ Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<C
     return data;
 }
 
-// The first buffer of a .glb without a uri is its binary chunk, for which `bytes` is used up. A buffer whose
-// bytes are missing is an error only if it is read.
+// If the first buffer of a .glb has no uri, it is the binary chunk, and `bytes` is moved into it. A
+// missing buffer is an error only if it is read.
 void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Container::Range>& binary,
                  Document& out) {
     std::uint64_t total = 0;
@@ -199,7 +199,7 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
     notes.moveTo(out.notes);
 }
 
-// BufferViews that end past a buffer of which all bytes are there.
+// Notes bufferViews that end past a complete buffer.
 void noteCutViews(Document& out) {
     NoteList notes("bufferViews");
     for (std::size_t i = 0; i < out.model.bufferViews.size(); ++i) {
@@ -213,7 +213,7 @@ void noteCutViews(Document& out) {
     notes.moveTo(out.notes);
 }
 
-// Lists the images' names and locations only; nothing is decoded.
+// Lists names and locations of the images; decodes nothing.
 void listImages(const Json& images, tinygltf::Model& model) {
     for (std::size_t i = 0; i < images.size(); ++i) {
         tinygltf::Image& image = model.images.emplace_back();
@@ -232,8 +232,8 @@ Json taken(Json& document, const char* key) {
     return value;
 }
 
-// tinygltf refuses indices whose accessor has no bufferView, although glTF 2.0 (3.6.2.3) allows them (they
-// are zero but for sparse elements). They are taken out of the document before it parses, and added
+// tinygltf rejects indices whose accessor has no bufferView, which glTF 2.0 (3.6.2.3) allows (zeros,
+// except for sparse elements). They are removed before tinygltf parses the document, and restored
 // afterwards.
 struct Withheld {
     std::size_t mesh, primitive;
@@ -257,7 +257,7 @@ std::vector<Withheld> withholdIndices(Json& document) {
     return withheld;
 }
 
-// Callbacks that find no file. tinygltf 2.9 takes none of them unless all are there, and has one more.
+// Callbacks that find no files. tinygltf 2.9 ignores them unless all are set, and has one more.
 template <class Callbacks>
 Callbacks noFiles() {
     Callbacks files{};
@@ -274,7 +274,7 @@ Callbacks noFiles() {
 
 tinygltf::Model parseModel(const std::string& text) {
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());  // the document no longer names any file
+    parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());  // the document refers to no files any more
     tinygltf::Model model;
     std::string error, warning;
     bool parsed = false;
@@ -288,7 +288,7 @@ tinygltf::Model parseModel(const std::string& text) {
     return model;
 }
 
-// The document, of a version and with extensions that are read.
+// Parses the document and checks its version and required extensions.
 Json documentOf(const Bytes& bytes, const Container& container) {
     Json document =
         parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
@@ -329,7 +329,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         keepPointerChannels(document);
         const std::vector<Withheld> withheld = withholdIndices(document);
         const std::string text = document.dump();
-        document = nullptr;  // free it, since tinygltf builds the same tree once more
+        document = nullptr;  // free it, because tinygltf builds the same tree again
         result.model = parseModel(text);
         for (const Withheld& w : withheld)
             result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;

@@ -17,26 +17,26 @@
 
 namespace diptych::gltf {
 
-// A file that has been checked: the numbers of its model have the types and ranges of the schema, its
-// indices name objects that exist, its buffers are loaded. The elements of accessors are not checked yet.
+// A validated file: values have the types and ranges of the schema, indices refer to existing objects,
+// buffers are loaded. Accessor elements are not yet checked.
 struct Document {
     tinygltf::Model model;
-    Resources resources;  // images are read through it when they are needed
+    Resources resources;  // loads images on demand
     LightExtras light_extras;
     MaterialExtras material_extras;
     ImageLights image_lights;
-    std::set<std::string> left_out;  // extensions that the file uses and that are not read
-    std::map<std::size_t, std::string> broken_meshes = {};  // why a mesh was left out
-    std::vector<std::string> notes;                         // what was repaired or left out, one line each
+    std::set<std::string> left_out;  // extensions that the file uses but this reader ignores
+    std::map<std::size_t, std::string> broken_meshes = {};  // why each was omitted
+    std::vector<std::string> notes;                         // repairs and omissions, one line each
 };
 
-// Loads a file. Nothing in it is trusted before it is checked: the container's lengths, the size and nesting
-// of the JSON, the version, the required extensions, and the schema (schema.h). tinygltf then parses the
-// document as the schema left it, without reading a file. `folder` holds the buffers and images; empty: only
-// data URIs are read. Throws std::runtime_error without the file's name.
+// Loads a file. Checks before use: container lengths, size and nesting of the JSON, version, required
+// extensions, and the schema (schema.h). tinygltf then parses the filtered document without file access.
+// `folder` has the buffers and images; if empty, only data URIs are read. Throws std::runtime_error
+// without the file's name.
 Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder);
 
-// What open() finds wrong before it reads any data: container, JSON, version, required extensions.
+// Only the checks of open() that read no data: container, JSON, version, required extensions.
 void checkHeader(const std::vector<unsigned char>& bytes);
 
 }  // namespace diptych::gltf

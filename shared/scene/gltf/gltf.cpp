@@ -36,7 +36,7 @@ void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>&
     gltf::limitNotes(notes, 0, "extensions");
 }
 
-// Reads the encoded bytes of the images that a material uses.
+// Reads the encoded bytes of the images that materials use.
 void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
                  std::vector<std::string>& sceneNotes) {
     std::atomic<std::uint64_t> held = 0;
@@ -52,7 +52,7 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
         try {
             const std::uint64_t left =
                 gltf::MAX_ENCODED_IMAGE_BYTES - std::min(held.load(), gltf::MAX_ENCODED_IMAGE_BYTES);
-            // One byte more than allowed shows that a file is too long.
+            // One byte more than allowed, to detect files that are too long.
             image.image = document.resources.read(uri, left + 1, notes[i]);
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
                 throw std::runtime_error(fmt::format("the image files together exceed the limit of {} bytes",
@@ -91,8 +91,8 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
     fetchImages(document, imageOf, scene.notes);
 
-    // Pixels and vertices are decoded at the same time. A failure is thrown after both have ended, that of
-    // meshes first.
+    // Images and meshes are decoded concurrently. Exceptions are rethrown after both have ended, the
+    // meshes' first.
     const tinygltf::Model& model = document.model;
     std::size_t pieces = imageOf.size();
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();

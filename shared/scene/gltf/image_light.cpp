@@ -29,12 +29,12 @@ using Json = nlohmann::json;
 
 constexpr const char* extensionName = "EXT_lights_image_based";
 
-// As of a light's intensity elsewhere: its product with any texel is finite.
+// As for other lights' intensity: its product with any texel is finite.
 constexpr double mostIntensity = 1e12;
-// Six faces and the picture of all directions take 700 MiB, as much as a picture of 8192 x 4096.
+// Six faces and their lat-long image take 700 MiB, as much as an image of 8192 x 4096.
 constexpr int largestFace = 2048;
 
-// The extension's object of `owner`, taken out of it; null: there is none.
+// Removes the extension's object from `owner` and returns it; null if absent.
 Json takeExtension(Json& owner) {
     if (!owner.is_object() || !owner.contains("extensions")) return nullptr;
     Json& extensions = owner["extensions"];
@@ -44,7 +44,7 @@ Json takeExtension(Json& owner) {
     return taken;
 }
 
-// The number of the item of `count` that `value` names.
+// Checks that `value` is an index below `count`.
 int indexOf(const Json& value, std::size_t count, const std::string& who) {
     const double index = value.is_number() ? value.get<double>() : -1;
     if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index)))
@@ -149,7 +149,7 @@ std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t
         cube.side = cube.faces[0].width;
         for (Image& face : cube.faces)
             for (float& value : face.data) value = static_cast<float>(double{value} * light.intensity);
-        // The environment is turned, and so what is seen of it is turned back.
+        // The rotation applies to the environment, so lookups rotate inversely.
         Environment environment{light.who, latLongOf(cube, glm::mat3_cast(glm::conjugate(light.rotation)))};
         limitRadiance(environment.radiance, light.who, notes);
         return environment;

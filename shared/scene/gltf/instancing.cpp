@@ -23,7 +23,7 @@ public:
     Attributes(const tinygltf::Model& model, const tinygltf::Value& attributes, const std::string& who)
         : model_(model), attributes_(attributes), who_(who) {}
 
-    // The number of instances, which all attributes share; nothing: no attribute says it.
+    // The number of instances, common to all attributes; none without attributes.
     std::optional<std::size_t> count() const {
         std::optional<std::size_t> count;
         for (const std::string& name : attributes_.Keys()) {
@@ -36,7 +36,7 @@ public:
         return count;
     }
 
-    // As many numbers as `fallback` for each instance; empty: the attribute is absent.
+    // `width` numbers per instance; empty if the attribute is absent.
     std::vector<float> read(const char* name, std::size_t width, bool mayBeIntegers, MotionBudget& budget) {
         const int accessor = indexIn(attributes_, name, -1, who_);
         if (accessor < 0) return {};
@@ -105,7 +105,7 @@ void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneN
             scene.notes.push_back(who + ": its mesh is skinned, so nodes do not move it: drawn once");
             continue;
         }
-        static const tinygltf::Value none{tinygltf::Value::Object()};  // tinygltf leaves out empty objects
+        static const tinygltf::Value none{tinygltf::Value::Object()};  // tinygltf drops empty objects
         const tinygltf::Value& named = e->Get("attributes");
         const Attributes attributes(model, named.IsObject() ? named : none, who);
         const std::optional<std::size_t> count = attributes.count();

@@ -8,10 +8,10 @@
 
 namespace diptych::gltf {
 
-// EXT_mesh_gpu_instancing: where nodes draw their mesh several times; sets Node::copies. `sceneNode` as for
-// readMotion(), after skins have been read. Throws std::runtime_error, "node 3: ...", for faulty attributes.
-// A skinned mesh has no transform of its own (glTF 2.0, 3.7.3.3), so that its instances would all lie in one
-// place: it is drawn once, with a note. A rotation 0 0 0 0 is none, as for nodes.
+// EXT_mesh_gpu_instancing: sets Node::copies. `sceneNode` as for readMotion(); call it after skins have
+// been read. Throws std::runtime_error, "node 3: ...", for faulty attributes. A skinned mesh is drawn
+// once, with a note: it ignores node transforms (glTF 2.0, 3.7.3.3), so its instances would coincide. A
+// rotation 0 0 0 0 means none, as for nodes.
 void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
                     Scene& scene);
 

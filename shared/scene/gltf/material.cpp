@@ -28,7 +28,7 @@ namespace {
 
 class MaterialReader {
 public:
-    // `faults`: what is wrong with each texture; empty: nothing.
+    // `faults`: by texture; empty if it is valid.
     MaterialReader(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
                    const std::vector<std::string>& faults, std::size_t index)
         : model_(model),
@@ -66,7 +66,7 @@ public:
         return m;
     }
 
-    // After read(): what the material holds combined.
+    // Valid after read(): the parts of combined values.
     const MaterialParts& parts() const { return parts_; }
 
 private:
@@ -88,7 +88,7 @@ private:
     double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
         if (inside != x)
-            // Printed with all digits, since 1.0000001 is outside as well.
+            // All digits, because 1.0000001 is outside as well.
             scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: {:g} is used", who_, what,
                                                x, least, most, inside));
         return inside;
@@ -132,8 +132,8 @@ private:
         return result;
     }
 
-    // KHR_texture_transform: scale, then rotation (counter-clockwise with v growing downwards), then offset.
-    // Returns the UV set: the transform's if it gives one, otherwise the texture's.
+    // KHR_texture_transform: scale, then rotation (counter-clockwise with v growing downwards), then
+    // offset. Returns the UV set: the transform's if given, otherwise the texture's.
     int readTransform(const tinygltf::Value& transform, const std::string& slot, TextureSlot& result,
                       int texcoord) {
         const std::string who = fmt::format("{}: {}", who_, slot);
@@ -160,7 +160,7 @@ private:
         return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
     }
 
-    // KHR_materials_unlit: all parameters but base colour, alpha and sides are reset.
+    // KHR_materials_unlit: keeps only base colour, alpha and double_sided.
     static Material unlit(const Material& lit) {
         Material m;
         m.unlit = true;
@@ -222,7 +222,7 @@ private:
     }
 };
 
-// "3 materials (a, b, c) ..." of those for which `test` is true.
+// Adds the note "3 materials (a, b, c) ..." about those for which `test` is true.
 template <class Test>
 void noteMaterials(const tinygltf::Model& model, const Test& test, const char* what, Scene& scene) {
     std::string names;
@@ -237,9 +237,9 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
             "{} ({}) {}", counted(static_cast<std::uint64_t>(count), "material"), oneLine(names), what));
 }
 
-// What the model of thin transmission leaves out, once a scene.
+// Notes once per scene what thin transmission does not model.
 void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene) {
-    std::set<int> begin;  // that an animation may make transmit
+    std::set<int> begin;  // materials whose transmission is animated
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
             if (channel.part == AnimatedPart::transmission) begin.insert(channel.object);
@@ -275,8 +275,7 @@ std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scen
     return drawn;
 }
 
-// Reduces Scene::images to those that a material reads, in the file's order, and updates the textures'
-// indices.
+// Keeps only the images that materials read, in the file's order, and updates texture indices.
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
     for (const Material& m : scene.materials)

@@ -23,7 +23,7 @@ namespace {
 // How the scene's nodes use a mesh.
 struct MeshUse {
     bool drawn = false;
-    std::size_t joints = 0;  // of the smallest skin that moves it; 0: not skinned
+    std::size_t joints = 0;  // of the smallest skin that uses it; 0: not skinned
 };
 
 std::vector<MeshUse> usesOf(std::size_t meshes, const Scene& scene) {
@@ -41,7 +41,7 @@ std::vector<MeshUse> usesOf(std::size_t meshes, const Scene& scene) {
 
 struct Task {
     std::size_t mesh, primitive;
-    std::string fault = {};  // why it cannot be drawn; empty: it can
+    std::string fault = {};  // why it cannot be drawn; empty if it can
     std::vector<std::string> notes = {};
     std::string who() const { return fmt::format("mesh {}, primitive {}", mesh, primitive); }
 };
@@ -50,7 +50,7 @@ const tinygltf::Primitive& fileOf(const tinygltf::Model& model, const Task& task
     return model.meshes[task.mesh].primitives[task.primitive];
 }
 
-// Runs what reads a primitive, which is left out where it throws.
+// Calls `read`. If it throws, the primitive is omitted with a note.
 template <class Read>
 void attempt(Task& task, const Read& read) {
     if (!task.fault.empty()) return;
@@ -65,7 +65,7 @@ void attempt(Task& task, const Read& read) {
     }
 }
 
-// Checks the decoded size from counts alone, before anything is decoded.
+// Checks the decoded size from counts, before decoding.
 void checkSize(const tinygltf::Model& model, std::vector<Task>& tasks) {
     std::size_t encoded = 0, decoded = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) encoded += buffer.data.size();
@@ -100,7 +100,7 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);
     std::vector<Mesh> meshes(model.meshes.size());
     std::vector<Task> tasks;
-    std::map<std::size_t, std::string> faults;  // the first of each mesh that is drawn
+    std::map<std::size_t, std::string> faults;  // the first fault of each drawn mesh
     const std::size_t before = notes.size();
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const tinygltf::Mesh& file = model.meshes[m];

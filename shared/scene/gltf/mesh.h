@@ -17,11 +17,11 @@ namespace diptych::gltf {
 class Tally;
 
 // Reads the meshes that the scene's nodes draw, on all cores: triangles with normals and tangents, joints
-// where a skin moves them, morph targets. Indices are the file's: a mesh that no node draws has no
-// primitives. Primitives without triangles (points, lines) are left out with a note. The scene must have its
-// nodes, skins and materials already. `broken`: meshes that cannot be read, with the reason. They and
-// primitives with a fault are left out, these with a note; where nothing else is drawn, that is an error.
-// Throws std::runtime_error; if the decoded size exceeds the limits (limits.h), before anything is decoded.
+// if skinned, morph targets. Indices are the file's; a mesh that is not drawn has no primitives.
+// Primitives of points and lines are omitted with a note. The scene must already have nodes, skins and
+// materials. `broken`: meshes that cannot be read, with the reason. They and faulty primitives are
+// omitted, the latter with a note; it is an error if nothing else is drawn. Throws std::runtime_error; if
+// decoding would exceed limits.h, before it starts.
 std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
                              const std::map<std::size_t, std::string>& broken,
                              std::vector<std::string>& notes, Tally& tally);

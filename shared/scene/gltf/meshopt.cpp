@@ -30,7 +30,7 @@ std::string viewName(std::size_t view) {
 
 // ---- the extension's rules ---------------------------------------------------------------------------
 
-// The position of a member's text among the allowed words; `fallback` if the member is absent.
+// Index of a member's text among the allowed words; `fallback` if absent.
 template <class Enum, std::size_t n>
 Enum choice(const tinygltf::Value& object, const char* key, const char* const (&words)[n],
             const char* fallback, std::size_t view) {
@@ -42,7 +42,7 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
     return static_cast<Enum>(at - words);
 }
 
-// The bytes of the stream, checked to lie inside their buffer.
+// Bytes of the stream, which must lie inside their buffer.
 std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tinygltf::Value& e,
                                         std::size_t view) {
     const std::string who = viewName(view);
@@ -58,8 +58,8 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     return std::span(buffer.data).subspan(offset, length);
 }
 
-// The smallest possible size of a stream of these elements: a header, then the minimum that the bitstream
-// stores if all elements are alike, then a tail. Source: EXT_meshopt_compression, appendix A.
+// Smallest possible stream: a header, the minimum for equal elements, and a tail. Source:
+// EXT_meshopt_compression, appendix A.
 std::size_t shortestStream(const MeshoptView& v) {
     switch (v.mode) {
         case Mode::triangles:
@@ -95,7 +95,7 @@ void checkRules(const MeshoptView& v, const tinygltf::BufferView& parent) {
     require(v.count > 0, "has no elements");
     require(parent.byteStride == 0 || parent.byteStride == v.stride,
             fmt::format("byteStride {}, but the bufferView's is {}", v.stride, parent.byteStride));
-    // Cannot overflow: a count of 31 bits times a stride of 9 bits.
+    // Cannot overflow: a 31-bit count times a 9-bit stride.
     require(v.count * v.stride == parent.byteLength,
             fmt::format("{} elements of {} bytes, but the bufferView has {} bytes", v.count, v.stride,
                         parent.byteLength));
@@ -114,7 +114,7 @@ Bytes decoded(const MeshoptView& v) {
                        : v.mode == Mode::triangles
                            ? meshopt_decodeIndexBuffer(bytes.data(), v.count, v.stride, stream, size)
                            : meshopt_decodeIndexSequence(bytes.data(), v.count, v.stride, stream, size);
-    // The library's three error codes.
+    // Error codes of the library.
     if (result == -1) failView(v.view, "its data has another mode");
     if (result == -2) failView(v.view, "its data is too short for its elements");
     if (result != 0) failView(v.view, "its data is too long for its elements");
@@ -148,7 +148,7 @@ MeshoptView viewOf(const tinygltf::Model& model, const tinygltf::Value& e, std::
     return v;
 }
 
-// Gives the view a buffer of its own: decoded bytes, or none and the error for whoever reads it.
+// Gives the view its own buffer: decoded bytes, or an error that is thrown on reading.
 void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string line) {
     tinygltf::BufferView& file = model.bufferViews[view];
     file.buffer = static_cast<int>(model.buffers.size());

@@ -18,18 +18,19 @@ struct MeshoptView {
     enum class Filter { none, octahedral, quaternion, exponential };
 
     std::size_t view;
-    std::span<const unsigned char> stream = {};  // long enough to hold `count` elements
-    std::size_t count = 0, stride = 0;  // elements, bytes each; their product is the bufferView's length
+    std::span<const unsigned char> stream = {};  // long enough for `count` elements
+    // Elements, bytes per element; their product is the bufferView's length.
+    std::size_t count = 0, stride = 0;
     Mode mode = Mode::attributes;
     Filter filter = Filter::none;
-    std::string fault = {};  // the rule of the extension that it breaks: it is not decoded then
+    std::string fault = {};  // violated rule of the extension; such a view is not decoded
 };
 
-// All such bufferViews of the file.
+// All compressed bufferViews of the file.
 std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model);
 
-// Gives each view a buffer of decoded bytes. Decoded indices may still have any value. A view that cannot be
-// decoded is noted, and the error is thrown when it is read (missing(), value.h).
+// Gives each view a buffer of decoded bytes. Decoded indices are not yet checked. A view that cannot be
+// decoded is noted, and reading it throws (missing(), value.h).
 void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes);
 
 }  // namespace diptych::gltf

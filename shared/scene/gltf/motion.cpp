@@ -30,7 +30,7 @@ public:
         : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene) {}
 
     void read() {
-        std::map<int, int> place;  // the file's skin -> its index in Scene::skins
+        std::map<int, int> place;  // the file's skin -> index in Scene::skins
         const std::size_t before = scene_.notes.size();
         for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
             const tinygltf::Node& file = model_.nodes[n];
@@ -77,7 +77,7 @@ private:
             if (result.joints.back() < 0)
                 fail(who, fmt::format("joint node {} is not in the drawn scene", joint));
         }
-        // The skeleton only hints at what the joints say already; one outside the scene is dropped.
+        // The skeleton is only a hint; it is dropped if it is outside the scene.
         if (file.skeleton >= 0) result.skeleton = sceneNode(file.skeleton, who, "skeleton");
         result.joint_from_mesh.assign(result.joints.size(), glm::mat4(1.0f));
         if (file.inverseBindMatrices >= 0)
@@ -98,7 +98,7 @@ private:
                 if (!std::isfinite(value)) fail(who, fmt::format("matrix {} is not finite", j));
                 matrices[j][static_cast<int>(i / 4)][static_cast<int>(i % 4)] = value;
             }
-            // Exporters round; 1e-4 is far above rounding and far below what is visible.
+            // Exporters round; 1e-4 is far above rounding and far below visibility.
             for (int c = 0; c < 4; ++c) {
                 const float last = c == 3 ? 1.0f : 0.0f;
                 if (std::abs(matrices[j][c][3] - last) > 1e-4f)
@@ -114,7 +114,7 @@ void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& scene
         const tinygltf::Node& file = model.nodes[n];
         if (sceneNode[n] < 0 || file.weights.empty() || file.mesh < 0) continue;
         const std::string who = fmt::format("node {}", n);
-        if (model.meshes[static_cast<std::size_t>(file.mesh)].primitives.empty()) continue;  // left out
+        if (model.meshes[static_cast<std::size_t>(file.mesh)].primitives.empty()) continue;  // omitted
         const std::size_t targets = targetsOf(model, file);
         if (file.weights.size() != targets)
             fail(who, fmt::format("{} for {}", counted(file.weights.size(), "weight"),

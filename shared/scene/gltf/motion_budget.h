@@ -13,7 +13,7 @@
 
 namespace diptych::gltf {
 
-// The number of morph targets.
+// Number of morph targets.
 inline std::size_t targetsOf(const tinygltf::Mesh& mesh) {
     return mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
 }
@@ -21,7 +21,7 @@ inline std::size_t targetsOf(const tinygltf::Model& model, const tinygltf::Node&
     return node.mesh < 0 ? 0 : targetsOf(model.meshes[static_cast<std::size_t>(node.mesh)]);
 }
 
-// Counts, over the whole file, data that decodes to more bytes than the file has for it.
+// Limits the memory of decoded animation data over the whole file.
 class MotionBudget {
 public:
     explicit MotionBudget(const tinygltf::Model& model) : left_(FREE_DECODED_BYTES) {
@@ -29,7 +29,7 @@ public:
             left_ += buffer.data.size() * DECODED_BYTES_PER_BYTE;
     }
     Numbers read(const tinygltf::Model& model, int accessor, const std::string& who) {
-        // The widest element is a MAT4; sparse elements are visited twice.
+        // Upper bound: the widest element is MAT4, and sparse elements are visited twice.
         const std::size_t count = soundCount(model, accessor, who);
         hold(2 * 16 * sizeof(float), count, who, "keys or matrices");
         return readNumbers(model, accessor, who);

@@ -31,7 +31,7 @@ std::string quotedName(const std::string& name) {
 
 // ---- transforms --------------------------------------------------------------------------------------
 
-// Throws unless there are as many numbers as expected, or none.
+// Throws unless `values` is empty or has `count` finite numbers.
 void checkLength(const std::vector<double>& values, std::size_t count, const std::string& who,
                  const char* what) {
     if (!values.empty() && values.size() != count)
@@ -48,8 +48,7 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteL
     glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-        // Tolerance for the last row of a matrix: exporters multiply matrices in float32, with some rounding
-        // errors.
+        // Tolerance of a matrix's last row: exporters multiply matrices in float32.
         constexpr double rounding = 1e-4;
         const glm::dvec4 row(m[0][3], m[1][3], m[2][3], m[3][3] - 1);
         if (!(glm::length(row) <= rounding)) fail(who, "the last row of its matrix is not 0 0 0 1");
@@ -88,10 +87,10 @@ std::vector<int> parentsOf(const tinygltf::Model& model) {
     return parent;
 }
 
-// Throws if the parents form a cycle. Every node has at most one parent, so a node is in a cycle exactly if
-// its ancestors lead back to it; a walk stops at a node that an earlier walk has visited.
+// Throws if the parents form a cycle. Every node has at most one parent, so it is in a cycle exactly if
+// its ancestors lead back to it. A walk ends at a node that an earlier walk visited.
 void refuseCircles(const std::vector<int>& parent) {
-    // The number of the walk that visited the node; 0: none yet.
+    // Index + 1 of the walk that visited the node; 0: none.
     std::vector<std::size_t> walk(parent.size(), 0);
     for (std::size_t start = 0; start < parent.size(); ++start) {
         for (int n = static_cast<int>(start); n >= 0 && walk[static_cast<std::size_t>(n)] != start + 1;) {
@@ -104,7 +103,7 @@ void refuseCircles(const std::vector<int>& parent) {
     }
 }
 
-// For each node, whether the scene reaches it. Without any scene, all nodes.
+// Whether each node is in the scene; all are if the file has no scenes.
 std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
     if (index < 0) return std::vector<bool>(model.nodes.size(), true);
     const std::string who = fmt::format("scene {}", index);
@@ -128,7 +127,7 @@ std::vector<bool> reached(const tinygltf::Model& model, int index, const std::ve
 
 // ---- what hangs on nodes -----------------------------------------------------------------------------
 
-// `x` limited to its bounds, with a note if that changed it.
+// Clamps `x`, with a note if that changes it.
 double bounded(const std::string& who, const char* what, double x, double least, double most,
                NoteList& notes) {
     const double inside = std::clamp(x, least, most);
@@ -138,7 +137,7 @@ double bounded(const std::string& who, const char* what, double x, double least,
 
 void readCone(const tinygltf::SpotLight& spot, const std::string& who, Light& light, NoteList& notes) {
     static constexpr double right = glm::half_pi<double>();
-    // Accept a pi / 2 that was rounded up.
+    // Accepts a pi / 2 that was rounded up.
     const auto rounded = [](double x) { return x <= right + 1e-6 ? std::min(x, right) : x; };
     const double outer = bounded(who, "outerConeAngle", rounded(spot.outerConeAngle), 0, right, notes);
     light.outer_cone = static_cast<float>(outer);
@@ -169,7 +168,7 @@ Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& note
     return light;
 }
 
-// Throws if the camera's parameters make no valid projection.
+// Throws if the camera's parameters give no valid projection.
 Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& notes) {
     Camera camera;
     camera.name = c.name;
@@ -234,7 +233,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
     refuseCircles(parent);
     const std::vector<bool> inScene = reached(model, chosen, parent);
 
-    std::vector<int> place(model.nodes.size(), -1);  // the file's node -> its index in Scene::nodes
+    std::vector<int> place(model.nodes.size(), -1);  // the file's node -> index in Scene::nodes
     int count = 0;
     for (std::size_t n = 0; n < place.size(); ++n)
         if (inScene[n]) place[n] = count++;

@@ -10,13 +10,14 @@ class Model;
 
 namespace diptych::gltf {
 
-// Reads the nodes of one scene in the file's order, each with at most one parent and without cycles, and the
-// lights and cameras attached to them: lights in node order, then those of the scene's extras; cameras in
-// the file's order. `chosen`: of chooseScene(). Returns for each node of the file its index in Scene::nodes,
-// -1: not in the scene.
+// Reads the nodes of one scene in the file's order, each with at most one parent and without cycles. Reads
+// their lights in node order, then those of the scene's extras; and their cameras in the file's order.
+// `chosen`: from chooseScene(). Returns for each node of the file its index in Scene::nodes, -1: not in
+// the scene.
 std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, int chosen, Scene& scene);
 
-// The requested scene, by index or name, or else the file's default. -1: the file has no scenes.
+// Index of the requested scene, given by index or name, or else of the file's default. -1: the file has no
+// scenes.
 int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes);
 
 }  // namespace diptych::gltf

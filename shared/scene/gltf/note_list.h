@@ -13,11 +13,11 @@
 
 namespace diptych::gltf {
 
-// Notes of one kind, of which a file may cause any number: the first ones are kept, duplicates dropped, the
-// rest only counted.
+// Notes of one kind, which a file may cause in any number. Keeps the first ones, drops duplicates and
+// counts the rest.
 class NoteList {
 public:
-    // `about` names them in the last line: "12 more notes about nodes".
+    // `about`: subject of the last line, as in "12 more notes about nodes".
     explicit NoteList(std::string about) : about_(std::move(about)) {}
 
     void add(std::string note) {
@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t shown = 20;  // about a screenful
+    static constexpr std::size_t shown = 20;  // about one screen
     std::string about_;
     std::vector<std::string> notes_;
     std::size_t more_ = 0;

@@ -27,7 +27,7 @@ bool drawsTriangles(int mode) {
     return mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-// The number of components that readVectors() will require of an attribute; 0: checked there.
+// Components that readVectors() requires of an attribute; 0: checked there.
 std::size_t widthOf(const std::string& attribute) {
     return attribute == "POSITION" || attribute == "NORMAL" ? 3
            : attribute == "TANGENT"                         ? 4
@@ -72,9 +72,9 @@ private:
     const PrimitiveUse& use_;
     std::vector<std::string>& notes_;
     Primitive result_;
-    std::size_t count_ = 0;               // the file's vertices
-    std::vector<std::uint32_t> touched_;  // those of them that triangles use, ascending
-    bool all_ = false;                    // whether all of them are used
+    std::size_t count_ = 0;               // vertices in the file
+    std::vector<std::uint32_t> touched_;  // vertices that triangles use, ascending
+    bool all_ = false;                    // whether triangles use all vertices
 
     template <class... Args>
     void note(fmt::format_string<Args...> text, Args&&... args) {
@@ -91,7 +91,7 @@ private:
 
     // ---- triangles -----------------------------------------------------------------------------------
 
-    // Checks that every attribute has as many elements as POSITION.
+    // Checks that all attributes have as many elements as POSITION.
     void countVertices() {
         count_ = soundCount(model_, file_.attributes.at("POSITION"), who_ + ": POSITION", "vertices", 3);
         if (count_ > std::numeric_limits<std::uint32_t>::max() / 4)
@@ -108,7 +108,7 @@ private:
                 if (!name.starts_with('_')) check(fmt::format("target {}: {}", t, name), accessor, 0);
     }
 
-    // Reads the indices as a list of triangles, in the order in which the file draws them.
+    // Converts the indices to a triangle list in draw order.
     void readTriangles() {
         std::vector<std::uint32_t> order;
         if (file_.indices == -1) {
@@ -134,13 +134,13 @@ private:
         for (std::size_t i = 0; i + 2 < order.size(); ++i) {
             if (file_.mode == TINYGLTF_MODE_TRIANGLE_FAN)
                 out.insert(out.end(), {order[i + 1], order[i + 2], order[0]});
-            else  // strips: every other triangle has the opposite orientation
+            else  // strips: every other triangle is reversed
                 out.insert(out.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
         }
     }
 
-    // Replaces the file's vertices by those that triangles use. The cost is proportional to the indices, not
-    // to the vertices: a thousand primitives may each draw a small part of one large accessor.
+    // Keeps only vertices that triangles use. The cost grows with the indices, not with the vertices: a
+    // thousand primitives may each draw a small part of one large accessor.
     void keepTouched() {
         std::vector<std::uint32_t>& indices = result_.indices;
         if (count_ / 4 > indices.size()) {
@@ -214,8 +214,8 @@ private:
 
     // ---- what is missing -----------------------------------------------------------------------------
 
-    // Missing normals become flat ones, and then the file's tangents must not be used. Present normals are
-    // normalised; one without a direction gets that of the triangles around it.
+    // Missing normals become flat, and the file's tangents are then ignored. Existing normals are
+    // normalized; one without a direction is replaced by the mean of the adjacent triangles' normals.
     void finishNormals() {
         if (result_.normals.empty()) {
             result_.tangents.clear();
@@ -237,7 +237,7 @@ private:
     }
 
     void repairNormals(const std::vector<std::uint32_t>& broken) {
-        // Sums of face normals weighted by area.
+        // Sums of face normals, weighted by area.
         std::vector<glm::dvec3> sum(result_.positions.size(), glm::dvec3(0));
         for (std::size_t i = 0; i + 2 < result_.indices.size(); i += 3) {
             const std::uint32_t* t = &result_.indices[i];
@@ -253,7 +253,7 @@ private:
              broken.size() == 1 ? "1 normal has" : counted(broken.size(), "normal") + " have");
     }
 
-    // If the file has no tangents, a normal texture needs MikkTSpace's; nothing else reads them.
+    // Without tangents in the file, a normal texture needs MikkTSpace's. Nothing else reads tangents.
     void finishTangents() {
         if (result_.tangents.empty()) {
             result_.tangents_made = true;
@@ -263,7 +263,7 @@ private:
                                      : makeAnyTangents(result_);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
-        makeAnyTangents(result_);  // the fallback for tangents of the file that have no direction
+        makeAnyTangents(result_);  // fallback for the file's tangents without a direction
         std::size_t broken = 0;
         for (std::size_t v = 0; v < read.size(); ++v) {
             const glm::dvec3 t(read[v]);
@@ -296,7 +296,7 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
         file.indices == -1 ? count : soundCount(model, file.indices, who + ": indices", "indices", 1);
     const std::size_t corners =
         file.mode == TINYGLTF_MODE_TRIANGLES ? order : 3 * std::max<std::size_t>(order, 2) - 6;
-    // With flat normals or generated tangents, every corner may become a vertex of its own.
+    // With flat normals or generated tangents, every corner may become a vertex.
     const bool split = !file.attributes.contains("NORMAL") || !file.attributes.contains("TANGENT");
     const std::size_t vertices = split ? corners : std::min(count, order);
     std::size_t perVertex = sizeof(glm::vec3) + sizeof(glm::vec4);  // normals and tangents
@@ -304,7 +304,7 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
         for (const auto& [name, accessor] : attributes) {
             if (name.starts_with('_')) continue;
             checkedIndex(accessor, model.accessors.size(), who + ": " + name, "accessor");
-            if (name != "NORMAL" && name != "TANGENT") perVertex += sizeof(glm::vec4);  // or less
+            if (name != "NORMAL" && name != "TANGENT") perVertex += sizeof(glm::vec4);  // upper bound
             if (accessor < 0) continue;
             const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
             if (sparse.isSparse)
@@ -312,7 +312,7 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
         }
     };
     add(file.attributes);
-    // DeformationBounds: in the worst case every vertex is a cluster.
+    // DeformationBounds: at worst every vertex is a cluster.
     if (!file.targets.empty() || file.attributes.contains("JOINTS_0"))
         perVertex += sizeof(DeformationBounds::Cluster);
     for (const auto& [name, accessor] : file.attributes)
@@ -320,7 +320,7 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
     for (const auto& target : file.targets) {
         perVertex += sizeof(VertexBox);
         bytes += sizeof(MorphTarget);
-        perVertex += 2 * sizeof(glm::vec3);  // of normals and tangents
+        perVertex += 2 * sizeof(glm::vec3);  // normals and tangents
         add(target);
     }
     if (split && !file.targets.empty()) {  // TangentGroups

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The properties of glTF 2.0 and its extensions that are read, as data: each property's type, range and, for
-// an index, the collection it refers to. Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the
-// extensions' own texts.
+// The supported properties of glTF 2.0 and its extensions as tables: type, range and, for an index, the
+// collection it refers to. Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the extensions'
+// specifications.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,17 @@ enum class Kind {
     whole,           // from min to max
     number,          // from min to max
     flag,            // true or false
-    text,            // one of `choices`; any text if that is empty
-    name,            // any text, used in messages and lists only
-    numbers,         // `least` to `most` of them, each from min to max
-    index,           // of an item of collection `of`
-    indices,         // of items of collection `of`
+    text,            // one of `choices`; any text if empty
+    name,            // any text; used only in messages and lists
+    numbers,         // `least` to `most` numbers, each from min to max
+    index,           // into collection `of`
+    indices,         // array of indices into collection `of`
     names,           // array of strings
     attributes,      // an object whose values are indices into `of`
-    attribute_sets,  // array of such objects
+    attribute_sets,  // array of `attributes`
     object,          // an object with `properties`
-    objects,         // array of such objects
-    extensions,      // an object whose known members are `properties`; others are removed and remembered
+    objects,         // array of `object`
+    extensions,      // object with the members `properties`; others are removed but remembered
 };
 
 struct Property {
@@ -36,15 +36,15 @@ struct Property {
     bool required = false;
     double min = 0, max = 0;
     std::size_t least = 0, most = 0;
-    // The collection that an index refers to; for objects, what errors call one of them.
+    // The collection that an index refers to; for objects, the word for one of them in messages.
     std::string_view of = {};
     std::string_view choices = {};  // separated by spaces
     std::span<const Property> properties = {};
 };
 
-constexpr double any = std::numeric_limits<float>::max();  // all numbers are stored as float in the end
+constexpr double any = std::numeric_limits<float>::max();  // all numbers become float
 constexpr double maxInt = std::numeric_limits<int>::max();
-constexpr double maxSize = 9007199254740992.0;  // 2^53: all integers up to it are exact in double
+constexpr double maxSize = 9007199254740992.0;  // 2^53: smaller integers are exact in double
 constexpr std::size_t anyLength = std::numeric_limits<std::size_t>::max();
 
 constexpr Property whole(std::string_view key, double min = 0, double max = maxInt) {
@@ -111,7 +111,7 @@ constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  name()};
 
 constexpr Property meshopt[] = {required(index("buffer", "buffers")),
-                                whole("byteOffset"),  // tinygltf stores the numbers of extensions as int
+                                whole("byteOffset"),  // tinygltf stores numbers in extensions as int
                                 required(whole("byteLength")),
                                 required(whole("byteStride", 1, 256)),
                                 required(whole("count", 0, maxInt)),
@@ -132,7 +132,7 @@ constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxS
 constexpr Property image[] = {text("uri"), index("bufferView", "bufferViews"), text("mimeType"), name()};
 constexpr Property sampler[] = {whole("magFilter"), whole("minFilter"), whole("wrapS"), whole("wrapT"),
                                 name()};
-// Image formats that are not read: only their presence is kept.
+// Unsupported image formats: only their presence is kept.
 constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), object("EXT_texture_webp", {}),
                                           object("EXT_texture_avif", {})};
 constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name(),
@@ -174,7 +174,7 @@ constexpr Property material[] = {name(),
                                  flag("doubleSided"),
                                  extensions(materialExtensions)};
 
-// The values of these attributes are attribute ids in the compressed stream.
+// Attribute values are attribute ids in the compressed stream.
 constexpr Property draco[] = {required(index("bufferView", "bufferViews")),
                               required(attributes("attributes", {}))};
 constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", draco)};
@@ -252,7 +252,7 @@ constexpr Property document[] = {required(object("asset", asset)),
                                  objects("textures", "texture", texture),
                                  extensions(documentExtensions)};
 
-// What messages call an item of one of the document's collections.
+// The word for an item of a collection in messages.
 constexpr std::string_view itemOf(std::string_view collection) {
     for (const Property& p : document)
         if (p.key == collection) return p.of;

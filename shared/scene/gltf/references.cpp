@@ -35,7 +35,7 @@ References::References(const Json& document) {
         collections_.push_back({name, static_cast<Id>(items), sizeIn(document, name)});
         items += collections_.back().count;
     }
-    // Not reached within the limit on JSON (limits.h), of which an item takes at least two bytes.
+    // Unreachable within the limit on JSON (limits.h), because an item takes at least two bytes.
     if (items >= none) throw std::runtime_error("has more objects than 32-bit indices can address");
     items_ = static_cast<Id>(items);
 }
@@ -77,8 +77,8 @@ std::vector<References::Fault> References::unusable() const {
             seen[id] = true;
             if (id >= roots.first && id - roots.first < roots.count) throw std::runtime_error(line);
             const auto after = std::ranges::upper_bound(collections_, id, {}, &Collection::first);
-            // An empty collection begins where the next one does, so the last collection that begins at or
-            // before the id owns it.
+            // An empty collection begins where the next one does. So the id belongs to the last collection
+            // that begins at or before it.
             const Collection& owner = *std::prev(after);
             faults.push_back({owner.name, id - owner.first, line, id == cause});
             for (auto edge = std::ranges::lower_bound(edges, std::pair{id, Id(0)});

@@ -37,7 +37,7 @@ bool isData(std::string_view uri) {
     return equalInAnyCase(uri.substr(0, scheme.size()), scheme);
 }
 
-// RFC 4648, 4; white space is skipped, as browsers do.
+// RFC 4648, 4; skips white space, as browsers do.
 Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
     static constexpr auto values = [] {
         std::array<std::int8_t, 256> table{};
@@ -51,7 +51,7 @@ Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
     Bytes bytes;
     bytes.reserve(text.size() / 4 * 3 + 3);
     std::uint32_t bits = 0;
-    int count = 0;  // number of bits not yet written out
+    int count = 0;  // bits not yet output
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto c = static_cast<unsigned char>(text[i]);
         if (std::isspace(c)) continue;
@@ -69,14 +69,13 @@ Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
     return bytes;
 }
 
-// RFC 2397: data:[type][;base64],data. The base64 text itself may be percent-encoded, as any data.
+// RFC 2397: data:[type][;base64],data. Base64 text may be percent-encoded, too.
 Bytes readData(std::string_view uri, std::vector<std::string>& notes) {
     constexpr std::string_view base64 = ";base64";
     const std::size_t comma = uri.find(',');
     if (comma == uri.npos) fail("its data URI has no comma before the data");
     const std::string_view head = uri.substr(0, comma), data = uri.substr(comma + 1);
-    // Quotes are no characters of a URI (RFC 3986, 2), so that nothing says whether this comma begins the
-    // data.
+    // Quotes are not allowed in a URI (RFC 3986, 2), so it is unclear whether this comma begins the data.
     if (std::ranges::count(head, '"') % 2 != 0)
         fail("its data URI has a comma in quotes before the data; write it as %2C");
     const bool encoded =
@@ -108,7 +107,7 @@ Resources::Resources(const fs::path& folder) {
 
 namespace {
 
-// The files that a uri may refer to, the most likely first, and the note to add if it is that one.
+// Candidate files for a uri, most likely first, each with the note to add if it is used.
 struct Candidate {
     std::string name, note;
 };
@@ -134,8 +133,7 @@ std::filesystem::path Resources::find(const std::string& uri, std::vector<std::s
     const std::string shown = oneLine(all.front().name);
     for (const Candidate& c : all) checkRelative(c.name);
     if (folder_.empty()) fail(shown + ": only data URIs are read here");
-    // The path's text is checked first, so that the file system is never asked about files outside; then the
-    // target of links.
+    // Checks the path's text first, so that no file outside is even looked up; then the target of links.
     const auto inside = [&](const fs::path& path) {
         return std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first == folder_.end();
     };

@@ -11,16 +11,15 @@
 
 namespace diptych::gltf {
 
-// Access to what a scene's URIs may refer to: data inside the URI, and files in the scene's folder or below
-// it. Symbolic links are followed, but their target must be there as well.
+// Access to what a scene's URIs may refer to: embedded data, and files in or below the scene's folder.
+// Symbolic links are followed, but their targets must be there, too.
 class Resources {
 public:
-    // `folder` empty: only data URIs are read.
+    // `folder` empty: reads only data URIs.
     explicit Resources(const std::filesystem::path& folder);
 
-    // At most the first `most` bytes. Throws std::runtime_error: "a.bin: no such file"; neither it nor the
-    // notes name the object that refers to the uri. A note says if another file was taken than the uri
-    // names.
+    // Reads at most the first `most` bytes. Throws std::runtime_error: "a.bin: no such file". Messages and
+    // notes do not name the object that has the uri. A note says if another file than the uri's was read.
     std::vector<unsigned char> read(const std::string& uri, std::uint64_t most,
                                     std::vector<std::string>& notes) const;
 
@@ -30,7 +29,7 @@ private:
     std::filesystem::path folder_;  // canonical
 };
 
-// The uri as messages show it: data URIs without their data.
+// The uri for messages; data URIs without their data.
 std::string uriName(const std::string& uri);
 
 // RFC 3986, 2.1.

@@ -36,27 +36,27 @@ void checkAccessor(const Json& accessor, const std::string& who) {
                               accessor["count"].dump()));
 }
 
-// Removes a member that must be above 0 but is 0, which exporters write to mean that there is none.
+// Removes a member that is 0 but must be positive; exporters write 0 for "none".
 void leaveOutZero(Json& item, const char* key, const std::string& who, NoteList& notes) {
     if (!item.contains(key) || item[key] != 0) return;
     notes.add(fmt::format("{}: {} 0: ignored", who, key));
     item.erase(key);
 }
 
-// The objects that read a bufferView.
+// The accessors that read a bufferView.
 struct Readers {
-    std::set<std::int64_t> index_bytes;  // component sizes of the index accessors in it
+    std::set<std::int64_t> index_bytes;  // component sizes of its index accessors
     bool others = false;
 };
 
-// For each bufferView with a stride, its readers.
+// The readers of each bufferView with a stride.
 std::map<std::size_t, Readers> readersOf(const Json& document,
                                          const std::map<std::size_t, std::int64_t>& strides) {
     std::map<std::size_t, Readers> readers;
     if (!document.contains("accessors")) return readers;
     const Json& accessors = document["accessors"];
     std::vector<bool> isIndices(accessors.size(), false);
-    // Meshes may be broken, so nothing is assumed of them.
+    // Meshes are not validated yet.
     const auto mark = [&](const Json& mesh) {
         if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) return;
         for (const Json& primitive : mesh["primitives"]) {
@@ -90,7 +90,7 @@ void checkRules(std::string_view collection, Json& item, const std::string& who,
     if (collection == "nodes" && item.contains("matrix") &&
         (item.contains("translation") || item.contains("rotation") || item.contains("scale")))
         notes.add(who + ": has a matrix and translation, rotation or scale: the matrix is used");
-    // Cameras and spot lights must have the object that their type names.
+    // Cameras and spot lights need the object that their type names.
     if (collection == "cameras") {
         const std::string& type = item["type"].get_ref<const std::string&>();
         if (!item.contains(type)) fail(who, fmt::format("is {0} but has no {0}", type));

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 using schema::Kind;
 using schema::Property;
 
-// The position of the walk in the document: "mesh 0, primitive 1: attributes". The text is only made for
+// The current position in the document: "mesh 0, primitive 1: attributes". Its text is built only for
 // messages.
 struct Where {
     const Where* outer = nullptr;
@@ -47,7 +47,7 @@ struct Where {
     throw std::runtime_error(words.empty() ? why : words + ": " + why);
 }
 
-// A value as messages show it.
+// Formats a value for messages.
 std::string quoted(const Json& value) {
     switch (value.type()) {
         case Json::value_t::object:
@@ -67,10 +67,10 @@ public:
 
     References references;
     std::set<std::string> met_extensions;
-    std::map<std::string, std::string> misplaced;  // extension -> where it stands
+    std::map<std::string, std::string> misplaced;  // extension -> where it occurs
     NoteList notes{"objects"};
 
-    // Removes the members that are not read and checks the others.
+    // Removes unsupported members and checks the others.
     void object(Json& value, std::span<const Property> properties, const Where& where) {
         if (!value.is_object()) failAt(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
@@ -94,7 +94,7 @@ private:
         notes.add(words.empty() ? what : words + ": " + what);
     }
 
-    // For an object none of whose extensions are read.
+    // Notes the extensions of an object that supports none.
     void leaveOut(const Json& extensions, const Where& where) {
         if (!extensions.is_object()) return;
         for (const auto& extension : extensions.items()) met(extension.key(), false, where);
@@ -106,7 +106,7 @@ private:
         if (!read && !misplaced.contains(name)) misplaced[name] = where.words();
     }
 
-    // Exporters write null for absent values, and numbers for names: neither matters for drawing.
+    // Exporters write null for absent values, and numbers for names; neither affects rendering.
     bool isAbsent(const Json& value, const Property& p, const Where& where) {
         if (value.is_null()) {
             note(where, fmt::format("{} is null: ignored", p.key));
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    // A fault in an item of one of the document's collections is not fatal yet: the item may be unused.
+    // A fault in an item of a collection is not fatal yet, because the item may be unused.
     void objects(Json& value, const Property& p, const Where& where) {
         const std::string_view collection = p.of == "light" ? "KHR_lights_punctual" : p.key;
         const bool items = !references.inside();
@@ -189,7 +189,7 @@ private:
         return value;
     }
 
-    // Range check for any of the JSON number types.
+    // Checks the range of a JSON number of any type.
     static void range(const Json& value, std::string_view key, const Property& p, const Where& where) {
         const double v = value.get<double>();
         if (v >= p.min && v <= p.max) return;
@@ -235,8 +235,8 @@ private:
         }
     }
 
-    // Checks that an index refers to an existing item; without a collection any number is allowed. A broken
-    // mesh, skin or camera only removes it from its node.
+    // Checks that an index refers to an existing item; without a collection any index is valid. A broken
+    // mesh, skin or camera is only removed from its node.
     void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
         if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
             wrong(value, key, "an index", where);

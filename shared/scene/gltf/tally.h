@@ -9,7 +9,7 @@
 
 namespace diptych::gltf {
 
-// Counts completed pieces of work, from any thread, and reports the progress.
+// Reports progress by counting completed pieces of work. Thread-safe.
 class Tally {
 public:
     Tally(std::size_t pieces, const char* step, const LoadProgress& progress)

@@ -34,7 +34,7 @@ Wrap wrapOf(int value, const std::string& who) {
     }
 }
 
-// A filter that the file does not give is linear, with mipmaps.
+// Missing filters default to linear with mipmaps.
 Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     Sampler sampler;
     sampler.wrap_s = wrapOf(s.wrapS, who);
@@ -74,8 +74,7 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     return sampler;
 }
 
-// Decodes a picture of linear light as a texture. `most`: limit of its decoded bytes. Errors begin with
-// `who`.
+// Decodes an HDR image as a texture. `most`: limit of its decoded bytes. Errors begin with `who`.
 TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t most,
                             std::vector<std::string>& notes) {
     const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
@@ -135,7 +134,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;
-        std::string cut;            // why bytes lack at the end
+        std::string cut;            // why bytes are missing at the end
         std::uint64_t decoded = 0;  // bytes
         bool radiance = false;
     };
@@ -161,7 +160,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
         all[i].radiance = lightmaps[i] && isRadiancePicture(std::as_bytes(all[i].bytes));
     }
-    // The headers give the total decoded size before the first image is decoded.
+    // Headers give the total decoded size before any image is decoded.
     ofEach([](std::size_t, Encoded& image) {
         if (!image.radiance) image.decoded = imageHeader(image.bytes).bytes();
     });
@@ -170,8 +169,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
         if ((total += image.decoded) > limits::imageBytes())
             fail(image.who, fmt::format("with it the decoded images take {} MiB; the limit is {} MiB",
                                         total >> 20, limits::imageBytes() >> 20));
-    // Pictures of linear light are few, and their size is known only once they are opened: they are decoded
-    // one after the other.
+    // HDR images are rare, and their size is known only after opening, so they are decoded one by one.
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!all[i].radiance) continue;
         images[i] = decodeRadiance(all[i].bytes, all[i].who, limits::imageBytes() - total, notes);

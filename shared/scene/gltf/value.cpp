@@ -14,7 +14,7 @@ namespace diptych::gltf {
 std::string firstLine(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     std::string line(text.substr(0, text.find_first_of("\r\n")));
-    constexpr std::size_t longest = 300;  // e.g. a data URI would make the line unreadable
+    constexpr std::size_t longest = 300;  // a data URI, for example, would be unreadable
     if (line.size() > longest) line.replace(longest, line.npos, "...");
     while (line.size() <= longest && !line.empty() && (line.back() == ' ' || line.back() == '.'))
         line.pop_back();
@@ -70,7 +70,7 @@ const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const
     return at == extensions.end() || !at->second.IsObject() ? nullptr : &at->second;
 }
 
-// The uri of a loaded buffer is no longer needed, so the reason is stored in its place.
+// Loading is over, so the uri member can store the reason.
 void setMissing(tinygltf::Buffer& buffer, std::string line) {
     buffer.uri = std::move(line);
 }

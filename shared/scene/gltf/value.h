@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Helpers for reading glTF values. All throw std::runtime_error whose text begins with `who`.
+// Helpers for reading glTF values. All throw std::runtime_error that begins with `who`.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -16,27 +16,28 @@ namespace diptych::gltf {
 
 std::string firstLine(std::string_view text);
 
-// Returns `index` if it is -1 or names one of `count` objects; otherwise throws "WHO: WHAT 7 of 3".
+// Returns `index` if it is -1 or below `count`; otherwise throws "WHO: WHAT 7 of 3".
 int checkedIndex(int index, std::size_t count, const std::string& who, const char* what);
 
-// Numbers from an extension's object; `fallback` where the key is absent.
+// Numbers from an extension's object; `fallback` if the key is absent.
 double numberIn(const tinygltf::Value& object, const char* key, double fallback, const std::string& who);
 int indexIn(const tinygltf::Value& object, const char* key, int fallback, const std::string& who);
+// Requires as many components as the fallback has.
 std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, std::vector<double> fallback,
-                              const std::string& who);  // as many components as the fallback
+                              const std::string& who);
 
-// Applies NoteList's limit to the notes from `first` on: the first are kept, the others counted.
+// Applies NoteList's limit to the notes from `first` on: keeps the first ones and counts the rest.
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what);
 
 // The extension's object, or nullptr.
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
-// The reason why a buffer's bytes are missing, or the last of them, for errors of whoever reads it: "buffer
-// 1: a.bin: no such file". Empty: they are there.
+// Why a buffer's bytes are missing or incomplete, for errors on reading: "buffer 1: a.bin: no such file".
+// Empty if complete.
 void setMissing(tinygltf::Buffer& buffer, std::string line);
 const std::string& missing(const tinygltf::Buffer& buffer);
 
-// Calls run(i) for all i below `count` on all cores, then rethrows the failure with the lowest index.
+// Calls run(i) for i below `count` on all cores, then rethrows the exception with the lowest index.
 template <class Run>
 void forEachInParallel(std::size_t count, const Run& run) {
     std::vector<std::exception_ptr> failures(count);

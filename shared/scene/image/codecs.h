@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The PNG and JPEG decoders behind decode.h. `read...Header` takes a file whose signature has been checked;
-// `decode...` takes a file whose header has been checked, and fills `pixels`, which holds header.bytes()
-// bytes: rows from top to bottom, RGBA, 16 bit components in the machine's byte order. Both throw
-// std::runtime_error without the file's name.
+// The PNG and JPEG decoders behind decode.h. `read...Header` expects a checked signature, `decode...` a
+// checked header. `pixels` has header.bytes() bytes: rows from top to bottom, RGBA, 16-bit components in
+// native byte order. Both throw std::runtime_error without the file's name.
 #pragma once
 
 #include "shared/scene/image/header.h"
@@ -21,7 +20,7 @@ ImageHeader readJpegHeader(Bytes encoded);
 void decodePng(Bytes encoded, const ImageHeader& header, unsigned char* pixels);
 void decodeJpeg(Bytes encoded, const ImageHeader& header, unsigned char* pixels);
 
-// The message of both decoders where their library fails: "does not decode: WHY".
+// Throws "does not decode: WHY", for errors of the decoder library.
 [[noreturn]] inline void failDecoding(const char* why) {
     throw std::runtime_error(std::string("does not decode: ") + why);
 }

@@ -25,7 +25,7 @@ constexpr std::array<FaceAxes, 6> axesOfFaces{{{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}
                                                {{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
                                                {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}}};
 
-// A place on a face, in texels from its left and from its top.
+// A position on a face, in texels from its left and top edges.
 struct Place {
     std::size_t face;
     double x, y;
@@ -46,7 +46,7 @@ glm::dvec3 directionOf(const CubeMap& cube, const Place& place) {
            axes.up * (2 * place.y / cube.side - 1);
 }
 
-// A texel beyond an edge of the face is the one of the next face that lies in its direction.
+// Coordinates beyond an edge select the texel of the adjacent face in that direction.
 glm::dvec3 texelOf(const CubeMap& cube, std::size_t face, int x, int y) {
     if (x < 0 || y < 0 || x >= cube.side || y >= cube.side) {
         const Place there = placeOf(cube, directionOf(cube, {face, x + 0.5, y + 0.5}));
@@ -70,7 +70,7 @@ glm::dvec3 radianceOf(const CubeMap& cube, const glm::dvec3& direction) {
 }
 
 Image latLongOf(const CubeMap& cube, const glm::dmat3& cube_from_world) {
-    constexpr int places = 2;  // a side
+    constexpr int places = 2;  // samples per axis
     using std::numbers::pi;
     Image image(4 * cube.side, 2 * cube.side, 3);
     tbb::parallel_for(0, image.height, [&](int y) {

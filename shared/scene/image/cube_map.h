@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments that are given as the six faces of a cube.
+// Environments given as the six faces of a cube.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,23 +11,22 @@
 
 namespace diptych {
 
-// Faces of `side` x `side` x 3 radiances in the order +X, -X, +Y, -Y, +Z, -Z, each as it is seen from within
-// with row 0 on top: +Y is up on the four at the sides, -Z on that above and +Z on that below, and -X is to
-// the right on these two.
+// Faces of `side` x `side` x 3 radiances in the order +X, -X, +Y, -Y, +Z, -Z, as seen from inside, row 0
+// on top. Up is +Y on the four side faces, -Z on the top face and +Z on the bottom face; on these two, -X
+// is to the right.
 struct CubeMap {
     int side = 0;
     std::array<Image, 6> faces{};
 };
 
-// Linear between the texels' centres, across the edges of faces as well; direction of any length but 0.
+// Bilinear, also across face edges. The direction need not be normalized but must not be 0.
 glm::dvec3 radianceOf(const CubeMap& cube, const glm::dvec3& direction);
 
-// A picture of all directions as of Environment, four times as wide and twice as high as a face, each pixel
-// the mean of 2 x 2 places. `cube_from_world` rotates.
+// A lat-long image laid out as Environment, four faces wide and two high. Each pixel is the mean of 2 x 2
+// samples. `cube_from_world` rotates.
 Image latLongOf(const CubeMap& cube, const glm::dmat3& cube_from_world);
 
-// A face from its picture, EXT_lights_image_based's RGBD: the linear colour over the alpha. Where alpha is 0
-// there is no such quotient, and it is 0.
+// Decodes RGBD of EXT_lights_image_based: linear colour divided by alpha; 0 if alpha is 0.
 Image decodedRgbd(const TextureImage& picture);
 
 }  // namespace diptych

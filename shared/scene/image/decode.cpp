@@ -22,9 +22,9 @@ bool beginsWith(std::span<const unsigned char> encoded, std::span<const unsigned
            std::equal(signature.begin(), signature.end(), encoded.begin());
 }
 
-// Names the format of a file that is neither PNG nor JPEG, by its first bytes; empty where it is unknown.
-// Sources: W3C, GIF89a; Google, WebP container; Khronos, KTX and KTX 2.0; Adobe, TIFF 6.0; ISO/IEC 23008-12
-// and AOM, AVIF; Microsoft, BITMAPFILEHEADER and DDS.
+// Names the format of a file that is neither PNG nor JPEG, by its first bytes; empty if unknown. Sources:
+// W3C, GIF89a; Google, WebP container; Khronos, KTX and KTX 2.0; Adobe, TIFF 6.0; ISO/IEC 23008-12 and
+// AOM, AVIF; Microsoft, BITMAPFILEHEADER and DDS.
 std::string_view otherKind(std::span<const unsigned char> encoded) {
     const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
     const auto brand = [&](std::string_view name) { return text.substr(4, 8) == name; };
@@ -36,7 +36,7 @@ std::string_view otherKind(std::span<const unsigned char> encoded) {
         return "TIFF";
     if (text.size() >= 12 && (brand("ftypavif") || brand("ftypavis"))) return "AVIF";
     if (text.starts_with("DDS ")) return "DDS";
-    // "BM" alone may begin any text; in a BMP file the header's reserved words are 0 as well.
+    // Text may also begin with "BM"; a BMP header has zeros in its reserved words, too.
     if (text.starts_with("BM") && text.size() >= 14 && text.substr(6, 4) == std::string_view("\0\0\0\0", 4))
         return "BMP";
     return {};

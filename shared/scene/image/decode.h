@@ -8,16 +8,14 @@
 
 namespace diptych {
 
-// Both functions take a PNG (1 to 16 bits, grey, palette or colour, any transparency, interlaced or not) or
-// a JPEG (8 bits; grey, colour or CMYK, sequential or progressive), and throw std::runtime_error without the
-// file's name: "is not PNG or JPEG", "is WebP; only PNG and JPEG are supported", "does not decode: bad
-// adaptive filter value". A header is refused if a side is not within 1 to 16384 pixels, or if the file is
-// too short for as many pixels as the header claims.
+// Both functions accept PNG (1 to 16 bits, any colour type, interlaced or not) and JPEG (8 bits; grey,
+// colour or CMYK, sequential or progressive). They throw std::runtime_error without the file's name, such
+// as "is not PNG or JPEG" or "is WebP; only PNG and JPEG are supported". Each side must be 1 to 16384
+// pixels, and the file long enough for its claimed pixels.
 ImageHeader imageHeader(std::span<const unsigned char> encoded);
 
-// The pixels as they are stored: colour profiles and gamma chunks are ignored, as glTF 2.0 (3.8.3) asks.
-// Components of up to 8 bits become 8 bits, those of 16 stay 16. Nothing is printed, whatever the file
-// holds.
+// The stored pixels: colour profiles and gamma chunks are ignored (glTF 2.0, 3.8.3). Components of up to 8
+// bits become 8 bits, 16 bits stay. Prints nothing, even for corrupt files.
 TextureImage decodeImage(std::span<const unsigned char> encoded);
 
 }  // namespace diptych

@@ -15,7 +15,7 @@
 namespace diptych {
 
 void limitRadiance(Image& radiance, const std::string& where, std::vector<std::string>& notes) {
-    static constexpr float largest = 65504;  // of a half
+    static constexpr float largest = 65504;  // largest finite half
     std::size_t above = 0;
     for (std::size_t i = 0; i < radiance.pixels(); ++i) {
         float* const p = radiance.pixel(i);

@@ -9,15 +9,15 @@
 
 namespace diptych {
 
-// Reads a lat-long picture into the layout of scene.h. OpenEXR, Radiance HDR and PFM are told apart by
-// content. Takes the layer R, G, B, or else the first layer that has these three channels. Adds to `notes`:
-// that another layer was taken, that the picture's shape is not 2:1, that components which are negative or
-// not finite became 0, and those above 65504, which no half holds, 65504. Throws std::runtime_error, one line
-// naming file and fault, also for a picture of display colours (PNG, JPEG).
+// Reads a lat-long image into an Environment. OpenEXR, Radiance HDR and PFM are recognized by content.
+// Uses the layer R, G, B, or else the first layer with these three channels. Negative and non-finite
+// components become 0; those above 65504, the largest half, become 65504. `notes` gets these changes, the
+// choice of another layer, and a shape other than 2:1. Throws std::runtime_error, one line that names file
+// and fault; also for PNG and JPEG, which are display-referred.
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes);
 
-// Components above 65504 become that; a note that begins with `where` counts the pixels. The image has three
-// components.
+// Clamps the components of a three-component image to 65504. Adds a note that begins with `where` and
+// counts the changed pixels.
 void limitRadiance(Image& radiance, const std::string& where, std::vector<std::string>& notes);
 
 }  // namespace diptych

@@ -10,8 +10,8 @@ struct ImageHeader {
     enum class Kind { png, jpeg };
     Kind kind = Kind::png;
     std::int64_t width = 0, height = 0;
-    bool deep = false;                 // 16 bits a component
-    std::int64_t pixels_per_byte = 1;  // at most, that one byte of the file can encode
+    bool deep = false;                 // 16 bits per component
+    std::int64_t pixels_per_byte = 1;  // upper bound of the pixels that one byte of the file can encode
 
     std::uint64_t bytes() const {  // decoded, RGBA
         return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * (deep ? 8 : 4);

@@ -19,7 +19,7 @@ namespace diptych {
 
 namespace {
 
-// Table of the linear value of each code of a component.
+// Linear value of each component code.
 template <class Code>
 const std::vector<float>& linearValues(bool srgb) {
     const auto make = [](bool encoded) {
@@ -35,9 +35,9 @@ const std::vector<float>& linearValues(bool srgb) {
     return srgb ? colors : numbers;
 }
 
-// Rounds linear light to 8 bits of sRGB by a search: code c stands for every linear value from threshold[c]
-// up to threshold[c + 1]. The initial guess, tabulated in steps of 1/4096, is at most one code too low: the
-// steepest part of the curve, 12.92 x 255 codes over 0 to 1, passes 0.8 codes in 1/4096.
+// Rounds linear values to 8-bit sRGB by table lookup: code c covers threshold[c] to threshold[c + 1]. The
+// initial guess, tabulated in steps of 1/4096, is at most one code too low: the steepest part of the
+// curve, 12.92 x 255 codes over 0 to 1, passes 0.8 codes in 1/4096.
 class SrgbEncoder {
 public:
     SrgbEncoder() {
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    // `linear` is within 0 to 1, but for rounding errors.
+    // `linear` is within 0 to 1, up to rounding errors.
     std::uint8_t operator()(float linear) const {
         const std::size_t code = guess_[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * 4096.0f)];
         return static_cast<std::uint8_t>(code + (linear >= threshold_[code + 1] ? 1 : 0));
@@ -69,7 +69,7 @@ Code rounded(float linear) {
     return static_cast<Code>(static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * top + 0.5f));
 }
 
-// Encodes a row of `count` components in the format that the device is given.
+// Encodes a row of `count` components in the device's format.
 void encodeRow(const float* linear, std::size_t count, Texels texels, std::byte* out) {
     static const SrgbEncoder srgb;
     const auto each = [&]<class Code>(Code, const auto& encode) {
@@ -96,9 +96,8 @@ void encodeRow(const float* linear, std::size_t count, Texels texels, std::byte*
     }
 }
 
-// The texels of one level that are averaged into one texel of the next, and the share of its length that
-// each covers: two texels of equal share for an even size, three for an odd size 2n + 1 (texel i covers from
-// i (2 + 1/n) to (i + 1)(2 + 1/n)).
+// The texels of one level that average to one texel of the next, and their weights: two of equal weight
+// for an even size. An odd size 2n + 1 needs three: texel i covers i (2 + 1/n) to (i + 1)(2 + 1/n).
 struct Taps {
     std::size_t first, count;
     std::array<float, 3> weight;
@@ -123,12 +122,12 @@ std::vector<Taps> tapsOf(std::size_t from, std::size_t to) {
 
 struct Level {
     std::size_t width, height;
-    std::vector<float> linear;  // four floats a texel
+    std::vector<float> linear;  // four floats per texel
 };
 
-// The level after one of width x height. `row(y, scratch)` returns row y of the level before as linear
-// components: a pointer either into memory of its own or into `scratch`, which it then fills. Each texel is
-// summed by one thread in a fixed order, so the result does not depend on the number of cores.
+// The level after one of width x height. `row(y, scratch)` returns row y of the previous level in linear
+// light, either in place or written to `scratch`. One thread sums each texel in a fixed order, so the
+// result does not depend on the number of cores.
 template <class Row>
 Level halved(std::size_t width, std::size_t height, const Row& row, Texels texels,
              std::vector<std::byte>& encoded) {
@@ -245,8 +244,8 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
 
 namespace {
 
-// The two texels between which a linear filter finds texel i of `to` where there are `from`, and the share of
-// the second.
+// The two texels that a linear filter reads for texel i when it magnifies `from` texels to `to`, and the
+// weight of the second.
 struct Between {
     std::size_t first, second;
     float share;

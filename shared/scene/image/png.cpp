@@ -19,7 +19,7 @@ ImageHeader readPngHeader(Bytes encoded) {
         return std::int64_t{encoded[at]} << 24 | std::int64_t{encoded[at + 1]} << 16 |
                std::int64_t{encoded[at + 2]} << 8 | std::int64_t{encoded[at + 3]};
     };
-    const int depth = encoded[24], color = encoded[25];  // libpng checks both
+    const int depth = encoded[24], color = encoded[25];  // libpng checks both later
     const int bits = std::max(depth, 1) * (color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1);
     return {ImageHeader::Kind::png, word(16), word(20), depth == 16, 8 * limits::deflate_ratio / bits};
 }

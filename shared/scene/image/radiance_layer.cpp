@@ -20,7 +20,7 @@ namespace {
 
 using Channels = std::array<std::size_t, 3>;
 
-// The positions of the channels R, G and B ("R" or "LAYER.R") in a layer, if it has all three.
+// Indices of the channels R, G and B ("R" or "LAYER.R") of a layer, if it has all three.
 std::optional<Channels> colourOf(const PictureLayer& layer) {
     Channels channels{};
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -43,7 +43,7 @@ const PictureLayer* layerOf(const PictureFile& picture) {
     return found;
 }
 
-// Copies R, G and B, and counts the pixels with a component that was replaced by 0.
+// Counts of pixels in which a component was replaced by 0.
 struct Repaired {
     std::size_t negative = 0, not_finite = 0;
 };

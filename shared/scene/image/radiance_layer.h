@@ -10,13 +10,13 @@
 
 namespace diptych {
 
-// Whether the first bytes are those of a format of linear light: OpenEXR, Radiance HDR or PFM.
+// Whether the file begins like a format of linear light: OpenEXR, Radiance HDR or PFM.
 bool isRadiancePicture(std::span<const std::byte> bytes);
 
-// Three components a pixel, finite and at least 0: the layer R, G, B, or else the first layer that has these
-// three channels. Adds to `notes`, each prefixed by `where`: the reader's own notes, that another layer was
-// taken, that components which are negative or not finite became 0. Throws std::runtime_error, without the
-// file's name, if no layer has the three channels.
+// Three components per pixel, finite and at least 0: the layer R, G, B, or else the first layer with these
+// channels. Negative and non-finite components become 0. `notes` gets these changes, the choice of another
+// layer and the reader's own notes, each prefixed by `where`. Throws std::runtime_error without the file's
+// name if no layer has the three channels.
 Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes);
 
 }  // namespace diptych

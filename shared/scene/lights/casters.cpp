@@ -30,7 +30,8 @@ std::optional<std::size_t> brightestSun(std::span<const Light> lights) {
 int shadowTiles(const Light& light) {
     constexpr float right = gpu::PI / 2;
     if (light.kind == LightKind::point) return int{gpu::LOCAL_FACES};
-    // A quarter of a turn fits a face; more reaches the faces on its sides; none reaches the one behind.
+    // A half angle of 45 degrees fits one cube face. A wider cone reaches the side faces, but never the
+    // face behind.
     return light.outer_cone <= right / 2 ? 1 : int{gpu::LOCAL_FACES} - 1;
 }
 

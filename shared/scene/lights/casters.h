@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights cast shadows: the paths shadow these, and so does the reference that they are held against.
+// Selects the lights that cast shadows, for both paths and for the reference.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,26 +11,29 @@
 
 namespace diptych {
 
-// Of the directional lights the one with the most luminance, the first of several; nothing where none shines.
+// The directional light with the highest luminance, the first among equals; none if no directional light
+// shines.
 std::optional<std::size_t> brightestSun(std::span<const Light> lights);
-// By which lights of one kind are compared: the luminance of color x intensity.
+// Luminance of color x intensity, which ranks lights of one type.
 double strengthOf(const Light& light);
 
-// How many tiles of the atlas of local shadows a point or a spot takes (shared/contract/local_shadow.h): one
-// for a spot whose cone fits a face; else one for each face that it may reach.
+// Tiles that a point or spot light takes in the atlas of local shadows (shared/contract/local_shadow.h):
+// one for a spot light whose cone fits a cube face, else one per face that it may reach.
 int shadowTiles(const Light& light);
 
-// The points and spots that cast, in ascending order: those that ask for it (Light::shadow) and the
-// `brightest` most intense others (luminance times intensity; of equals the first), as long as the atlas has
-// room for their tiles, the more intense first, whatever the view. Lights that give nothing never do.
+// The point and spot lights that cast shadows, in ascending order of index. Candidates are those with
+// Light::shadow and the `brightest` most intense others (luminance times intensity; the first among
+// equals). The atlas takes the more intense first while tiles remain, whatever the view. Lights of zero
+// intensity or range never cast.
 struct LocalCasting {
     std::vector<std::size_t> lights;
-    std::size_t without_room = 0;  // lights that would cast too
-    std::size_t unshadowed = 0;    // points and spots that shine and do not cast, those among them
+    std::size_t without_room = 0;  // candidates for which the atlas has no tiles left
+    // Shining point and spot lights without a shadow, including without_room.
+    std::size_t unshadowed = 0;
 };
 LocalCasting localCasting(std::span<const Light> lights, int brightest);
 
-// The lights that cast, in ascending order of their places in `lights`: the sun and the local ones.
+// Indices into `lights` of all lights that cast shadows, ascending: the brightest sun and the local ones.
 std::vector<std::size_t> castingLights(std::span<const Light> lights, int brightest_locals);
 
 }  // namespace diptych

@@ -27,7 +27,7 @@ namespace {
 using std::numbers::pi;
 using Texels = std::vector<std::size_t>;
 
-// The picture as flat texels: which are next to each other, their size and their light.
+// The image as texels by linear index: adjacency, solid angle and luminance.
 class SkyTexels {
 public:
     explicit SkyTexels(const Image& image) : image_(image) {
@@ -40,7 +40,7 @@ public:
     }
 
     const Image& image() const { return image_; }
-    double all() const { return all_; }  // the luminance from all directions, W/m^2
+    double all() const { return all_; }  // luminance integrated over all directions, W/m^2
     double solid(std::size_t i) const { return solid_[static_cast<std::size_t>(row(i))]; }  // sr
     double light(std::size_t i) const { return luminance(color(i)); }
     glm::dvec3 color(std::size_t i) const {
@@ -50,7 +50,7 @@ public:
     int column(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(image_.width)); }
     int row(std::size_t i) const { return static_cast<int>(i / static_cast<std::size_t>(image_.width)); }
 
-    // Columns wrap around; beyond a pole lies the row as far before it, half a turn further.
+    // Columns wrap around. Rows beyond a pole are reflected and rotated by half a turn.
     std::size_t index(int x, int y) const {
         const int width = image_.width, height = image_.height;
         if (y < 0 || y >= height) {
@@ -60,7 +60,7 @@ public:
         x = (x % width + width) % width;
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     }
-    // The texel and the eight around it, some twice in a narrow picture.
+    // The texel and its eight neighbours; a narrow image may repeat some.
     std::array<std::size_t, 9> around(std::size_t i) const {
         std::array<std::size_t, 9> result{};
         for (int k = 0; k < 9; ++k)
@@ -75,7 +75,7 @@ public:
 
 private:
     const Image& image_;
-    std::vector<double> solid_;  // of a texel, by row
+    std::vector<double> solid_;  // per row
     double all_ = 0;
 };
 
@@ -84,7 +84,7 @@ struct Spot {
     double light = 0;  // luminance times solid angle
 };
 
-// All that is connected to `first` and at least as bright as `least`; marks it.
+// Flood fill from `first` over texels at least as bright as `least`; marks them.
 Texels connected(const SkyTexels& sky, std::size_t first, double least, std::vector<bool>& marked) {
     Texels found{first};
     marked[first] = true;
@@ -97,9 +97,9 @@ Texels connected(const SkyTexels& sky, std::size_t first, double least, std::vec
     return found;
 }
 
-// The largest part of `texels` that is no larger than a sun and that a level encloses about the brightest
-// one; empty where it does not fall off enough. Texels are visited by brightness: where all so far were at
-// least as bright as a level, they are what is connected above it.
+// The largest region around the brightest of `texels` that a brightness level encloses and that is no
+// larger than a sun. Empty if it does not fall off enough. Texels are visited by brightness. When all
+// visited ones are at least as bright as a level, they are the connected region above it.
 Texels peakOf(const SkyTexels& sky, const Texels& texels) {
     const std::size_t peak = *std::ranges::max_element(texels, {}, [&](auto i) { return sky.light(i); });
     using Entry = std::pair<double, std::size_t>;
@@ -107,7 +107,7 @@ Texels peakOf(const SkyTexels& sky, const Texels& texels) {
     std::unordered_set<std::size_t> reached{peak};
     edge.emplace(sky.light(peak), peak);
     Texels visited;
-    std::size_t closed = 0;  // how many lie above the level
+    std::size_t closed = 0;  // number of texels above the level
     double level = sky.light(peak), above = level, solid = 0;
     while (!edge.empty()) {
         const auto [light, i] = edge.top();
@@ -128,7 +128,7 @@ Texels peakOf(const SkyTexels& sky, const Texels& texels) {
     return visited;
 }
 
-// The spots that are small and bright enough, the one with the most light first.
+// Candidate spots, the one with the most light first.
 std::vector<Spot> spotsOf(const SkyTexels& sky) {
     const double least = sun_spot::leastContrast * sky.all() / (4 * pi);
     std::vector<bool> marked(sky.image().pixels(), false);
@@ -146,7 +146,7 @@ std::vector<Spot> spotsOf(const SkyTexels& sky) {
     return spots;
 }
 
-// By component the median of what lies within two texels of the spot.
+// Component-wise median of the texels within two steps of the spot.
 glm::dvec3 aroundSpot(const SkyTexels& sky, const Texels& spot) {
     std::unordered_set<std::size_t> seen(spot.begin(), spot.end());
     Texels ring, last = spot;
@@ -168,13 +168,14 @@ glm::dvec3 aroundSpot(const SkyTexels& sky, const Texels& spot) {
     return result;
 }
 
-// Integrals of a picture that is 0 but at some texels, bilinear between their centres.
+// Integrals of an image that is 0 except at some texels, bilinear between their centres.
 struct Moments {
-    glm::dvec3 power{0};                                                           // of the radiance, W/m^2
+    // Integral of the radiance, W/m^2.
+    glm::dvec3 power{0};
     std::array<glm::dvec3, 3> along{glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)};  // times x, y, z
 };
 
-// Each texel in quarters, within which the picture is bilinear, by Gauss's rule of three points a side.
+// Integrates quarters of texels, in which the image is bilinear, by Gauss quadrature with 3 x 3 points.
 Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, glm::dvec3>& radiance) {
     static constexpr std::array<double, 3> places{0.1127016653792583, 0.5, 0.8872983346207417},
         weights{5 / 18.0, 4 / 9.0, 5 / 18.0};
@@ -185,7 +186,8 @@ Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, gl
     const double area = pi / sky.image().height * 2 * pi / sky.image().width / 4;
     Moments sum;
     const auto addQuarter = [&](int x, int y, int right, int down) {
-        const int left = x + right - 1, top = y + down - 1;  // the texels between whose centres it lies
+        // The quarter lies between these texel centres.
+        const int left = x + right - 1, top = y + down - 1;
         const glm::dvec3 a = at(left, top), b = at(left + 1, top), c = at(left, top + 1),
                          d = at(left + 1, top + 1);
         for (std::size_t i = 0; i < 3; ++i)
@@ -209,7 +211,7 @@ Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, gl
     return sum;
 }
 
-// The light of a spot; nothing where it is not compact.
+// The light of a spot; none if it is not compact.
 std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, const glm::dvec3& around) {
     std::unordered_map<std::size_t, glm::dvec3> radiance;
     double light = 0, squared = 0;
@@ -238,7 +240,7 @@ std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, co
     const double most = std::max({irradiance.r, irradiance.g, irradiance.b});
     sun.light.intensity = static_cast<float>(most);
     sun.light.color = glm::max(irradiance, glm::dvec3(0)) / most;
-    // A cap of angle a has 4 pi sin^2(a / 4).
+    // A cap of angular diameter a has the solid angle 4 pi sin^2(a / 4).
     sun.light.angle =
         static_cast<float>(4 * std::asin(std::sqrt(std::min(light * light / squared / (4 * pi), 1.0))));
     sun.share = power / sky.all();
@@ -279,7 +281,7 @@ Light turnedSun(const Light& light, double degrees, double factor) {
 
 std::string inWords(const Light& sun, double share) {
     const glm::dvec3 irradiance = glm::dvec3(sun.color) * double{sun.intensity};
-    const glm::dvec3 to_light = glm::round(-1000.0 * sun.direction) / 1000.0 + 0.0;  // no -0
+    const glm::dvec3 to_light = glm::round(-1000.0 * sun.direction) / 1000.0 + 0.0;  // avoids -0
     return fmt::format(
         "of {:.3g} degrees towards ({:.3f}, {:.3f}, {:.3f}), {:.4g} lux ({:.4g}, {:.4g}, {:.4g}), {:.3g} % "
         "of "

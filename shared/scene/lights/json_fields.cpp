@@ -91,7 +91,7 @@ glm::dvec3 JsonFields::unit(std::string_view key, const glm::dvec3& fallback) co
     const glm::dvec3 v = vector(key, fallback);
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(largest >= std::numeric_limits<double>::min())) fail(key, "has no length");
-    return glm::normalize(v / largest);  // dividing first: squares of small numbers would underflow
+    return glm::normalize(v / largest);  // avoids underflow of squares
 }
 
 }  // namespace diptych

@@ -10,8 +10,8 @@
 
 namespace diptych {
 
-// Typed access to the members of one JSON object. `who` names the object in messages. All readers throw
-// std::runtime_error, "WHO: KEY: why", and return the fallback for a key that is absent. Numbers must be
+// Typed access to the members of a JSON object. `who` names the object in messages. All readers throw
+// std::runtime_error, "WHO: KEY: why", and return the fallback if the key is absent. Numbers must be
 // finite as float.
 class JsonFields {
 public:
@@ -19,8 +19,8 @@ public:
 
     [[noreturn]] void fail(std::string_view key, const std::string& why) const;
     const nlohmann::json* find(std::string_view key) const;
-    // Throws for a key that is not in `known`, calling it no field of `what`: a misspelt key would otherwise
-    // leave its default in force unnoticed. "extras" is always allowed.
+    // Throws if a key is not in `known`, and calls it "no field of `what`", because a misspelt key would
+    // silently keep its default. "extras" is always allowed.
     void knownOnly(std::span<const std::string_view> known, std::string_view what) const;
 
     std::string text(std::string_view key, const std::string& fallback) const;  // a single line
@@ -28,9 +28,9 @@ public:
     double number(std::string_view key, double fallback, double least, double most) const;
     void numbers(std::string_view key, std::span<double> values) const;  // exactly values.size() elements
     glm::dvec3 vector(std::string_view key, const glm::dvec3& fallback) const;
-    glm::dvec3 unit(std::string_view key, const glm::dvec3& fallback) const;  // normalised; any length > 0
+    glm::dvec3 unit(std::string_view key, const glm::dvec3& fallback) const;  // normalized; throws if zero
 
-    // Returns `x`, the value of `key`; throws if it is not within the bounds.
+    // Returns `x`, the value of `key`; throws if it is out of bounds.
     double within(std::string_view key, double x, double least, double most) const;
 
 private:

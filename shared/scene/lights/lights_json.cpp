@@ -32,7 +32,7 @@ constexpr std::pair<LightKind, std::string_view> types[] = {
     {LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"},
     {LightKind::rect, "rect"},   {LightKind::disc, "disc"}, {LightKind::tube, "tube"}};
 
-// Keys that only some types of light have, with those types.
+// Keys that only some light types have.
 struct OwnKey {
     std::string_view key;
     std::vector<LightKind> kinds;
@@ -49,7 +49,7 @@ const OwnKey ownKeys[] = {{"angle", {LightKind::directional}},
                           {"length", {LightKind::tube}}};
 
 constexpr double any = std::numeric_limits<double>::max();
-// Sizes outside 1 / maxCoordinate to maxCoordinate are refused: shaders square them in float32.
+// Bounds of sizes are 1 / maxCoordinate and maxCoordinate, because shaders square them in float32.
 constexpr double leastSize = 1 / maxCoordinate;  // m
 constexpr double rounding = 1e-6;                // tolerance for an angle of pi written with few digits
 
@@ -70,7 +70,7 @@ LightKind kindOf(const JsonFields& fields) {
                                      : fmt::format("\"{}\" is not one of {}", oneLine(type), all));
 }
 
-// Of `intensity`.
+// Unit of `intensity`.
 std::string_view unitOf(LightKind kind) {
     if (kind == LightKind::directional) return "lx";
     return isArea(kind) ? "cd/m^2" : "cd";
@@ -110,7 +110,7 @@ glm::dvec3 levelAxis(const glm::dvec3& direction) {
     return glm::length(right) > rounding ? glm::normalize(right) : glm::dvec3(1, 0, 0);
 }
 
-// At right angles to the direction; a tube's axis is only derived from the direction if none is given.
+// Perpendicular to the direction, except that a tube's given axis is free.
 glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
     const glm::dvec3 axis = fields.unit("axis", levelAxis(light.direction));
     if (light.kind == LightKind::tube && fields.find("axis")) return axis;
@@ -190,7 +190,7 @@ nlohmann::ordered_json jsonOf(const Light& light) {
 Light lightFromJson(const Json& object, const std::string& who) {
     const JsonFields fields(object, who);
     Light light;
-    light.kind = kindOf(fields);  // first, since it decides which keys are allowed
+    light.kind = kindOf(fields);  // first, because it decides the allowed keys
     checkKeys(fields, light.kind);
     light.name = fields.text("name", "");
     light.position = fields.vector("position", light.position);

@@ -14,36 +14,36 @@ namespace diptych {
 
 class JsonFields;
 
-// A file of lights, { "lights": [ { "type": ... }, ... ] }, in world space. Defaults are those of
+// Reads a file of lights, { "lights": [ { "type": ... }, ... ] }, in world space. Defaults are those of
 // KHR_lights_punctual and of Light:
 //
 //   all           "type", "name", "position": [x, y, z] m, "direction": [x, y, z], "color": [r, g, b],
 //                 "intensity" (directional: lux; point, spot: cd; rect, disc, tube: cd/m^2), "range": m,
-//                 "unit" (the one said here, or an error), "extras" (not read). A directional light's
-//                 position and range and a point light's direction have no effect. "importance": "auto",
-//                 "important" or "not_important", for --assign per_object
-//   point, spot   "shadow": true, asks to cast one
-//   directional   "angle": rad, the diameter of its disc; it does not change the illuminance
-//   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }; both may also stand beside "type"
-//   rect          "size": [along the axis, across it] m, "axis", "twoSided"
+//                 "unit" (must be the unit of "intensity"), "extras" (ignored). Directional lights ignore
+//                 position and range, point lights ignore the direction. "importance": "auto", "important"
+//                 or "not_important", for --assign per_object
+//   point, spot   "shadow": true, requests a shadow
+//   directional   "angle": rad, its angular diameter; does not change the illuminance
+//   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }; both may also be beside "type"
+//   rect          "size": [along the axis, perpendicular to it] m, "axis", "twoSided"
 //   disc          "radius": m, "twoSided"
 //   tube          "length": m, along the axis, "radius": m, "axis"
 //
-// A rect's axis is projected to be at right angles to its direction. If no axis is given it is horizontal
-// (y = 0), to the right of a viewer who looks along the direction with +Y up; if the direction is +Y or -Y,
-// it is +X. A key of another type of light is an error, as is a misspelt one. Throws std::runtime_error, one
+// A rect's axis is projected to be perpendicular to its direction. The default axis is horizontal (y = 0)
+// and points to the right of a viewer who looks along the direction with +Y up. If the direction is +Y or
+// -Y, it is +X. Misspelt keys and keys of other light types are errors. Throws std::runtime_error, one
 // line: "FILE: light 3: range: ...".
 std::vector<Light> readLights(const std::filesystem::path& file);
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& name);
 
-// "rect": the "type" of such an object.
+// The value of "type", such as "rect".
 std::string_view nameOf(LightKind kind);
 
-// Reads one object of such a file. Throws std::runtime_error: "WHO: range: ...".
+// Reads one light object. Throws std::runtime_error: "WHO: range: ...".
 Light lightFromJson(const nlohmann::json& object, const std::string& who);
-// The way back: what lightFromJson() reads as the same light; without its `importance`.
+// The inverse of lightFromJson(), without `importance`.
 nlohmann::ordered_json jsonOf(const Light& light);
-// "angle" of a directional light, 0 to pi; 0 if the key is absent.
+// "angle" of a directional light, rad, 0 to pi; 0 if the key is absent.
 float sunAngle(const JsonFields& fields);
 // "importance"; automatic if the key is absent.
 Importance importanceOf(const JsonFields& fields);

@@ -25,7 +25,7 @@ constexpr std::uint64_t MOST_LIGHTS = std::uint64_t{1} << 31;
 constexpr double LIGHTS_AT_A_POINT = 6.0;
 constexpr double CANDELA_PER_RANGE_SQUARED = 0.4;
 
-// Each kind of light takes its random numbers from its own stream.
+// Each light type draws random numbers from its own stream.
 enum class Stream : std::uint32_t { point, spot, area };
 constexpr std::array<std::string_view, 3> STREAM_NAMES{"point", "spot", "area"};
 
@@ -92,7 +92,7 @@ double frac(double x) {
     return x - std::floor(x);
 }
 
-// A colour of this hue (0 and 1 red, 1/3 green, 2/3 blue) mixed with white; the largest component is 1.
+// A colour of this hue (0 and 1 red, 1/3 green, 2/3 blue) mixed with white; its largest component is 1.
 glm::dvec3 pastel(double hue) {
     const auto ramp = [hue](double shift) {
         return std::clamp(std::abs(frac(hue + shift) * 6 - 3) - 1, 0.0, 1.0);
@@ -100,14 +100,14 @@ glm::dvec3 pastel(double hue) {
     return 0.6 * glm::dvec3(ramp(0.0), ramp(2.0 / 3), ramp(1.0 / 3)) + 0.4;
 }
 
-// A direction tilted from straight down by at most 35 degrees; uniform over that cap, but for its curvature.
+// A direction within 35 degrees of straight down; almost uniform over that cap.
 glm::dvec3 downwards(double u, double v) {
     const double tilt = 35.0 / 360.0 * TAU * std::sqrt(u), azimuth = TAU * v;
     return {std::sin(tilt) * std::cos(azimuth), -std::cos(tilt), std::sin(tilt) * std::sin(azimuth)};
 }
 
-// Turns a point light into an area light whose size follows from `range`; its brightest direction gets the
-// point light's intensity.
+// Turns a point light into an area light with a size proportional to `range`. Its brightest direction gets
+// the point light's intensity.
 void spreadOut(Light& light, double range, double shape, const std::array<double, 3>& u) {
     light.axis = glm::normalize(
         glm::cross(light.direction, glm::dvec3(std::cos(TAU * u[0]), 0, std::sin(TAU * u[0]))));
@@ -207,7 +207,7 @@ std::vector<Light> makeLights(const std::string& lights, std::uint32_t seed, con
 
 Light defaultSun(const glm::dvec3& towardsEye) {
     const glm::dvec3 up(0, 1, 0), eye = glm::normalize(towardsEye);
-    const glm::dvec3 side = glm::cross(eye, up);  // to the left of the viewer, who looks along -eye
+    const glm::dvec3 side = glm::cross(eye, up);  // to the left of the viewer who looks along -eye
     const double length = glm::length(side);
     const glm::dvec3 left = length > 1e-6 ? side / length : glm::dvec3(-1, 0, 0);
     Light sun;

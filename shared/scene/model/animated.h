@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What animations may move, as data: how many numbers it has, which of them are valid, and which materials
-// change over time.
+// Properties of what animations may move: component count, valid range, and which materials change over
+// time.
 #pragma once
 
 #include "shared/scene/model/material_slots.h"
@@ -17,20 +17,21 @@
 
 namespace diptych {
 
-// Bound for numbers of materials that glTF leaves unbounded, at least on one side: keeps their squares and
-// products finite in float32.
+// Bound for material factors that glTF leaves unbounded: keeps their squares and products finite in
+// float32.
 inline constexpr double maxFactor = 1e12;
 
 struct PartFacts {
-    std::size_t width;                                  // numbers a key; of weights, for each morph target
-    double least = -std::numeric_limits<float>::max();  // what is valid; beyond, the nearest counts
+    // Components per key; for weights, per morph target.
+    std::size_t width;
+    double least = -std::numeric_limits<float>::max();  // valid range; values outside are clamped
     double most = std::numeric_limits<float>::max();
 };
 
 constexpr PartFacts factsOf(AnimatedPart part) {
     constexpr double any = std::numeric_limits<float>::max();
-    constexpr double thin =
-        1e-6;  // rad or m: below, a camera or light has no extent that float32 can divide by
+    // rad or m: the least extent of a camera or light that float32 can divide by
+    constexpr double thin = 1e-6;
     switch (part) {
         case AnimatedPart::translation:
         case AnimatedPart::scale:
@@ -59,7 +60,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, 0, glm::half_pi<double>()};
         case AnimatedPart::camera_yfov:
             return {1, thin, glm::pi<double>() - thin};
-        case AnimatedPart::camera_near:  // 0 is valid of an orthographic camera
+        case AnimatedPart::camera_near:  // an orthographic camera may have 0
             return {1, 0, any};
         case AnimatedPart::base_color:
             return {4, 0, 1};
@@ -77,7 +78,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, -maxFactor, maxFactor};
         case AnimatedPart::alpha_cutoff:
             return {1, 0, maxFactor};
-        case AnimatedPart::ior:  // 0, or at least 1
+        case AnimatedPart::ior:  // valid: 0, or at least 1
             return {1, 0, any};
         case AnimatedPart::texture_offset:
         case AnimatedPart::texture_scale:
@@ -109,7 +110,7 @@ inline void setTransform(TextureSlot& slot, const TextureTransform& t) {
     slot.v = {-s * t.scale.x, c * t.scale.y, t.offset.y};
 }
 
-// The materials of which any of the scene's animations moves something, whichever of them plays.
+// Materials that any animation of the scene changes, whether it plays or not.
 inline std::set<int> materialsThatMove(const Scene& scene) {
     std::set<int> moving;
     for (const Animation& animation : scene.animations)
@@ -118,7 +119,7 @@ inline std::set<int> materialsThatMove(const Scene& scene) {
     return moving;
 }
 
-// For each material, whether an animation turns, stretches or mirrors its normal map at any time.
+// For each material, whether an animation rotates, scales or mirrors its normal map.
 inline std::vector<bool> normalMapsThatTurn(const Scene& scene) {
     std::vector<bool> turns(scene.materials.size(), false);
     for (const Animation& animation : scene.animations)
@@ -130,7 +131,7 @@ inline std::vector<bool> normalMapsThatTurn(const Scene& scene) {
     return turns;
 }
 
-// For each material, whether it blends at any time: an animation may make it let light through.
+// For each material, whether it ever blends; an animation may make it transmit light.
 inline std::vector<bool> materialsThatBlend(const Scene& scene) {
     std::vector<bool> blended;
     for (const Material& material : scene.materials) blended.push_back(blends(material));
@@ -141,7 +142,7 @@ inline std::vector<bool> materialsThatBlend(const Scene& scene) {
     return blended;
 }
 
-// readsSlot() at any time of a material that moves.
+// readsSlot() at any time of an animation, if the material `moves`.
 inline bool mayReadSlot(const Material& material, std::size_t slot, bool moves) {
     if (!moves) return readsSlot(material, slot);
     return (material.*materialSlots[slot].texture).texture >= 0 &&

@@ -26,8 +26,8 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::lightmap_texture, true},
 }};
 
-// Whether the slot has a texture that can change a pixel: not where its factor is zero, nor where the
-// material is unlit, which uses its base colour alone.
+// Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
+// this is the base colour.
 inline bool readsSlot(const Material& material, std::size_t slot) {
     if ((material.*materialSlots[slot].texture).texture < 0) return false;
     if (material.unlit) return slot == gpu::SLOT_base_color;

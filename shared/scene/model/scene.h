@@ -31,19 +31,19 @@ struct Sampler {
     bool magnify_linear = true;
     bool minify_linear = true;
     bool mipmaps = true;
-    bool mipmaps_linear = true;  // interpolates between two mip levels
+    bool mipmaps_linear = true;  // interpolates between two levels
     bool operator==(const Sampler&) const = default;
 };
 
-// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, sRGB or linear depending on the slot that reads it,
-// or linear floats, finite and at least 0.
+// Level 0, RGBA, row 0 on top: 8 or 16 bits per component, sRGB or linear depending on the slot, or linear
+// floats, finite and at least 0.
 struct TextureImage {
     std::string name;
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;  // exactly one of the three arrays is filled
     std::vector<std::uint16_t> rgba16{};
     std::vector<float> rgba32{};
-    float largest = 1;  // upper bound of the colour components; for floats the largest that occurs
+    float largest = 1;  // upper bound of the colour components; exact for floats
 
     bool deep() const { return !rgba16.empty() || !rgba32.empty(); }
     std::size_t components() const { return rgba.size() + rgba16.size() + rgba32.size(); }
@@ -63,7 +63,8 @@ struct TextureSlot {
     bool operator==(const TextureSlot&) const = default;
 };
 
-// KHR_texture_transform of a slot in the parts that animations replace: see setTransform() in animated.h.
+// KHR_texture_transform of a slot, split into the parts that animations replace: see setTransform() in
+// animated.h.
 struct TextureTransform {
     glm::dvec2 offset{0, 0}, scale{1, 1};
     double rotation = 0;  // rad
@@ -75,150 +76,152 @@ struct Material {
     std::string name;
     glm::vec4 base_color{1, 1, 1, 1};  // linear Rec.709
     float metallic = 1, roughness = 1;
-    glm::vec3 emissive{0, 0, 0};  // W/(sr m^2): factor x KHR_materials_emissive_strength
+    glm::vec3 emissive{0, 0, 0};  // W/(sr m^2), includes KHR_materials_emissive_strength
     float normal_scale = 1, occlusion_strength = 1;
-    float ior = 1.5f;    // KHR_materials_ior; 0 means an infinite index: everything is reflected
+    float ior = 1.5f;    // KHR_materials_ior; 0: infinite, everything is reflected
     float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
-    float lightmap_intensity = 1;  // factor of the lightmap; see contract/material.h
-    float transmission = 0;        // KHR_materials_transmission: of a surface without thickness
+    float lightmap_intensity = 1;  // see contract/material.h
+    float transmission = 0;        // KHR_materials_transmission, infinitely thin
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    bool unlit = false;  // KHR_materials_unlit: only base colour, alpha and double_sided are used
-    // In the order of SLOT_* of contract/material.h.
+    bool unlit = false;  // KHR_materials_unlit: uses only base colour, alpha and double_sided
+    // In the order of SLOT_* in contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
 };
 
-// What a Material holds combined, in the parts that animations replace.
+// Values that Material stores combined, split into the parts that animations replace.
 struct MaterialParts {
     glm::dvec3 emissive{0, 0, 0};
     double emissive_strength = 1;
     std::array<TextureTransform, gpu::SLOT_COUNT> transforms;  // by SLOT_*
 };
 
-// Whether it is drawn over what lies behind it, which is seen through it.
+// Whether the surface behind it remains visible.
 inline bool blends(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || (m.transmission > 0 && !m.unlit);
 }
 
-// Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions; normals
-// and tangents are never empty once a scene has been loaded.
+// Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After
+// loading, normals and tangents are never empty.
 struct Primitive {
     std::vector<glm::vec3> positions;  // object, m
     std::vector<glm::vec3> normals;    // unit
-    std::vector<glm::vec4> tangents;   // w: the bitangent's sign, bitangent = w * cross(normal, tangent)
+    std::vector<glm::vec4> tangents;   // w: sign of bitangent = w * cross(normal, tangent)
     std::vector<glm::vec2> texcoords[2];
     std::vector<glm::vec4> colors;       // linear Rec.709, alpha
-    std::vector<JointSet> joint_sets;    // empty where no skin moves it
-    std::vector<MorphTarget> targets;    // every primitive of a mesh has the same number
-    std::vector<std::uint32_t> indices;  // three a triangle
+    std::vector<JointSet> joint_sets;    // empty if not skinned
+    std::vector<MorphTarget> targets;    // the same count in every primitive of a mesh
+    std::vector<std::uint32_t> indices;  // three per triangle
     int material = 0;                    // into Scene::materials, always valid
-    bool flat = false;           // normals are the triangles' own: recomputed from the positions when posed
-    bool tangents_made = false;  // by makeTangents, because the file has none that can be used
-    // Made once the vertices are final; empty: made for each pose anew, which costs as much as posing.
+    bool flat = false;                   // face normals, recomputed from posed positions
+    bool tangents_made = false;          // by makeTangents, because the file has no usable ones
+    // Computed once the vertices are final. If empty, it is recomputed for each pose, which costs as much
+    // as posing.
     DeformationBounds deformation_bounds{};
-    TangentGroups tangent_groups{};  // empty unless something moves what makeTangents made tangents of
+    TangentGroups tangent_groups{};  // empty unless animation changes tangents that makeTangents computed
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
-    std::vector<float> weights = {};  // of its morph targets at rest, one each
+    std::vector<float> weights = {};  // default weights, one per morph target
 };
 
 struct Node {
     std::string name;
-    int parent = -1;  // into Scene::nodes; parents need not come first
+    int parent = -1;  // into Scene::nodes; parents may come later
     glm::dmat4 parent_from_node{1.0};
     int mesh = -1;
-    int skin = -1;       // into Scene::skins; applies to the primitives of the mesh that have joint sets
-    int transform = -1;  // into Scene::transforms, parent_from_node in parts; -1 unless an animation moves it
-    int weights = -1;    // into Scene::weights, which replace the mesh's; -1: the mesh's are used
-    int copies = -1;     // into Scene::copies: where its mesh is drawn; -1: once, at the node
+    int skin = -1;       // into Scene::skins; applies to the primitives with joint sets
+    int transform = -1;  // into Scene::transforms, the parts of parent_from_node; -1 if not animated
+    int weights = -1;    // into Scene::weights, which replace the mesh's; -1: uses the mesh's
+    int copies = -1;     // into Scene::copies, the mesh's instances; -1: one, at the node
 };
 
 enum class LightKind { directional, point, spot, rect, disc, tube };
 
-// Overrides how --assign per_object ranks a light; other assignments ignore it.
+// Overrides the rank of a light in --assign per_object; other assignments ignore it.
 enum class Importance { automatic, important, not_important };
 
 constexpr bool isArea(LightKind kind) {
     return kind == LightKind::rect || kind == LightKind::disc || kind == LightKind::tube;
 }
 
-// A light of KHR_lights_punctual or an area light: a rectangle or a disc, one-sided or two-sided, or a tube
-// (a closed cylinder). Every point of an area light sends the same radiance into every direction (Lambert).
-// Area lights throw no shadow and are not visible themselves. A light shines along -Z of its node, and +X of
-// the node is its axis; a light without a node is given in world space.
+// A light of KHR_lights_punctual or an area light: a rectangle or disc, one-sided or two-sided, or a tube
+// (a closed cylinder). All points of an area light emit the same radiance in all directions (Lambert).
+// Area lights cast no shadows and are invisible. A light shines along -Z of its node, and its axis is the
+// node's +X. A light without a node is given in world space.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::vec3 color{1, 1, 1};  // linear Rec.709
     float intensity = 1;       // directional: lux; point, spot: candela; area: nits
-    // M, no light beyond; for an area light from its centre.
+    // m, no light beyond; measured from the centre of an area light
     float range = std::numeric_limits<float>::infinity();
     float inner_cone = 0;            // rad, from the axis
     float outer_cone = gpu::PI / 4;  // rad
-    float angle = 0;                 // directional: the diameter of its disc, rad
-    float width = 1, height = 1;     // rect: along the axis, and across it; m
+    float angle = 0;                 // directional: angular diameter, rad
+    float width = 1, height = 1;     // rect: along the axis, and perpendicular to it; m
     float radius = 0.5f;             // disc, tube; m
     float length = 1;                // tube: along the axis; m
     bool two_sided = false;          // rect, disc
     Importance importance = Importance::automatic;
-    bool shadow = false;  // point, spot: asks to cast shadows
+    bool shadow = false;  // point, spot: wants to cast shadows
     int node = -1;
-    glm::dvec3 position{0, 0, 0};    // area: of its centre
-    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; without effect for a tube
-    glm::dvec3 axis{1, 0, 0};        // unit; rect: at right angles to the direction
-    int source = -1;  // of a light of KHR_lights_punctual: its index there, which animations name
+    glm::dvec3 position{0, 0, 0};    // area: the centre
+    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; ignored for tubes
+    glm::dvec3 axis{1, 0, 0};        // unit; rect: perpendicular to the direction
+    int source = -1;                 // index in KHR_lights_punctual, which animations use
 };
 
-// Light from all directions, as a lat-long picture: the centre x + 0.5 of column x of `width` has the
-// azimuth 2 pi (x + 0.5) / width - pi, which is 0 at -Z and positive towards +X; the centre of row y of
-// `height` lies pi (y + 0.5) / height from +Y. Bilinear between the pixels' centres, across the seam too.
+// Light from all directions, as a lat-long image. The centre of column x has the azimuth 2 pi (x + 0.5) /
+// width - pi, which is 0 at -Z and positive towards +X. The centre of row y lies at the angle pi (y + 0.5)
+// / height from +Y. Bilinear between pixel centres, also across the seam.
 struct Environment {
-    std::string name;  // the file
+    std::string name;  // file name
     Image radiance;    // width x height x 3, linear Rec.709, W/(sr m^2), >= 0 and finite
 };
 
-// Looks along -Z of its node, with +Y up.
+// Looks along -Z of its node; +Y is up.
 struct Camera {
     std::string name;
     bool orthographic = false;
     double yfov = glm::radians(60.0);  // vertical
     double ymag = 1;                   // orthographic: half the height, m
-    double aspect = 0;                 // perspective: width over height of its frame; 0: the picture's
-    double xmag = 0;                   // orthographic: half the width, m; 0: as wide as the picture
-    double near = 0.1;                 // m
+    // Perspective: width over height of the camera's frame; 0: the image's.
+    double aspect = 0;
+    double xmag = 0;    // orthographic: half the width, m; 0: given by the image's aspect
+    double near = 0.1;  // m
     double far = std::numeric_limits<double>::infinity();
     int node = -1;
-    glm::dmat4 world_from_camera{1.0};  // used where `node` is -1
-    int source = -1;                    // its index in the file, which animations name
+    glm::dmat4 world_from_camera{1.0};  // used if `node` is -1
+    int source = -1;                    // index in the file, which animations use
 };
 
 struct Scene {
-    std::string name;  // as the user wrote it
+    std::string name;  // as given by the user
     std::vector<Node> nodes;
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
-    std::map<int, MaterialParts> material_parts;  // of materials that animations move, by their index
+    std::map<int, MaterialParts> material_parts;  // materials that animations change, by index
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
     std::vector<Light> lights;
     std::optional<Environment> environment;
     std::vector<Camera> cameras;
-    std::vector<Transform> transforms;            // of the nodes that animations move
-    std::vector<std::vector<float>> weights;      // of morph targets, of the nodes that have their own
-    std::vector<std::vector<glm::dmat4>> copies;  // EXT_mesh_gpu_instancing: node from mesh; maybe none
-    std::vector<Skin> skins;                      // those that a drawn mesh uses
-    std::vector<Animation> animations;            // as in the file, but empty where none moves this scene
-    glm::vec3 background{0, 0, 0};   // colour of uncovered pixels in pictures; in channels they are 0
-    std::vector<std::string> notes;  // what was read otherwise than as the file says, one line each
+    std::vector<Transform> transforms;            // of animated nodes
+    std::vector<std::vector<float>> weights;      // morph target weights of nodes that have their own
+    std::vector<std::vector<glm::dmat4>> copies;  // EXT_mesh_gpu_instancing: node from mesh; may be empty
+    std::vector<Skin> skins;                      // only skins of drawn meshes
+    std::vector<Animation> animations;            // as in the file; empty ones do not affect this scene
+    glm::vec3 background{0, 0, 0};                // colour of uncovered pixels in images; channels have 0
+    std::vector<std::string> notes;               // deviations from the file, one line each
 };
 
-// Geometry further out, in object or in world space, is not drawn: shaders add up squares of coordinates in
+// Geometry beyond this, in object or world space, is not drawn: shaders sum squared coordinates in
 // float32, which ends at 3.4e38.
 inline constexpr double maxCoordinate = 1e18;  // m
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int none = -1;
 
-// The algorithm's own test for zero.
+// MikkTSpace's own test for zero.
 bool notZero(double x) {
     return std::abs(x) > FLT_MIN;
 }
@@ -27,14 +27,14 @@ glm::dvec3 inPlaneOf(const glm::dvec3& normal, const glm::dvec3& v) {
     return unitOrZero(v - normal * glm::dot(normal, v));
 }
 
-// The values that decide whether two vertices are welded; 0 and -0 compare equal.
+// Attributes that must agree for two vertices to be welded; 0 and -0 compare equal.
 struct VertexKey {
     std::array<std::uint32_t, 8> bits;
     std::uint32_t vertex;
 };
 
-// Orders vertices by what moves them and their normals; 0: all targets, and the triangles of a flat
-// primitive, move both alike.
+// Orders vertices by their morph target offsets and, in a flat primitive, by their triangle; 0: both
+// vertices always move alike.
 class MorphOrder {
 public:
     MorphOrder(const Primitive& primitive, bool morphed, int texcoord) {
@@ -66,7 +66,7 @@ private:
         std::size_t width;
     };
     std::vector<Deltas> deltas_;
-    std::vector<std::uint32_t> triangle_;  // of each vertex; empty unless it matters
+    std::vector<std::uint32_t> triangle_;  // of each vertex; empty if the primitive is not flat
 
     template <class Vec>
     void add(const std::vector<Vec>& deltas) {
@@ -111,7 +111,7 @@ glm::vec4 TangentSpace::at(std::size_t corner) const {
     const Triangle& triangle = triangles_[corner / 3];
     const int vertex = triangle.vertex[corner % 3];
     int group = triangle.group[corner % 3];
-    // A triangle without area takes the group of a valid triangle at the same vertex.
+    // A degenerate triangle takes the group of a valid triangle at the same vertex.
     if (group == none && triangle.degenerate) group = group_of_vertex_[static_cast<std::size_t>(vertex)];
     if (group == none || tangents_[static_cast<std::size_t>(group)] == glm::dvec3(0))
         return anyTangent(glm::vec3(normal(vertex)));
@@ -128,7 +128,7 @@ std::uint32_t TangentSpace::groupAt(std::size_t corner) const {
                                                     : static_cast<std::size_t>(group));
 }
 
-// Behind the groups, one for each welded vertex: of its corners that are in none.
+// After the groups, each welded vertex has an index for its corners without a group.
 std::uint32_t TangentSpace::groupCount() const {
     return static_cast<std::uint32_t>(vertex_of_group_.size() + source_.size());
 }
@@ -144,8 +144,8 @@ bool TangentSpace::counts(std::size_t triangle) const {
     return slides_ || notZero(tb.x * tc.y - tb.y * tc.x);
 }
 
-// FNV-1a of each welded vertex's deltas: comparing the deltas themselves for every triangle would cost
-// triangles * targets, of which a file can have many with few bytes.
+// Hashes each welded vertex's deltas by FNV-1a. Comparing the deltas for every triangle would cost
+// triangles * targets, and a small file can have many of both.
 void TangentSpace::findMoves() {
     for (const MorphTarget& target : primitive_.targets) {
         slides_ |= !target.texcoords[map_.texcoord].empty();
@@ -171,7 +171,7 @@ glm::dvec2 TangentSpace::st(int v) const {
     return {glm::dot(map_.u, at), 1 - glm::dot(map_.v, at)};
 }
 
-// By sorting rather than hashing: a file could be made of vertices that all have the same hash.
+// Sorts instead of hashing: a malicious file could give all vertices the same hash.
 void TangentSpace::weld() {
     std::vector<VertexKey> keys(primitive_.positions.size());
     for (std::uint32_t v = 0; v < keys.size(); ++v) {
@@ -187,7 +187,7 @@ void TangentSpace::weld() {
         const int moved = order(a.vertex, b.vertex);
         return moved != 0 ? moved < 0 : a.vertex < b.vertex;
     });
-    std::vector<std::uint32_t> first(keys.size());  // for each vertex, the first of those welded with it
+    std::vector<std::uint32_t> first(keys.size());  // first vertex that each is welded with
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const bool same =
             i > 0 && keys[i].bits == keys[i - 1].bits && order(keys[i].vertex, keys[i - 1].vertex) == 0;
@@ -203,7 +203,7 @@ void TangentSpace::weld() {
         for (std::size_t i = 0; i < 3; ++i) triangles_[t].vertex[i] = welded[primitive_.indices[3 * t + i]];
 }
 
-// Equations 18 and 19 of the paper, normalised.
+// Equations 18 and 19 of Mikkelsen 2008, normalized.
 void TangentSpace::derive() {
     for (Triangle& triangle : triangles_) {
         const auto [a, b, c] = triangle.vertex;
@@ -212,7 +212,7 @@ void TangentSpace::derive() {
         if (triangle.degenerate) continue;
         const glm::dvec2 tb = st(b) - st(a), tc = st(c) - st(a);
         const glm::dvec3 d1 = pb - pa, d2 = pc - pa;
-        const double area = tb.x * tc.y - tb.y * tc.x;  // signed, twice
+        const double area = tb.x * tc.y - tb.y * tc.x;  // twice the signed area
         const glm::dvec3 os = tc.y * d1 - tb.y * d2;
         const glm::dvec3 ot = tb.x * d2 - tc.x * d1;
         triangle.orientation_preserving = area > 0;
@@ -223,8 +223,8 @@ void TangentSpace::derive() {
     }
 }
 
-// Two triangles are neighbours across an edge if they traverse it in opposite directions. Where more
-// than two triangles share an edge, they are paired in index order.
+// Two triangles are neighbours across an edge if they traverse it in opposite directions. If more than two
+// share an edge, they are paired in index order.
 void TangentSpace::findNeighbors() {
     struct Edge {
         int low, high, triangle, corner;
@@ -247,7 +247,7 @@ void TangentSpace::findNeighbors() {
         for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
                           edges[end].high == edges[begin].high;)
             ++end;
-        std::array<std::size_t, 2> next{begin, begin};  // unmatched edges, by direction
+        std::array<std::size_t, 2> next{begin, begin};  // next unmatched edge, by direction
         const auto advance = [&](bool rising) {
             while (next[rising] < end && edges[next[rising]].rising != rising) ++next[rising];
             return next[rising] < end;
@@ -286,7 +286,7 @@ void TangentSpace::group() {
                     triangle.orientation_preserving = preserving_.back();
                 if (triangle.orientation_preserving != preserving_.back()) continue;
                 triangle.group[corner] = id;
-                // The edges that leave and enter the corner; the one that leaves is followed first.
+                // The edges that enter and leave the corner; the leaving one is followed first.
                 for (const std::size_t edge : {(corner + 2) % 3, corner})
                     if (triangle.neighbor[edge] != none) waiting.push_back(triangle.neighbor[edge]);
             }

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, section 3, in the words used there:
-// vertices are welded where position, normal and UV agree; each triangle has the first-order derivatives
-// of position by s and t; triangles around a vertex that share edges and orientation form a group; a
-// group's tangent is the angle-weighted mean of its triangles' tangents, each projected into the plane of
-// the vertex normal. The algorithm's default angular threshold of 180 degrees never splits a group, so
-// none is applied. t is 1 - v: the bitangent must point towards the top of the picture (glTF's +Y of a
-// normal map), and v grows downwards. Double throughout; inputs are float.
+// M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, section 3, in that paper's terms.
+// Vertices are welded if position, normal and UV agree. Each triangle has first-order derivatives of
+// position by s and t. Triangles around a vertex that share edges and orientation form a group. A group's
+// tangent is the angle-weighted mean of its triangles' tangents, each projected into the plane of the
+// vertex normal. The default angular threshold of 180 degrees never splits a group, so there is no
+// threshold. t is 1 - v: the bitangent must point to the top of the image (glTF's +Y of a normal map), but
+// v grows downwards. Computed in double from float inputs.
 //
-// UV are the coordinates that the normal map is read with, after KHR_texture_transform: a map that is turned
-// or mirrored has its own directions on the surface.
+// UV means the normal map's coordinates after KHR_texture_transform, because a rotated or mirrored map has
+// its own directions on the surface.
 //
-// Where morph targets move what tangents follow from, a group must hold in every pose: vertices are welded
-// only if all targets move them alike too, and those of a flat primitive, whose normals are each triangle's
-// own, only within a triangle.
+// If morph targets affect tangents, groups must be valid in every pose. Vertices are then welded only if
+// all targets move them alike, and those of a flat primitive only within a triangle.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -31,34 +30,34 @@ namespace diptych {
 // A unit vector perpendicular to the normal, sign +1.
 glm::vec4 anyTangent(const glm::vec3& normal);
 
-// Whether a target moves what tangents follow from: positions, normals or this UV set (0 or 1).
+// Whether a target changes what determines tangents: positions, normals or this UV set (0 or 1).
 bool movesTangents(const MorphTarget& target, int texcoord);
 
 class TangentSpace {
 public:
-    // The primitive has the map's UV set, 0 or 1, and outlives this.
+    // The primitive must have the map's UV set, 0 or 1, and outlive this object.
     TangentSpace(const Primitive& primitive, const TextureSlot& map);
 
-    // The tangent at corner `corner` of the index list.
+    // The tangent at index `corner` of the index list.
     glm::vec4 at(std::size_t corner) const;
 
-    // A number that two corners have in common if their vertices share a tangent in every pose of the
-    // primitive; below groupCount(), though not every number is used.
+    // Corners with the same value share a tangent in every pose. Below groupCount(); some values may be
+    // unused.
     std::uint32_t groupAt(std::size_t corner) const;
     std::uint32_t groupCount() const;
 
-    // Whether a triangle has, or may get from morph targets, derivatives of position by s and t.
+    // Whether a triangle has derivatives of position by s and t, or may get them from morph targets.
     bool counts(std::size_t triangle) const;
 
 private:
     struct Triangle {
         std::array<int, 3> vertex;                // welded
-        std::array<int, 3> neighbor{-1, -1, -1};  // across the edge from corner i to corner i + 1
-        std::array<int, 3> group{-1, -1, -1};     // that corner i belongs to
+        std::array<int, 3> neighbor{-1, -1, -1};  // across the edge from corner i to i + 1
+        std::array<int, 3> group{-1, -1, -1};     // of corner i
         glm::dvec3 tangent{0};                    // unit dP/ds
         bool degenerate = false;
         bool orientation_preserving = false;
-        bool joins_any = true;  // has no derivative of its own: it joins whichever group reaches it first
+        bool joins_any = true;  // has no derivatives: joins the first group that reaches it
     };
 
     glm::dvec3 position(int v) const;
@@ -75,11 +74,11 @@ private:
     const Primitive& primitive_;
     const TextureSlot& map_;
     const std::vector<glm::vec2>& texcoords_;
-    bool morphed_ = false;               // whether a target moves what tangents follow from
-    std::vector<std::uint32_t> source_;  // welded vertex -> the first of the primitive's that it stands for
+    bool morphed_ = false;               // whether a target affects tangents
+    std::vector<std::uint32_t> source_;  // welded vertex -> the primitive's first such vertex
     std::vector<Triangle> triangles_;
-    std::vector<std::uint64_t>
-        moved_;            // by welded vertex: a hash of its position's deltas; empty: no target moves
+    // Hash of each welded vertex's position deltas; empty if no target moves positions.
+    std::vector<std::uint64_t> moved_;
     bool slides_ = false;  // whether a target moves texture coordinates
     std::vector<int> vertex_of_group_;
     std::vector<int> group_of_vertex_;  // the first group at each welded vertex

@@ -13,7 +13,7 @@ namespace diptych {
 
 namespace {
 
-// Replaces the vertices of `primitive` by the vertices `source` of it, in that order.
+// Replaces the vertices of `primitive` by its vertices `source`, in that order.
 void gather(Primitive& primitive, const std::vector<std::uint32_t>& source) {
     const auto take = [&](auto& attribute) {
         if (attribute.empty()) return;
@@ -35,7 +35,7 @@ void gather(Primitive& primitive, const std::vector<std::uint32_t>& source) {
     }
 }
 
-// The groups of `space` that the vertices use, renumbered in order. `group`: of each vertex; ~0: none.
+// The groups of `space` that the vertices use, renumbered in order. `group` is per vertex; ~0: none.
 TangentGroups groupsOf(const TangentSpace& space, const std::vector<std::uint32_t>& indices,
                        const std::vector<std::uint32_t>& group) {
     constexpr std::uint32_t unset = ~0u;
@@ -46,7 +46,7 @@ TangentGroups groupsOf(const TangentSpace& space, const std::vector<std::uint32_
     TangentGroups groups;
     groups.of_vertex.reserve(group.size());
     for (const std::uint32_t g : group) groups.of_vertex.push_back(g == unset ? count : place[g]);
-    // Counting sort of the corners that count by their groups.
+    // Counting sort, by group, of the corners that have derivatives.
     std::vector<std::uint32_t> next(std::size_t{count} + 1, 0);
     const auto visit = [&](const auto& use) {
         for (std::size_t corner = 0; corner + 2 < indices.size(); corner += 3)
@@ -90,7 +90,8 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) 
     if (map.texcoord < 0 || map.texcoord > 1 || primitive.texcoords[map.texcoord].empty())
         return makeAnyTangents(primitive);
     primitive.tangents.clear();
-    // A map that has no extent at rest has some later; bitangents' signs are then those of the coordinates.
+    // A map with zero extent at rest gets one later. Its bitangent signs are those of the unmapped
+    // coordinates.
     const bool flattened = map_turns && map.u.x * map.v.y - map.u.y * map.v.x == 0;
     const TextureSlot read = flattened ? TextureSlot{.texture = map.texture, .texcoord = map.texcoord} : map;
     const TangentSpace space(primitive, read);
@@ -99,15 +100,15 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) 
                            return movesTangents(target, map.texcoord);
                        });
 
-    // A vertex keeps the first tangent found for it; for each further tangent, or group where something
-    // moves tangents, the vertex is copied. Corners with equal ones share a copy as long as the search is
-    // short: a vertex of a million triangles may have a million tangents.
+    // A vertex keeps its first tangent, and is copied for each other tangent (or group, if tangents move).
+    // Corners with equal tangents share a copy if the search is short: a vertex of a million triangles may
+    // have a million tangents.
     constexpr std::uint32_t last = ~0u;
     constexpr int mostShared = 16;
     std::vector<std::uint32_t> source(primitive.positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
-    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set yet
-    std::vector<std::uint32_t> groups(source.size(), last);        // stays so where nothing moves tangents
+    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set
+    std::vector<std::uint32_t> groups(source.size(), last);        // `last` if tangents do not move
     std::vector<std::uint32_t> nextCopy(source.size(), last);
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
         const glm::vec4 tangent = space.at(corner);
@@ -131,7 +132,7 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) 
         groups[v] = group;
         primitive.indices[corner] = v;
     }
-    TangentGroups made;  // before gather(), which replaces the vertices that the space looks at
+    TangentGroups made;  // before gather(), which replaces the vertices that `space` refers to
     if (moves) made = groupsOf(space, primitive.indices, groups);
     gather(primitive, source);
     for (std::size_t v = 0; v < tangents.size(); ++v)

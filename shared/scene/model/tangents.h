@@ -5,15 +5,15 @@
 
 namespace diptych {
 
-// Flat normals, which glTF asks for where NORMAL is missing. Vertices are split, so that every triangle has
-// vertices of its own. A triangle without area gets (0, 0, 1).
+// Face normals, which glTF requires if NORMAL is missing. Vertices are split, so each triangle has its
+// own. Degenerate triangles get (0, 0, 1).
 void makeFlatNormals(Primitive& primitive);
 
-// Tangents as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
-// from positions, normals and the coordinates that `map` is read with, its transform included; vertices are
-// split where tangents differ. Without its UV set it makes any. Where morph targets move what tangents follow
-// from, or `map_turns` over time, vertices are also split by what moves them, and Primitive::tangent_groups
-// says how tangents of a pose follow; call it after the targets are there.
+// Computes tangents as MikkTSpace does (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008)
+// from positions, normals and the UV set and transform of `map`. Vertices are split where tangents differ.
+// Without that UV set, calls makeAnyTangents(). If morph targets affect tangents, or animation changes the
+// map's transform (`map_turns`), vertices are also split by their motion, and Primitive::tangent_groups is
+// filled. Call it after the targets have been loaded.
 void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns = false);
 // Every vertex gets a unit tangent perpendicular to its normal, sign +1.
 void makeAnyTangents(Primitive& primitive);

@@ -28,7 +28,7 @@ glm::dvec4 rotationOf(const std::vector<double>& xyzw) {
 }
 
 // Spherical linear interpolation (Shoemake 1985, "Animating Rotation with Quaternion Curves"). The angle
-// comes from atan2, which is exact near 0, where acos loses half of the digits.
+// comes from atan2, because acos loses half of the digits near 0.
 glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
     if (glm::dot(from, to) < 0) to = -to;
     const double angle = 2 * std::atan2(glm::length(to - from), glm::length(to + from));
@@ -37,7 +37,7 @@ glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
     return unit((std::sin((1 - u) * angle) * from + std::sin(u * angle) * to) / sine);
 }
 
-// The two keys around a time, and the position between them: 0 at the first, 1 at the second.
+// The two keys around a time; u is 0 at the first, 1 at the second.
 struct KeyPair {
     std::size_t first, second;
     double u, interval;  // s
@@ -64,7 +64,7 @@ double spline(double from, double out, double in, double to, double u, double in
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds) {
     const bool cubic = keyframes.interpolation == Interpolation::cubic_spline;
     const std::size_t width = keyframes.width;
-    // Order of the values in a cubic spline's key: in-tangent, value, out-tangent.
+    // Order of the values in a cubic spline's key.
     enum : std::size_t { in, value, out };
     const auto at = [&](std::size_t key, std::size_t which = value) {
         const std::size_t first = cubic ? (3 * key + which) * width : key * width;
@@ -88,7 +88,7 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
         }
     }
     if (!rotation) return result;
-    // A spline may pass through 0, which is no rotation: then no rotation is applied.
+    // A spline may pass through 0; then no rotation is applied.
     const glm::dvec4 q = unit(rotationOf(result));
     return {q.x, q.y, q.z, q.w};
 }
@@ -100,7 +100,7 @@ std::span<const Animation> animationsOf(const Scene& scene, const std::string& c
         if (choice == std::to_string(i)) return all.subspan(i, 1);
     for (std::size_t i = 0; i < all.size(); ++i)
         if (choice == all[i].name) return all.subspan(i, 1);
-    constexpr std::size_t shown = 20;  // about a screenful
+    constexpr std::size_t shown = 20;  // about one screen
     std::string there;
     for (std::size_t i = 0; i < std::min(all.size(), shown); ++i)
         there += fmt::format("{}{}{}", i ? ", " : "", i,
@@ -118,7 +118,7 @@ std::vector<double> inDouble(const std::vector<Weight>& weights) {
     return {weights.begin(), weights.end()};
 }
 
-// Those of all targets, or of one, the others being as they are at rest or as an earlier channel left them.
+// Applies weights of all targets, or of one. The others keep their default or an earlier channel's value.
 void moveWeights(const Scene& scene, const AnimationChannel& channel, std::vector<double> values,
                  NodeMotion& motion) {
     const bool ofNode = isNodePart(channel.part);

@@ -11,20 +11,21 @@
 
 namespace diptych {
 
-// The `keyframes.width` values at `seconds`: before the first key those of the first, after the last those
-// of the last. A rotation (x, y, z, w) is unit; interpolation takes the shorter way round.
+// Evaluates `keyframes.width` values at `seconds`, clamped to the first and last key. A rotation (x, y, z,
+// w) has unit length; interpolation takes the shorter way.
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds);
 
-// The animations that play: all of the scene's, or the one whose index or (the first) whose name `choice` is.
-// Throws std::runtime_error naming --animation, and the animations there are, if that is none.
+// The playing animations: all of the scene's, or the one whose index or name is `choice` (the first of
+// that name). Throws std::runtime_error that names --animation and lists the animations if there is no
+// such one.
 std::span<const Animation> animationsOf(const Scene& scene, const std::string& choice);
 
-// The nodes' transforms and weights under animationsOf(scene, choice). They play at once; where two move the
-// same part of a node, the later one applies.
+// Node transforms and weights under animationsOf(scene, choice). All play at once; if several target the
+// same property, the last one wins.
 struct NodeMotion {
     std::vector<glm::dmat4> parent_from_node;  // of every node, animated or not
-    std::map<int, std::vector<double>>
-        weights;  // by node: weights of the morph targets, for nodes whose weights an animation moves
+    // Morph target weights by node, for nodes whose weights are animated.
+    std::map<int, std::vector<double>> weights;
     std::map<int, std::vector<double>> mesh_weights;  // by mesh, likewise
 };
 NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choice = {});

@@ -14,11 +14,11 @@ struct Bounds {
     glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
     bool empty() const { return !(min.x <= max.x); }
     glm::dvec3 centre() const { return (min + max) * 0.5; }
-    double radius() const;  // m, of the sphere around centre() through the corners; 0 if empty
+    double radius() const;  // m, of the bounding sphere around centre(); 0 if empty
 };
 
-Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every posed vertex of every instance
-// The bounds at 0 s, whatever the pose's time: lights and cameras placed around a scene do not move with it.
+Bounds worldBounds(const Scene& scene, const Pose& pose);  // of all posed vertices of all instances
+// The bounds at 0 s, whatever the pose's time, so that lights and cameras placed by them do not move.
 Bounds boundsAtStart(const Scene& scene, const Pose& pose);
 
 }  // namespace diptych

@@ -30,7 +30,7 @@ struct Share {
     std::uint32_t joint;
     double share;
 };
-// The joints that move a vertex, each once, as posed.cpp weighs them; they add up to 1.
+// The joints of a vertex, each once, with normalized weights as in posed.cpp.
 void sharesOf(const Primitive& primitive, std::size_t vertex, std::vector<Share>& shares) {
     shares.clear();
     double whole = 0;
@@ -67,7 +67,8 @@ public:
         }
         std::ranges::stable_sort(order_, {}, [&](std::uint32_t v) { return joint[v]; });
         std::vector<std::span<std::uint32_t>> runs;
-        std::vector<std::uint32_t> few;  // vertices of joints that have too few of their own
+        // Vertices of joints with too few vertices for a cluster of their own.
+        std::vector<std::uint32_t> few;
         for (std::size_t begin = 0, end; begin < order_.size(); begin = end) {
             for (end = begin; end < order_.size() && joint[order_[end]] == joint[order_[begin]];) ++end;
             const std::span run = std::span(order_).subspan(begin, end - begin);
@@ -76,7 +77,7 @@ public:
             else
                 runs.push_back(run);
         }
-        // About 512 clusters in all, but at least 4 of a joint.
+        // About 512 clusters in total, but at least 4 per joint.
         int splits = 8;
         while (splits > 2 && (runs.size() << splits) > 512) --splits;
         for (const std::span<std::uint32_t> run : runs) divide(run, splits);
@@ -89,10 +90,11 @@ private:
     const Primitive& primitive_;
     const std::size_t least_size_;
     std::vector<std::uint32_t> order_;
-    std::vector<Share> shares_;  // of the vertex at hand
+    std::vector<Share> shares_;  // of the current vertex
     DeformationBounds result_;
 
-    // Halves the longest side of the vertices' box, as often as asked and as the size of a cluster allows.
+    // Splits the vertices at the median along their box's longest side, up to `splits` times and down to
+    // the least cluster size.
     void divide(std::span<std::uint32_t> vertices, int splits) {
         if (vertices.empty()) return;
         VertexBox box;
@@ -196,7 +198,7 @@ public:
             rest -= influence.least;
             terms_.push_back({apart, influence.most - influence.least});
         }
-        // The shares beyond the least ones go to the joints that pull furthest.
+        // The weight beyond the minima goes to the joints that pull furthest.
         for (int axis = 0; axis < 3; ++axis) {
             around.max[axis] += furthest(rest, [&](const Term& t) { return t.apart.max[axis]; });
             around.min[axis] -= furthest(rest, [&](const Term& t) { return -t.apart.min[axis]; });
@@ -216,7 +218,7 @@ private:
 
     const glm::dmat4& joint(std::uint32_t j) const { return (*deformation_.world_from_mesh)[j]; }
 
-    // What the targets add to the cluster's vertices.
+    // Range of the morph offset of the cluster's vertices.
     Range morph(std::size_t cluster) const {
         Range sum{glm::dvec3(0), glm::dvec3(0)};
         if (!deformation_.weights) return sum;
@@ -231,7 +233,8 @@ private:
         return sum;
     }
 
-    // The largest sum of share * pull(term), where a share is at most the term's and all are at most `rest`.
+    // Largest sum of share * pull(term), with each share at most the term's and their total at most
+    // `rest`.
     template <class Pull>
     double furthest(double rest, const Pull& pull) {
         pulls_.clear();
@@ -283,15 +286,15 @@ WorldBox boundsOf(const DeformationBounds& bounds, const Deformation& deformatio
     for (std::size_t c = 0; c < bounds.clusters.size(); ++c) {
         const Range range = of.of(c);
         for (int axis = 0; axis < 3; ++axis) {
-            // Not a number where a matrix is not finite: anywhere.
+            // A non-finite matrix gives NaN, which becomes the full range.
             min[axis] =
                 range.min[axis] >= -maxCoordinate ? std::min(min[axis], range.min[axis]) : -maxCoordinate;
             max[axis] =
                 range.max[axis] <= maxCoordinate ? std::max(max[axis], range.max[axis]) : maxCoordinate;
         }
     }
-    if (!(min.x <= max.x && min.y <= max.y && min.z <= max.z)) return {};  // nothing is within reach
-    // Posing and this round in double, too: to 1e-16 of the coordinates, a few dozen times.
+    if (!(min.x <= max.x && min.y <= max.y && min.z <= max.z)) return {};  // nothing is within range
+    // Posing and this function also round in double: relative errors of 1e-16, a few dozen times.
     const double farthest = std::max(glm::length(min), glm::length(max));
     const glm::dvec3 slack(1e-5 * glm::length(max - min) + 1e-13 * farthest);
     return {glm::max(min - slack, -maxCoordinate), glm::min(max + slack, maxCoordinate)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounds of the posed vertices of a primitive, from data that is prepared once: the cost of a pose is that of
-// the joints and targets, not of the vertices.
+// Bounds of a primitive's posed vertices from precomputed data: the cost of a pose grows with joints and
+// targets, not with vertices.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -12,18 +12,17 @@
 
 namespace diptych {
 
-// Its vertices in clusters; a cluster of a large primitive has 8 vertices or more.
+// Groups the vertices into clusters; those of large primitives have at least 8 vertices.
 DeformationBounds deformationBounds(const Primitive& primitive);
 
-// DeformationBounds::main_joint alone.
+// Only DeformationBounds::main_joint.
 std::uint32_t mainJoint(const Primitive& primitive);
 
-// Fills Primitive::deformation_bounds of all primitives that joints or targets move or whose tangents are
-// made anew over time. Vertices, joint sets and targets must not be changed afterwards, or deformation_bounds
-// be cleared.
+// Fills Primitive::deformation_bounds of all primitives with joints, targets or animated tangents. If
+// vertices, joint sets or targets change afterwards, deformation_bounds must be cleared.
 void prepareDeformationBounds(Scene& scene);
 
-// Where a primitive is in a pose: what posed.h computes each vertex of.
+// The inputs for posing a primitive: see posed.h.
 struct Deformation {
     glm::dmat4 world_from_object{1.0};
     const std::vector<glm::dmat4>* world_from_mesh = nullptr;  // by joint; nullptr: not skinned
@@ -34,10 +33,11 @@ struct WorldBox {
     glm::dvec3 min{0}, max{0};  // world, m; within maxCoordinate
 };
 
-// A box that no vertex posed in double leaves, nor one that is posed in float32 and off by 1e-5 of the box's
-// diagonal. A vertex is a convex combination of its joints' transforms of its morphed position q. So with the
-// shares a_j it lies in the hull of the boxes M_j q; and, for any joint r, at M_r q + sum of a_j (M_j - M_r)
-// q over the others, which is little where the joints meet. Each cluster is bounded by both.
+// A box around all posed vertices, whether computed in double, or in float32 with an error of up to 1e-5
+// of the box's diagonal. A vertex is a convex combination, with weights a_j, of M_j q: the transforms M_j
+// of its joints applied to its morphed position q. So it is in the hull of the boxes M_j q. For any joint
+// r, it is also at M_r q + sum over the others of a_j (M_j - M_r) q. That sum is small where the joints
+// meet. Each cluster is bounded by both.
 WorldBox boundsOf(const DeformationBounds& bounds, const Deformation& deformation);
 
 }  // namespace diptych

@@ -13,7 +13,7 @@ namespace diptych {
 
 namespace {
 
-// The threshold of makeTangents(), so that both find the same triangles without derivatives.
+// Same threshold as in makeTangents(), so that both reject the same triangles.
 glm::dvec3 directionOf(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > FLT_MIN ? v / length : glm::dvec3(0);
@@ -22,7 +22,7 @@ glm::dvec3 withinPlane(const glm::dvec3& normal, const glm::dvec3& v) {
     return directionOf(v - normal * glm::dot(normal, v));
 }
 
-// The unit dP/ds of a triangle; 0: it has no derivatives. st: texture coordinates with t upwards.
+// Unit dP/ds of a triangle; 0 if it has no derivatives. st: texture coordinates, t upwards.
 glm::dvec3 derivative(const glm::dvec3 (&p)[3], const glm::dvec2 (&st)[3]) {
     if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return glm::dvec3(0);
     const glm::dvec2 b = st[1] - st[0], c = st[2] - st[0];

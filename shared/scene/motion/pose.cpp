@@ -23,8 +23,8 @@ namespace diptych {
 
 namespace {
 
-// Every node's world transform. Parents may come in any order and chains have any length: unresolved
-// ancestors wait on a stack until their own parent is known.
+// World transforms of all nodes. Parents may come later and chains have any length, so unresolved
+// ancestors wait on a stack.
 std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes,
                                       const std::vector<glm::dmat4>& parentFromNode) {
     std::vector<glm::dmat4> world(nodes.size());
@@ -53,16 +53,16 @@ std::vector<glm::dmat4> worldFromNodeAtRest(const std::vector<Node>& nodes) {
     return worldFromNode(nodes, parentFromNode);
 }
 
-// A light uses only its node's position and orientation, not the scale. If the node is scaled to 0 along the
-// light's direction, the light keeps -Z.
+// A light uses only its node's position and orientation, not the scale. If the node's scale collapses the
+// light's direction, the light shines along -Z.
 Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     Light result = light;
     if (light.node < 0) return result;
     const glm::dmat4& worldFromLight = world[static_cast<std::size_t>(light.node)];
     result.position = glm::dvec3(worldFromLight * glm::dvec4(light.position, 1));
     result.direction = unitOr(glm::dmat3(worldFromLight) * light.direction, {0, 0, -1});
-    // The axes of a sheared node are not at right angles; if they are nearly parallel, the projected axis is
-    // only rounding error and the default is used.
+    // The axes of a sheared node are not perpendicular. If they are nearly parallel, the projected axis is
+    // only rounding error, and the default is used.
     const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
     const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
     result.axis = light.kind == LightKind::tube ? axis
@@ -72,8 +72,7 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     return result;
 }
 
-// Whether everything within +-extent of the object's origin has coordinates that float32 can work with
-// (maxCoordinate).
+// Whether all coordinates within +-extent of the object's origin are at most maxCoordinate.
 bool isWithin(const glm::dmat4& worldFromObject, const glm::dvec3& extent) {
     for (int row = 0; row < 3; ++row) {
         double reach = std::abs(worldFromObject[3][row]);
@@ -97,10 +96,10 @@ bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
     return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
 }
 
-// In bind pose all joints move a vertex alike. Where they don't, the one that moves most of the primitive
-// says which side is the front: one that moves little or nothing of it may mirror. The transform of a skinned
-// mesh's own node has no effect (glTF 2.0, 3.7.3.3), but is used if that joint's is not finite or collapses
-// the mesh into a plane.
+// In bind pose all joints move a vertex alike. Otherwise the joint with the largest total weight
+// determines the front side, because a joint of little weight may mirror. The transform of a skinned
+// mesh's own node has no effect (glTF 2.0, 3.7.3.3). It is used only if that joint's is not finite or
+// collapses the mesh to a plane.
 glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>& world, std::size_t node,
                               const Primitive& primitive) {
     const int index = scene.nodes[node].skin;
@@ -118,7 +117,7 @@ const std::vector<Primitive>& primitivesOf(const Scene& scene, const Node& node)
     return node.mesh < 0 ? no_primitives : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
 }
 
-// Node from mesh, for each time that the node draws its mesh.
+// Node from mesh, for each copy of the node's mesh.
 std::span<const glm::dmat4> copiesOf(const Scene& scene, const Node& node) {
     static const glm::dmat4 once(1.0);
     if (node.copies < 0) return {&once, 1};
@@ -139,13 +138,13 @@ std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::d
     return result;
 }
 
-// The weights of nodes' morph targets. Nodes that use their mesh's weights share one entry.
+// Morph target weights by node. Nodes that use their mesh's weights share one entry.
 class Weights {
 public:
     Weights(const Scene& scene, NodeMotion& motion, Pose& pose)
         : scene_(scene), motion_(motion), pose_(pose), place_of_mesh_(scene.meshes.size(), unknown) {}
 
-    // The index of a node's weights in Pose::weights; -1 if all are 0.
+    // Index of the node's weights in Pose::weights; -1 if all are 0.
     int placeOf(int index) {
         const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
         if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
@@ -213,7 +212,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
         const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             const glm::dmat4 worldFromNode = worldFromPrimitive(scene, world, n, primitives[p]);
-            // At rest, all vertices have been checked by leaveOutWhatIsBeyond().
+            // At rest, leaveOutWhatIsBeyond() has checked all vertices.
             const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
             const bool mapTurned = hasTurnedMap(scene, pose, primitives[p]);
             const std::span<const glm::dmat4> copies = copiesOf(scene, node);

@@ -18,12 +18,12 @@ namespace diptych {
 
 namespace {
 
-// The inverse transpose times the determinant; it exists also for singular matrices.
+// Inverse transpose times the determinant; also defined for singular matrices.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-// The inverse transpose times the sign of the determinant, as long as posing.h lets one be.
+// Inverse transpose times the sign of the determinant, within the limits of posing.h.
 glm::dmat3 inverseTranspose(const glm::dmat3& m) {
     double largest = 0;
     for (int c = 0; c < 3; ++c)
@@ -48,8 +48,7 @@ public:
 
     const Primitive& primitive() const { return primitive_; }
 
-    // A vertex's attribute plus the weighted sum of its morph targets, in object space. deltasOf(target) are
-    // the target's deltas, none if empty.
+    // A vertex attribute plus its weighted morph deltas, in object space. deltasOf(target) may be empty.
     template <class Sum, class T, class DeltasOf>
     Sum morphed(const std::vector<T>& base, const DeltasOf& deltasOf, std::size_t vertex) const {
         Sum sum(base[vertex]);
@@ -82,7 +81,7 @@ public:
                           0.0, 1.0);
     }
 
-    // Whether a target with a weight moves what moves(target) says.
+    // Whether a target of non-zero weight satisfies `moves`.
     template <class Moves>
     bool isMoved(const Moves& moves) const {
         if (!weights_) return false;
@@ -91,8 +90,8 @@ public:
         return false;
     }
 
-    // The weighted mean of the joints' matrices. float32 weights add up to 1 but for rounding, so the sum is
-    // divided by their sum.
+    // Weighted mean of the joint matrices, normalized, because float32 weights add up to 1 only within
+    // rounding.
     glm::dmat4 worldFrom(std::size_t vertex) const {
         if (!world_from_mesh_) return world_from_object_;
         glm::dmat4 sum(0);
@@ -104,7 +103,7 @@ public:
         return sum / whole;
     }
 
-    // A normal in world axes, of any length and not on the front's side yet.
+    // A normal in world axes, not normalized, not yet oriented to the front side.
     glm::dvec3 turned(std::size_t vertex, const glm::dvec3& normal, bool blended) const {
         if (blended || !world_from_mesh_) return cofactors(glm::dmat3(worldFrom(vertex))) * normal;
         glm::dvec3 sum(0);
@@ -126,7 +125,7 @@ private:
     const Primitive& primitive_;
     const glm::dmat4 world_from_object_;
     const std::vector<glm::dmat4>* world_from_mesh_;  // by joint; nullptr: not skinned
-    const std::vector<double>* weights_;              // nullptr: no morph target applies
+    const std::vector<double>* weights_;              // by target; nullptr: no morph target applies
 };
 
 glm::dvec3 placed(const glm::dvec4& p) {
@@ -135,8 +134,7 @@ glm::dvec3 placed(const glm::dvec4& p) {
     return glm::dvec3(p);
 }
 
-// Normalised without squaring the components directly: the square of a very long or short vector may leave
-// double's range.
+// Scales before normalizing, because the square of a very long or short vector may exceed double's range.
 glm::dvec3 safeUnit(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0);
@@ -152,7 +150,7 @@ void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::u
     }
 }
 
-// In object space, before joints move them.
+// In object space, before skinning.
 std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map, bool map_turned) {
     const Primitive& primitive = posing.primitive();
     const std::size_t count = primitive.positions.size();

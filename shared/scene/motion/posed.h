@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vertices of an instance: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3), in double.
+// Computes the vertices of an instance in double: morph targets, then joints (glTF 2.0, 3.7.2.2 and
+// 3.7.3.3).
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -9,22 +10,21 @@
 
 namespace diptych {
 
-// World space. Positions that are beyond maxCoordinate or not finite become NaN, and triangles that use them
+// World space. Positions that exceed maxCoordinate or are not finite become NaN; triangles that use them
 // are not drawn.
 std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, const Instance& instance);
 
-// Normals and tangents are unit, or 0 where they have no direction. A normal is transformed by the mean of
-// the inverse transposes of its vertex's joints, or with `blended_normals` by that of the mean of their
-// matrices, and points to the side from which the triangle's front is seen under the handedness of
-// world_from_object; the normals of a flat primitive are those of its posed triangles. Tangents move with the
-// surface, whether they are the file's or come from makeTangents. Where a target with a weight or a turned
-// normal map moves what the latter follow from, they are made anew (morphed_tangents.h). The sign of a
-// bitangent is the primitive's times that of the determinant of world_from_object, times `bitangents`.
+// Normals and tangents are unit, or 0 if undefined. A normal is transformed by the mean of the joints'
+// inverse transposes, or with `blended_normals` by the inverse transpose of their mean. It points to the
+// front side, given the handedness of world_from_object. A flat primitive gets the normals of its posed
+// triangles. Tangents move with the surface. Those from makeTangents are recomputed if targets of non-zero
+// weight or an animated normal map change them (morphed_tangents.h). A bitangent's sign is the
+// primitive's, times the sign of world_from_object's determinant, times `bitangents`.
 struct PosedVertices {
     std::vector<glm::dvec3> positions, normals, tangents;
-    std::vector<glm::dvec2> texcoords[2];  // empty where no target with a weight moves them
-    std::vector<glm::dvec4> colors;        // likewise; 0..1
-    double bitangents = 1;                 // -1 where an animation has mirrored the normal map
+    std::vector<glm::dvec2> texcoords[2];  // empty if no target of non-zero weight moves them
+    std::vector<glm::dvec4> colors;        // likewise; 0 to 1
+    double bitangents = 1;                 // -1 if an animation mirrored the normal map
 };
 PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance& instance,
                             bool blended_normals = false);

@@ -22,7 +22,7 @@ struct Property {
     auto operator<=>(const Property&) const = default;
 };
 
-// The values of every property that moves, within its range: those of the last channel that moves it.
+// Values of every animated property, clamped to its range. The last channel of a property wins.
 using Values = std::map<Property, std::vector<double>>;
 
 Values valuesAt(const Scene& scene, double seconds, const std::string& choice) {
@@ -42,7 +42,7 @@ Values valuesAt(const Scene& scene, double seconds, const std::string& choice) {
     return values;
 }
 
-// The number of a property of one number.
+// The value of a scalar property.
 std::optional<double> numberOf(const Values& values, int object, AnimatedPart part) {
     const auto at = values.find({object, part, 0});
     return at == values.end() ? std::nullopt : std::optional(at->second[0]);
@@ -80,14 +80,14 @@ void move(Camera& camera, const Values& values) {
     const bool near = set(camera.near, AnimatedPart::camera_near);
     const bool far = set(camera.far, AnimatedPart::camera_far);
     if (!near && !far) return;
-    constexpr double thin = 1e-6;  // m, and relative: what float32 tells apart
+    constexpr double thin = 1e-6;  // m, and relative: what float32 resolves
     if (!camera.orthographic) camera.near = std::max(camera.near, thin);
     if (camera.far > camera.near) return;
     camera.far = camera.orthographic ? camera.near + std::max(thin, thin * camera.near)
                                      : std::numeric_limits<double>::infinity();
 }
 
-// A material and what it holds combined, apart.
+// A material, and the parts of its combined values.
 class MovedMaterial {
 public:
     MovedMaterial(Material& material, const MaterialParts* parts) : m_(material) {
@@ -150,7 +150,7 @@ public:
                 transform(element).scale = {v[0], v[1]};
                 place(element);
                 break;
-            default:  // of nodes, lights and cameras
+            default:  // parts of nodes, lights and cameras
                 break;
         }
     }
@@ -173,7 +173,7 @@ private:
 
 std::vector<Material> movedMaterials(const Scene& scene, const Values& values) {
     std::vector<Material> materials;
-    // Properties of one material follow each other.
+    // Properties of one material are consecutive.
     for (auto at = values.begin(); at != values.end();) {
         const int object = at->first.object;
         std::optional<MovedMaterial> moved;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What animations move beside nodes (KHR_animation_pointer): lights, cameras and materials at a time.
+// Animated properties of lights, cameras and materials at one time (KHR_animation_pointer).
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -12,13 +12,13 @@ namespace diptych {
 struct PropertyMotion {
     std::vector<Light> lights;        // as Scene::lights
     std::vector<Camera> cameras;      // as Scene::cameras
-    std::vector<Material> materials;  // as Scene::materials; empty if nothing that plays moves any
+    std::vector<Material> materials;  // as Scene::materials; empty if no playing animation moves any
 };
 
-// Under animationsOf(scene, choice), which play at once: where two move one property, the later one applies.
-// What a spline carries out of its range (factsOf()) counts as the nearest valid value: a light's inner cone
-// is at most its outer one, and where a far plane comes to lie before the near one, a perspective has none
-// and an orthographic camera one directly behind it.
+// Under animationsOf(scene, choice). All play at once; if several target one property, the last one wins.
+// Values that a spline takes out of range (factsOf()) are clamped. A light's inner cone is at most its
+// outer one. If the far plane is not beyond the near plane, a perspective camera gets none, an
+// orthographic one a far plane right behind the near plane.
 PropertyMotion propertiesAt(const Scene& scene, double seconds, const std::string& choice = {});
 
 }  // namespace diptych
