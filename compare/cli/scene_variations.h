@@ -31,8 +31,8 @@ choose::DrawInOrder drawAsIs(const VariedScene& of);
 // `of` must outlive the variations. Variations are created on demand, one at a time.
 std::vector<choose::Property> propertiesOf(const VariedScene& of);
 
-// Copies of a scene with one change. withLights(): `lights` are posed. `factor` n repeats each light n
-// times; 1/n keeps every n-th light.
+// Copies of a scene with one change. withLights(): `lights` have world transforms. `factor` n repeats each
+// light n times; 1/n keeps every n-th light.
 Scene withLights(const Scene& scene, std::span<const Light> lights, double factor);
 // Adds `copies` hidden copies below each opaque triangle that is not skinned or morphed.
 Scene withOverdraw(const Scene& scene, int copies);
