@@ -103,7 +103,7 @@ Json resumeKey(const Options& options, const std::vector<Settings>& settings) {
             {"program", shards::programStamp()},
             {"command", options.command},
             {"asked", askedOf(options, settings)},
-            {"one", options.scenes.size() == 1},  // whether each scene has a folder
+            {"one", options.scenes.size() == 1},  // affects the folder of a scene
             {"single_file", options.single_file},
             {"files", files}};
 }

@@ -27,7 +27,7 @@ std::map<int, int> lifelines;  // key: process ID of the supervisor
 void endAllSupervised() {
     const std::lock_guard lock(supervisedMutex);
     for (const auto& [supervisor, lifeline] : lifelines) endSupervised(lifeline);
-    siginfo_t ended{};  // WNOWAIT: the thread that runs it reaps it
+    siginfo_t ended{};  // WNOWAIT: another thread reaps it
     for (const auto& [supervisor, lifeline] : lifelines)
         ::waitid(P_PID, static_cast<id_t>(supervisor), &ended, WEXITED | WNOWAIT);
 }
