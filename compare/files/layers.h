@@ -63,7 +63,7 @@ struct OneSidedChannel {
 
 struct MatchedChannels {
     std::vector<MatchedChannel> channels;  // in the reference's order
-    std::vector<std::string> notes;        // also on channels whose types differ
+    std::vector<std::string> notes;        // renamed colours, added alpha, differing types
     std::vector<OneSidedChannel> one_sided;
 };
 
