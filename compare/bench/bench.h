@@ -50,8 +50,8 @@ struct Bench {
 
 // Measures the rows of one group. First renders one frame each to warm up, which also finds rows over
 // options.max_ms. Then runs `runs` rounds of one frame each, and as many profiled rounds, at least three.
-// Skipped rows go into bench.skips; times of earlier rows predict some skips. isHopeless(): all rows of a
-// growth group would be skipped, so its scene need not be read.
+// Skipped rows go into bench.skips; times of earlier rows predict some skips.
+// isHopeless(): all rows of a growth group would be skipped. Its scene need not be read.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
 bool isHopeless(const Bench& bench, const BenchGroup& group);

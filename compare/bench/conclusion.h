@@ -22,8 +22,8 @@ struct PairedRatio {
 };
 PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
 
-// Compares rows of one size and light count that render the same image: the fastest with the fastest of
-// the other path, or with the next row if there is only one path.
+// Compares rows with equal size, light count and image: the fastest with the fastest of the other path.
+// With only one path, compares it with the next row.
 struct Conclusion {
     const BenchRow *faster = nullptr, *slower = nullptr;
     PairedRatio ratio;  // time of the slower over the faster

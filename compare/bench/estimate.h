@@ -14,7 +14,7 @@
 namespace diptych::bench {
 
 // Data sheet values, 1e9 per second: bytes of memory traffic, triangles set up, pixels written per target,
-// bilinear texels, and float32 operations of draws and of compute shaders (a multiply-add is two).
+// bilinear texels. Also float32 operations of draws and of compute shaders; a multiply-add is two.
 struct GpuFigures {
     std::string_view name;
     double bytes, triangles, outputs, texels, draw_flops, compute_flops;
@@ -52,9 +52,9 @@ struct FrameEstimate {
     std::vector<PassEstimate> passes;
 };
 
-// Assumptions, not validated on a GPU: the reached fraction of data sheet values, operations per light
-// (counted in kernel_avx2.cpp, a multiply-add is two) and per fragment, vertex and compute invocation, and
-// the overhead of a pass, ms.
+// Assumptions, not validated on a GPU: the reached fraction of data sheet values, and operations per
+// light, fragment, vertex and compute invocation. Light operations are counted in kernel_avx2.cpp; a
+// multiply-add is two. The overhead of a pass is in ms.
 struct EstimateAssumptions {
     double reached = 0.6;
     double light_flops = 120, fragment_flops = 200, vertex_flops = 100, compute_flops = 100;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures the cost of one listed point light at one pixel: the shaders' functions in full-screen draws,
-// compared with the same arithmetic hand-written for the CPU.
+// Measures the cost of one listed point light at one pixel. Compares the shaders' functions, in
+// full-screen draws, with the same arithmetic hand-written for the CPU.
 #pragma once
 
 #include "compare/bench/workload.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Time and memory by samples per pixel, after the table of Billeter, Olsson and Assarsson 2013, "Tiled
-// Forward Shading" (GPU Pro 4): forward+ with and without transparency, and deferred.
+// Time and memory by samples per pixel: forward+ with and without transparency, and deferred. After the
+// table of Billeter, Olsson and Assarsson 2013, "Tiled Forward Shading" (GPU Pro 4).
 #pragma once
 
 #include "compare/bench/bench.h"

@@ -64,8 +64,8 @@ private:
         backwards_ = !backwards_;
     }
 
-    // A scene's proposals, most wanted first: the first candidate of each path, its choice, its most
-    // accurate candidate (others may need more accuracy), then other fitting ones, fastest first.
+    // A scene's proposals, most wanted first: each path's first candidate, the scene's choice, its most
+    // accurate candidate, then other fitting ones, fastest first. Other scenes may need the accurate one.
     std::vector<std::vector<std::size_t>> tiersOf(const Choice& choice) const {
         std::vector<std::vector<std::size_t>> tiers(3);
         std::vector<Path> paths;

@@ -78,7 +78,7 @@ private:
         ++found_.judged;
     }
     // Times two frames per candidate, in an order and its reverse. A candidate with known time, if any,
-    // goes between them as the anchor: times are relative to it, which cancels a drift of the device's
+    // goes between them as the anchor. Times are relative to it, which cancels a drift of the device's
     // speed.
     void time(std::vector<std::size_t> which, std::optional<std::size_t> anchor) {
         if (which.empty()) return;

@@ -92,7 +92,7 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
 void printColored(const Options& options, const std::string& text);
 
 // Changes since the report of --since, for comparisons with these rows; nullptr without --since.
-// checkSince() throws std::runtime_error if the file is not a report: call it before any long work.
+// checkSince() throws std::runtime_error if the file is not a report. Call it before any long work.
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,
                                       const std::vector<IndexRow>& rows);
 void checkSince(const Options& options);

@@ -58,7 +58,7 @@ std::string shortName(const std::string& device) {
     return std::string(device.begin(), end);
 }
 
-// Inserts the other device's Frames after those of each view, and adds the data that evaluates them.
+// Inserts the other device's Frames after those of each view, and adds the inputs of their verdicts.
 void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, AgainstDevice& against,
                     std::vector<Frame> there, const std::shared_ptr<PipelineSet>& pipelines,
                     DrawnScene& drawn) {

@@ -27,8 +27,8 @@ std::vector<Path> comparedPaths(const Options& options);
 // Whether the baseline is a reference in mode scene, rendered now or read from a file.
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline);
 
-// With multisampling, throws std::runtime_error, one line, if the reference's samples do not match those
-// of the paths, or if --channels lacks lit, the only channel then compared.
+// Checks a multisampled comparison with the reference. Throws std::runtime_error, one line, if the sample
+// counts do not match, or if --channels lacks lit: only lit is compared then.
 void checkSamples(const Options& options, const std::vector<Settings>& settings,
                   const std::optional<Frame>& baseline);
 

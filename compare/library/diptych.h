@@ -50,8 +50,8 @@ struct Result {
     int worst_x = -1, worst_y = -1;         // pixel with the largest FLIP; -1: no difference
 };
 
-// Thread-safe. Throws std::runtime_error, one line, for images of different sizes, a wrong number of
-// values, an unknown or undefined metric, an option out of range, or no pixel to compare.
+// Thread-safe. Throws std::runtime_error, one line, for images of different sizes or a wrong number of
+// values, for an unknown or undefined metric, for an option out of range, and if no pixel is compared.
 Result compare(const Picture& reference, const Picture& test, const Options& options = {});
 
 // Names for Limit and Result, and the meaning of each: formula, unit and source in one line.

@@ -50,9 +50,9 @@ std::map<std::string, double> timingsOf(const std::filesystem::path& report);
 std::vector<double> weightsOf(const std::vector<std::string>& scenes,
                               const std::map<std::string, double>& timings);
 
-// Shard of each scene, 1 to count: longest first, each to the least loaded shard (Graham 1969, "Bounds on
-// Multiprocessing Timing Anomalies": at most 4/3 of the optimum). Ties: the earlier scene first; the shard
-// with fewer scenes, then the earlier one.
+// Shard of each scene, 1 to count. Assigns the longest scene first, each to the least loaded shard: at
+// most 4/3 of the optimum (Graham 1969, "Bounds on Multiprocessing Timing Anomalies"). Ties: the earlier
+// scene first; the shard with fewer scenes, then the earlier one.
 std::vector<int> partition(const std::vector<double>& weights, int count);
 
 }  // namespace diptych::shards

@@ -50,8 +50,8 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // with rows, in enumerati
 std::optional<Spread> driftOf(const Tradeoff& tradeoff);
 
 // Shell commands: measures the row again, renders its image, compares its errors with the other path's per
-// channel. The last is empty if the row's reference differs from the sweep's, for example in size, or if
-// the other path does not support the Settings. The second is empty for external renderers.
+// channel. The last is empty if the row's reference differs from the sweep's, for example in size. It is
+// also empty if the other path does not support the Settings. The second is empty for external renderers.
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);

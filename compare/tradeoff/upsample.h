@@ -5,11 +5,11 @@
 
 namespace diptych::tradeoff {
 
-// Resamples lit, before and after blending, and material_id at another size's pixel centres. lit: bilinear
-// over those of the 2x2 nearest pixels that show a surface or something blended; background if the nearest
-// pixel is background. Silhouettes stay in place and black background does not darken them. material_id:
-// nearest pixel. Returns the Frame unchanged if the size is equal. Throws std::runtime_error if a channel
-// is missing.
+// Resamples lit, before and after blending, and material_id at the pixel centres of another size.
+// lit: bilinear over the 2x2 nearest pixels, without background pixels. Background if the nearest pixel is
+// background. Silhouettes stay in place, and the black background does not darken them.
+// material_id: nearest pixel.
+// Returns the Frame unchanged if the size is equal. Throws std::runtime_error if a channel is missing.
 Frame upsampled(Frame frame, const Size& size);
 
 }  // namespace diptych::tradeoff
