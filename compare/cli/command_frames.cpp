@@ -154,7 +154,7 @@ private:
     std::optional<OutputFolder> folder_;
     std::vector<std::string> files_;  // within folder_
     std::string exposure_line_;
-    std::set<std::string> said_;  // notes already printed
+    std::set<std::string> said_;  // printed notes, without their numbers
 };
 
 // Renders one Frame at a time from one upload of the scene.
