@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole benchmark, and the files and texts made of it.
+// A complete benchmark and its outputs.
 #pragma once
 
 #include "compare/bench/cases.h"
@@ -15,30 +15,30 @@
 
 namespace diptych::bench {
 
-// The measurements of one Settings.
+// Measurements of one Settings.
 struct BenchRow {
     Settings settings;
-    std::string scene;  // with its number of lights
+    std::string scene;  // includes the light count
     std::optional<std::uint32_t> requested_lights;
-    std::string camera;  // its title
+    std::string camera;  // title
     FrameTime time;
-    std::vector<double> ms;        // every timed frame, in order
-    std::vector<PassTime> passes;  // medians of the profiled frames
+    std::vector<double> ms;        // all timed frames, in order
+    std::vector<PassTime> passes;  // medians over profiled frames
     FrameBytes bytes;
     FrameCounters counters;
-    std::vector<std::string> notes;  // what a reader must know about this frame
+    std::vector<std::string> notes;  // caveats for the reader
     ModeParts parts = {};
     std::optional<GrowthPoint> growth = {};
 };
 
-// The names of passes that make light lists begin with this.
+// Prefix of passes that build light lists.
 inline constexpr std::string_view assignPasses = "assign";
-// The time of the profiled passes that make light lists, ms; and their share of all passes, 0 to 1.
+// Time of these passes in profiled frames, ms, and their fraction of all passes, 0 to 1.
 double assignMs(const BenchRow& row);
 double assignShare(const BenchRow& row);
 
 struct Bench {
-    std::string scene;  // as asked for
+    std::string scene;  // as on the command line
     Settings given;
     BenchOptions options;
     ReportDevice device;
@@ -48,39 +48,40 @@ struct Bench {
     std::optional<KernelReport> kernels;
 };
 
-// Measures the rows of one group: first a frame each to warm up, which also finds rows that take over
-// options.max_ms; then `runs` rounds of one frame each; then as many profiled rounds, at least three. Rows
-// left out go into bench.skips; earlier rows of `bench` predict which need not be tried.
-// A group of --table growth whose axis had too much for every path already is not even read.
+// Measures the rows of one group. First renders one frame each to warm up, which also finds rows over
+// options.max_ms. Then runs `runs` rounds of one frame each, and as many profiled rounds, at least three.
+// Skipped rows go into bench.skips; times of earlier rows predict some skips.
+// isHopeless(): all rows of a growth group would be skipped. Its scene need not be read.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
 bool isHopeless(const Bench& bench, const BenchGroup& group);
 
-// The notes that every row has; they are shown once instead of for each row.
+// Notes that all rows share; shown once.
 std::vector<std::string> commonNotes(const Bench& bench);
 
-// "1024", "36.4", "0.0123": four digits, or all before the point.
+// "1024", "36.4", "0.0123": four significant digits, all digits from 1000 on.
 std::string msText(double ms);
 
-// Sizes of the rows, in their order.
+// Distinct sizes, in order of the rows.
 std::vector<Size> sizesOf(const Bench& bench);
 
-// On a terminal: rows from `first` on, under a head where `first` is 0; then skips, kernels and notes.
+// Terminal text. benchTable(): rows from `first` on, with a header if it is 0. benchEnd(): skips, kernels,
+// notes.
 std::string benchTable(const Bench& bench, std::size_t first);
 std::string benchEnd(const Bench& bench);
 std::string kernelTable(const KernelReport& kernels);
 
-// Whether a row draws another picture than the others, see drawsAnotherPicture().
+// Whether any row uses drawsAnotherPicture().
 bool hasAnotherPicture(const Bench& bench);
 
-// Time over light count, a line a mode with bars from the least to the most; a panel a size. Both axes are
-// logarithmic. Of one light count: a bar a mode, stacked of its passes.
+// SVG of time over light count, log-log: a panel per size, a line per mode with bars from least to
+// greatest time. With one light count: a stacked bar of passes per mode.
 std::string benchPlot(const Bench& bench, PlotPlace place);
 std::string benchHtml(const Bench& bench);
-// bench.json, schema 1; `files`: all of the folder.
+// bench.json, schema 1. `files`: all files of the folder.
 std::string benchJson(const Bench& bench, const std::vector<std::string>& files);
 
-// Writes the folder. Returns bench.json.
+// Writes the folder; returns bench.json.
 std::string writeBench(const Bench& bench, const std::filesystem::path& folder, bool force);
 inline constexpr const char* benchManifest = "bench.json";
 

@@ -30,7 +30,7 @@ std::vector<std::string> wordsOf(const std::string& list, std::string_view optio
     return words;
 }
 
-// Values of one of the Settings, each once, in the order given.
+// Distinct values of one Setting, in the given order.
 template <class T>
 std::vector<T> valuesOf(const std::string& list, std::string_view option, std::string_view setting,
                         T Settings::*member) {
@@ -57,7 +57,7 @@ std::vector<T> all() {
 
 constexpr std::string_view prefix = "builtin:";
 
-// "builtin:spheres" of "builtin:spheres?lights=64"; empty where the scene takes no such parameter.
+// "builtin:spheres?lights=64" becomes "builtin:spheres". Empty if the scene has no such parameter.
 std::string sceneOfLights(const std::string& scene) {
     if (!scene.starts_with(prefix)) return {};
     const std::string name = scene.substr(prefix.size(), scene.find('?') - prefix.size());
@@ -67,7 +67,7 @@ std::string sceneOfLights(const std::string& scene) {
     return std::string(prefix) + name;
 }
 
-// Puts `count` lights into the scene or the Settings.
+// Sets the light count in the scene's name or in the Settings.
 void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
     const std::string parametric = sceneOfLights(scene);
     if (!parametric.empty() && settings.lights.empty()) {
@@ -134,8 +134,8 @@ BenchTable benchTableOf(const std::string& word) {
 
 namespace {
 
-// What a step of an axis draws: a scene, at --size unless it is the size that grows. All but the lights' are
-// of builtin:array, whose objects fill the view at any number.
+// Scene of one step of an axis. Only the pixel axis changes the size. All but the light axis use
+// builtin:array, whose objects fill the view at any count.
 struct GrowthRow {
     GrowthAxis axis;
     std::string_view name;
@@ -175,7 +175,7 @@ const GrowthRow growthRows[] = {
      [](std::uint64_t) { return std::string("builtin:array"); }},
 };
 
-// 16:9.
+// 16:9 aspect ratio.
 Size sizeOfPixels(double pixels) {
     const int height = static_cast<int>(std::lround(std::sqrt(pixels * 9 / 16)));
     return {static_cast<int>(std::lround(pixels / height)), height};
@@ -208,7 +208,7 @@ std::vector<GrowthAxis> growthAxes(const std::string& words) {
 
 namespace {
 
-// Its columns, and the options that its rows leave no room for.
+// Columns of --table msaa. checkSampleTable() throws for options that conflict with its rows.
 constexpr int tableSamples[] = {1, 4, 8};
 void checkSampleTable(const BenchOptions& options) {
     if (options.table != BenchTable::msaa) return;
@@ -234,7 +234,7 @@ std::vector<Transparency> transparenciesOf(const Settings& given, const BenchOpt
     return options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
 }
 
-// Forward+ has one way to light.
+// Only deferred has several lighting modes.
 std::vector<Lighting> lightingsOf(Path path, const Settings& given, const BenchOptions& options) {
     return path == Path::deferred && !options.lightings.empty() ? options.lightings
                                                                 : std::vector{given.lighting};

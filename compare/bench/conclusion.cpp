@@ -15,10 +15,11 @@ namespace {
 
 constexpr double wantedConfidence = 0.95;
 
-// That the median lies between the k-th least and the k-th largest of n: 1 - 2 P(Binomial(n, 1/2) < k).
+// Probability that the median of n lies between the k-th least and the k-th greatest value: 1 - 2
+// P(Binomial(n, 1/2) < k).
 double confidenceOf(int n, int k) {
     double below = 0;
-    // By logarithms, since 2^-n is 0 from a thousand pairs on.
+    // In log space: 2^-n underflows from about a thousand pairs on.
     for (int i = 0; i < k; ++i)
         below += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) -
                           n * std::numbers::ln2);
@@ -30,7 +31,7 @@ bool comparable(const BenchRow& a, const BenchRow& b) {
 }
 
 void findPass(Conclusion& c) {
-    std::map<std::string, std::pair<double, double>> ms;  // faster, slower
+    std::map<std::string, std::pair<double, double>> ms;  // faster, slower row
     for (const PassTime& pass : c.faster->passes) ms[pass.name].first += pass.ms;
     for (const PassTime& pass : c.slower->passes) ms[pass.name].second += pass.ms;
     double most = 0;
@@ -87,7 +88,7 @@ std::string Conclusion::inWords() const {
 }
 
 std::vector<Conclusion> conclusionsOf(const Bench& bench) {
-    if (bench.options.table == BenchTable::growth) return {};  // has sentences of its own
+    if (bench.options.table == BenchTable::growth) return {};  // growthInWords() replaces them
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)
         if (!drawsAnotherPicture(row.settings.assign)) left.push_back(&row);

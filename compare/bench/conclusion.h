@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark says: which Settings are faster, by how much, how sure that is, and what decides it.
+// Conclusions of a benchmark: which Settings are faster, by how much, how certain, and because of which
+// pass.
 #pragma once
 
 #include "compare/bench/bench.h"
@@ -9,10 +10,10 @@
 
 namespace diptych::bench {
 
-// The median of paired ratios, with an interval that holds the true median with at least `confidence`
-// whatever their distribution is: the order statistics of a sign test (Thompson 1936, "On Confidence Ranges
-// for the Median and Other Expectation Distributions for Populations of Unknown Distribution Form"; Conover
-// 1999, "Practical Nonparametric Statistics", 3.2). No fewer than six pairs reach 95 %.
+// Median of paired ratios with a distribution-free confidence interval: order statistics of a sign test
+// (Thompson 1936, "On Confidence Ranges for the Median and Other Expectation Distributions for Populations
+// of Unknown Distribution Form"; Conover 1999, "Practical Nonparametric Statistics", 3.2). 95 % needs at
+// least six pairs.
 struct PairedRatio {
     double median = 1, low = 1, high = 1;
     double confidence = 0;  // 0 to 1
@@ -21,19 +22,19 @@ struct PairedRatio {
 };
 PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
 
-// Of the rows of one size and light count that draw the same picture: the fastest beside the fastest of the
-// other path, or, of one path alone, beside the next.
+// Compares rows with equal size, light count and image: the fastest with the fastest of the other path.
+// With only one path, compares it with the next row.
 struct Conclusion {
     const BenchRow *faster = nullptr, *slower = nullptr;
-    PairedRatio ratio;  // how many times as long the slower one takes
-    // The pass whose time tells them apart most, in the direction of the whole; empty if none does.
+    PairedRatio ratio;  // time of the slower over the faster
+    // The pass that accounts for most of the difference; empty if none does.
     std::string pass;
-    double faster_ms = 0, slower_ms = 0;  // of that pass; 0 where a row has none of that name
+    double faster_ms = 0, slower_ms = 0;  // of that pass, ms; 0 if the row lacks it
 
     std::string inWords() const;  // a sentence
 };
 
-// By size and light count, in the order of the rows; nothing for those with a single row.
+// By size and light count, in row order. Single rows have no conclusion.
 std::vector<Conclusion> conclusionsOf(const Bench& bench);
 
 }  // namespace diptych::bench

@@ -10,27 +10,27 @@
 namespace diptych::bench {
 namespace {
 
-// NVIDIA Ampere GA102 and Ada AD102 white papers (2020, 2022), NVIDIA H100 white paper (2022), AMD's data
-// sheets (2017, 2020, 2022, 2023, 2025). An H100 runs the shaders of draws on two of its 66
-// texture processing clusters (four multiprocessors): its draws are a small GPU's, its memory and compute
-// shaders a large one's.
+// NVIDIA Ampere GA102 and Ada AD102 white papers (2020, 2022), NVIDIA H100 white paper (2022), AMD data
+// sheets (2017, 2020, 2022, 2023, 2025). An H100 runs draws on only two of its 66 texture processing
+// clusters (four multiprocessors). Its draws are those of a small GPU, its memory and compute those of a
+// large one.
 constexpr GpuFigures gpus[] = {
     {"NVIDIA GeForce RTX 3060", 360, 5.3, 85, 199, 12'740, 12'740},
     {"NVIDIA GeForce RTX 4090", 1008, 27.7, 443, 1290, 82'600, 82'600},
     {"AMD Radeon RX 7600", 288, 5.3, 170, 340, 21'750, 21'750, "navi33", 64 * 2.655},
     {"NVIDIA H100 SXM", 3350, 1.8, 43, 32, 2'030, 66'900},
-    // AMD: SIMD units x boost clock.
+    // AMD: SIMD units x boost clock, GHz.
     {"AMD Radeon RX Vega 64", 484, 6.2, 99, 396, 12'660, 12'660, "vega10", 256 * 1.546},
     {"AMD Radeon RX 6800 XT", 512, 9, 288, 648, 20'740, 20'740, "navi21", 144 * 2.25},
     {"AMD Radeon RX 7900 XTX", 960, 15, 480, 960, 61'400, 61'400, "navi31", 192 * 2.5},
     {"AMD Radeon RX 9070 XT", 640, 11.9, 380, 760, 48'700, 48'700, "gfx1201", 128 * 2.97},
 };
 
-// Threads of the wave that RADV's "Inverse Throughput" is about, whichever size waves have; and how many
-// turns of a loop of unknown length it counts (Mesa, src/amd/compiler/aco_statistics.cpp).
+// RADV's "Inverse Throughput" is per 64 threads for any wave size. It counts 8 iterations for a loop of
+// unknown length (Mesa, src/amd/compiler/aco_statistics.cpp).
 constexpr double waveThreads = 64, loopWeight = 8;
 
-// Demands are in units, figures in 1e9 units a second.
+// Time for `units` at `giga` x 1e9 units per second, ms.
 double msOf(double units, double giga, double reached) {
     return units / (giga * reached * 1e6);
 }

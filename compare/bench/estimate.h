@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// On paper: what a counted frame should take on a GPU that is not here, by the figures of its data sheet. The
-// roofline model (Williams, Waterman and Patterson 2009) with several roofs: a pass takes as long as the one
-// of its demands that takes longest, and passes follow each other.
+// Estimates frame times on other GPUs from their data sheets: the roofline model (Williams, Waterman and
+// Patterson 2009) with several roofs. A pass takes as long as its longest demand; passes do not overlap.
 #pragma once
 
 #include "compare/render/compiled_plan.h"
@@ -14,19 +13,19 @@
 
 namespace diptych::bench {
 
-// Of a data sheet, in 1e9 a second: bytes of memory, triangles set up, pixels written (a target each), texels
-// filtered bilinearly, float32 operations of draws and of compute shaders (a multiply-add is two).
+// Data sheet values, 1e9 per second: bytes of memory traffic, triangles set up, pixels written per target,
+// bilinear texels. Also float32 operations of draws and of compute shaders; a multiply-add is two.
 struct GpuFigures {
     std::string_view name;
     double bytes, triangles, outputs, texels, draw_flops, compute_flops;
-    std::string_view family = {};  // as RADV calls it: "navi31"
-    double simd_cycles = 0;        // of all SIMD units together
+    std::string_view family = {};  // RADV's name: "navi31"
+    double simd_cycles = 0;        // all SIMD units, 1e9 cycles per second
 };
 std::span<const GpuFigures> estimatedGpus();
-// Whether a device of this name, which says its family ("... (RADV NAVI31)"), is of the GPU's.
+// Whether the device's name contains the GPU's family, as in "... (RADV NAVI31)".
 bool isOfFamily(const GpuFigures& gpu, std::string_view device);
 
-// What a pass demands, and how long that takes by itself, ms.
+// One demand of a pass, and the time it takes alone, ms.
 struct Demand {
     std::string_view name;  // "memory"
     double ms = 0;
@@ -34,13 +33,12 @@ struct Demand {
 struct PassEstimate {
     std::string name;
     double ms = 0;
-    std::string_view
-        bound;  // the demand that takes longest; "launch" where that is less than starting a pass
+    std::string_view bound;  // longest demand; "launch" if starting the pass takes longer
 };
-// The compiler's mean over the pipelines of a pass: a SIMD unit's cycles for a wave of 64 threads, without
-// lights and for each light. RADV's "Inverse Throughput" hides latency by the other resident waves, so
-// occupancy is in it and EstimateAssumptions::reached is not applied. A loop of unknown length counts as 8
-// turns, so each pipeline is compiled without lights too, and `light` is an eighth of the difference.
+// Means over a pass's compiled pipelines: SIMD cycles per 64 threads, without lights and per light. RADV's
+// "Inverse Throughput" includes latency hiding by occupancy, so EstimateAssumptions::reached does not
+// apply. A loop of unknown length counts as 8 iterations, so `light` is an eighth of the difference to a
+// pipeline without lights.
 struct PassCycles {
     std::string pass;
     double vertex = 0, fragment = 0, compute = 0, light = 0;
@@ -54,9 +52,9 @@ struct FrameEstimate {
     std::vector<PassEstimate> passes;
 };
 
-// Assumptions, not validated on a GPU: the share of a data sheet's figure that is reached; operations a light
-// (counted in kernel_avx2.cpp, a multiply-add is two), fragment, vertex and compute invocation; and ms to
-// begin a pass.
+// Assumptions, not validated on a GPU: the reached fraction of data sheet values, and operations per
+// light, fragment, vertex and compute invocation. Light operations are counted in kernel_avx2.cpp; a
+// multiply-add is two. The overhead of a pass is in ms.
 struct EstimateAssumptions {
     double reached = 0.6;
     double light_flops = 120, fragment_flops = 200, vertex_flops = 100, compute_flops = 100;
@@ -64,10 +62,10 @@ struct EstimateAssumptions {
     double launch_ms = 0.005;
 };
 
-// `cycles`: of the pass; nullptr: arithmetic is assumed.
+// `cycles`: of the pass; nullptr: uses the assumed operation counts.
 std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu,
                               const EstimateAssumptions& assumed = {}, const PassCycles* cycles = nullptr);
-// `cycles`: of the passes that a compiler of the GPU's family has compiled; others are assumed.
+// `cycles`: passes compiled for the GPU's family; the others use assumed operation counts.
 FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed = {},
                        std::span<const PassCycles> cycles = {});
 

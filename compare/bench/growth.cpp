@@ -14,7 +14,7 @@ namespace diptych::bench {
 namespace {
 
 constexpr double bytesOfMib = 1 << 20;
-// Below it a figure counts as flat: doubling what grows adds less than 42 %.
+// Smaller exponents count as flat: doubling the quantity adds less than 42 %.
 constexpr double flatExponent = 0.5;
 
 double valueOf(const BenchRow& row) {
@@ -33,7 +33,7 @@ std::string unitOf(GrowthAxis axis) {
     return axis == GrowthAxis::textures ? "MiB of textures" : std::string(nameOf(axis));
 }
 
-// The pass that has grown most from the first row to the last, and its share of what all have grown.
+// The pass whose time grows most from the first row to the last, and its share of all added time.
 std::string cause(const GrowthLine& line) {
     const std::vector<PassTime>&first = line.rows.front()->passes, &last = line.rows.back()->passes;
     double all = 0, most = 0;
@@ -89,7 +89,7 @@ std::vector<GrowthLine> growthLines(const Bench& bench) {
 Bend bendOf(const std::vector<double>& values, const std::vector<double>& amounts) {
     if (values.size() != amounts.size()) throw std::logic_error("a value has no amount");
     Bend most;
-    double grown = 0;  // the logarithm of what it grows by
+    double grown = 0;  // log of the growth ratio
     for (std::size_t first = 0, last = 0; first + 1 < values.size(); first = std::max(last, first + 1)) {
         last = first;
         while (last + 1 < values.size() &&

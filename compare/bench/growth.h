@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How time and memory of each path grow with one thing at a time: --table growth.
+// Growth of time and memory of each path with one quantity: --table growth.
 #pragma once
 
 #include "compare/bench/bench.h"
@@ -11,37 +11,38 @@
 
 namespace diptych::bench {
 
-// One path along one axis.
+// One path on one axis.
 struct GrowthLine {
     GrowthAxis axis;
     Path path;
     std::vector<const BenchRow*> rows;  // ascending
 };
 
-// Where a line grows most: from `value` to `until` as the power `exponent` of what grows (1 is in
-// proportion), in every step by more than its square root. Not found where no step does.
+// The range with the largest growth: amount ~ quantity^exponent from `value` to `until`. Every step in the
+// range grows at least as the square root. Not found if no step does.
 struct Bend {
     double value = 0, until = 0;
     double exponent = 0;
     bool found = false;
 };
 
-// In the order of the rows; they refer to these.
+// In row order; points into the rows of `bench`.
 std::vector<GrowthLine> growthLines(const Bench& bench);
 
-// `values` ascending, `amounts` above 0, as many. Throws std::logic_error where they are not.
+// `values` ascend, `amounts` are positive. Throws std::logic_error if their counts differ.
 Bend bendOf(const std::vector<double>& values, const std::vector<double>& amounts);
 
-// The whole memory that a row's frame and scene take on the device, MiB.
+// Device memory of a row's frame and scene, MiB.
 double memoryMib(const BenchRow& row);
 
-// A sentence a line and figure: where it bends, how it grows from there, and the pass that most of it is.
+// One sentence per line and metric: where growth starts, its exponent, and the pass that causes most of
+// it.
 std::vector<std::string> growthInWords(const Bench& bench);
 
 std::string growthText(const Bench& bench);
 std::string growthHtml(const Bench& bench);
 nlohmann::ordered_json growthJson(const Bench& bench);
-// A panel of time and one of memory for each axis, both of logarithmic axes; a line a path.
+// Log-log panels of time and memory per axis, a line per path.
 std::string growthPlot(const Bench& bench, PlotPlace place);
 
 }  // namespace diptych::bench

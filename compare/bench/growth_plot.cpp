@@ -10,7 +10,7 @@
 namespace diptych::bench {
 namespace {
 
-// Two panels side by side, of time and of memory; the drawing's own units.
+// Panels of time and memory side by side, in SVG user units.
 constexpr double panelHeight = 260, panelTop = 50, panelBottom = 56, panelGap = 66;
 
 struct Figure {

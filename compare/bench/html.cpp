@@ -37,7 +37,7 @@ std::string head(std::initializer_list<std::pair<const char*, bool>> columns) {
     return out + "</tr></thead>\n<tbody>";
 }
 
-// The notes of a row that not every row has.
+// The row's notes that other rows lack.
 std::vector<std::string> ownNotes(const BenchRow& row, const std::vector<std::string>& common) {
     std::vector<std::string> own;
     for (const std::string& note : row.notes)
@@ -45,7 +45,7 @@ std::vector<std::string> ownNotes(const BenchRow& row, const std::vector<std::st
     return own;
 }
 
-// ", 1e+06 triangles" in --table growth.
+// ", 1e+06 triangles" with --table growth.
 std::string grownTo(const BenchRow& row) {
     return row.growth ? fmt::format(", {:.6g} {}", row.growth->value, nameOf(row.growth->axis)) : "";
 }
@@ -84,7 +84,7 @@ std::string rows(const Bench& bench) {
     return out;
 }
 
-// What it says, above everything else.
+// The conclusions, at the top of the page.
 std::string conclusions(const Bench& bench) {
     const std::vector<Conclusion> all = conclusionsOf(bench);
     if (all.empty()) return {};

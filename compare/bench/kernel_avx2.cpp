@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One listed point light at one pixel as a CPU does it best: the arithmetic of shaders/lib/brdf.glsl and
-// lights.glsl, function by function, 8 pixels a vector, lights broadcast from memory, sums in registers. A
-// test holds its picture against the shaders'.
+// One listed point light at one pixel, optimized for the CPU. Follows shaders/lib/brdf.glsl and
+// lights.glsl function by function. Shades 8 pixels per vector; broadcasts lights from memory and keeps
+// sums in registers. A test compares its image with the shaders'.
 #include "compare/bench/kernel_avx2.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -91,7 +91,7 @@ void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const 
     specular.z += (b.f0.z + (b.f90 - b.f0.z) * weight) * lobe * received.z;
 }
 
-// benchSurface() and makeBrdf(), of the pixel's centre.
+// benchSurface() and makeBrdf() at pixel centres.
 struct Pixels {
     Vec3 position, normal, view;
     Brdf brdf;

@@ -17,7 +17,7 @@ namespace {
 constexpr VkBufferUsageFlags anyBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-// Where the kernels find lights that are in no texel buffer: SET_MATERIAL's bindings 0 and 1.
+// Other light buffers of the kernels: SET_MATERIAL, bindings 0 and 1.
 constexpr std::array lightTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 template <class T>
@@ -73,11 +73,11 @@ public:
     }
 
 private:
-    // Every binding that a shader names holds something, though only lights and lists are read.
+    // Binds every declared binding; shaders read only lights and lists.
     void bind() {
         const std::span<const VkDescriptorType> types = frameBindings();
         for (std::uint32_t i = 0; i < types.size(); ++i) {
-            // Lights are texels of floats, whatever their kind; lists and the packed view are of integers.
+            // Light buffers hold floats; lists and the packed view hold integers.
             const bool floats = i == gpu::BINDING_LIGHTS || i == gpu::BINDING_SPOT_CONES ||
                                 i == gpu::BINDING_AREA_LIGHTS || i == gpu::BINDING_ALBEDO;
             if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER)

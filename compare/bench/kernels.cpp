@@ -42,8 +42,8 @@ void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture
 
 namespace {
 
-// CPU time of this program during `work`, divided by the threads that share it. On an idle machine this
-// equals wall-clock time, and it changes little when other programs run.
+// CPU time of this process during `work` per thread, ms. Equals wall-clock time on an idle machine, and
+// changes little when other programs run.
 double cpuMs(int threads, const std::function<void()>& work) {
     const std::clock_t used = std::clock();
     work();
@@ -58,7 +58,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     const KernelWorkload workload = makeWorkload(report.size, mostKernelLights, report.long_list, 1);
 
-    // Each function takes a list length and returns milliseconds.
+    // Functions from list length to milliseconds.
     std::vector<std::pair<KernelRow, std::function<double(int)>>> kernels;
     Image picture{report.size.width, report.size.height, 3, {}};
     picture.data.resize(picture.pixels() * 3);
@@ -85,7 +85,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
     }
 
     std::vector<std::pair<double, double>> least(kernels.size(), {1e300, 1e300});
-    for (int run = -1; run < runs; ++run)  // the first, in which drivers compile, does not count
+    for (int run = -1; run < runs; ++run)  // drivers compile during the first run: discard it
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             progress.at(static_cast<double>(run + 1) / (runs + 1), kernels[i].first.name);
             const double few = kernels[i].second(report.short_list),

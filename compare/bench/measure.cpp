@@ -20,10 +20,11 @@ using page::cameraTitle;
 
 namespace {
 
-// The least number of frames whose passes are timed one by one.
+// Minimum number of profiled frames.
 constexpr int fewestProfiled = 3;
 
-// A first frame slower than this many times --max-ms is not drawn again, although drivers compile during it.
+// First frames include driver compilation: only those slower than this factor times --max-ms are not
+// repeated.
 constexpr double compiling = 4;
 
 BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
@@ -36,8 +37,8 @@ bool isMode(const Settings& a, const Settings& b) {
            a.msaa == b.msaa && a.lighting == b.lighting;
 }
 
-// Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must
-// be tried.
+// Reason to skip the Settings, based on smaller light counts or growth values; empty if they must be
+// measured.
 std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings& settings) {
     if (group.growth) {
         for (const BenchSkip& skip : bench.skips)
@@ -63,7 +64,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
                        bench.options.max_ms);
 }
 
-// Why such a frame is another's, or none, on this device; empty where it is one of its own.
+// Reason to skip: the device or the scene does not support these Settings; empty if both do.
 std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
     if (std::ranges::find(samples, settings.msaa) == samples.end())
         return fmt::format("the device does not support {} samples per pixel", settings.msaa);
@@ -72,7 +73,7 @@ std::string leftOut(const Settings& settings, const Requirements& needs, std::sp
     return {};
 }
 
-// Of --table msaa what the scene has and the device draws; the others become skips.
+// Rows of --table msaa that the scene and the device support; the others become skips.
 std::vector<Settings> tableRows(Device& device, const BenchGroup& group, const Requirements& needs,
                                 Bench& bench) {
     if (bench.options.table != BenchTable::msaa) return group.settings;
@@ -149,7 +150,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     try {
         prepared.emplace(renderer.prepare(tried));
     } catch (const std::runtime_error& error) {
-        // Growing until the device cannot is what that table is for.
+        // --table growth is meant to reach the device's limits.
         if (!group.growth) throw;
         for (const Settings& settings : tried)
             bench.skips.push_back(skipOf(bench, settings, group, error.what()));
@@ -165,7 +166,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             fmt::format("{} {}", modeName(tried[i].path, tried[i].assign, partsOf(bench.options, tried[i])),
                         what));
     };
-    std::vector<std::size_t> timed;  // of `frames`
+    std::vector<std::size_t> timed;  // indices into `frames`
     for (std::size_t i = 0; i < frames.size(); ++i) {
         step(i, "first frame");
         double ms = frames.draw(i);

@@ -14,14 +14,14 @@ using page::markup;
 
 namespace {
 
-// Of the drawing, in its own units; the legend follows.
+// SVG user units; the legend comes below.
 constexpr double panel = 406, top = 60, bottom = 62;
 
 struct Series {
     Path path;
     Assignment assign;
     ModeParts parts;
-    std::vector<const BenchRow*> rows;  // by lights, ascending
+    std::vector<const BenchRow*> rows;  // ascending light counts
 };
 
 std::vector<Series> seriesOf(const Bench& bench, const Size& size) {

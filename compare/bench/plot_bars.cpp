@@ -12,13 +12,13 @@
 namespace diptych::bench {
 namespace {
 
-constexpr double entryHeight = 26;                 // of a legend
-constexpr double headHeight = 34, rowHeight = 52;  // of a panel; of a bar and the name above it
-constexpr double barHeight = 20, below = 62;       // of a bar; ticks and the axis' name
-constexpr std::size_t mostColours = 8;             // plot.css; passes beyond are one part
+constexpr double entryHeight = 26;                 // legend
+constexpr double headHeight = 34, rowHeight = 52;  // panel; bar with its label
+constexpr double barHeight = 20, below = 62;       // bar; ticks and axis title
+constexpr std::size_t mostColours = 8;             // of plot.css; other passes are merged
 constexpr const char* otherPasses = "other passes";
 
-// Names of passes in their order, those that take most if there are more than colours.
+// Passes in order. If there are more than colours, the longest ones and one merged entry.
 std::vector<std::string> passNames(const std::vector<const BenchRow*>& rows) {
     std::vector<std::string> names;
     std::map<std::string, double> most;
@@ -36,7 +36,7 @@ std::vector<std::string> passNames(const std::vector<const BenchRow*>& rows) {
     return names;
 }
 
-// 1, 2 or 5 times a power of ten, so that there are four to nine steps up to `most`.
+// 1, 2 or 5 times a power of ten, for four to nine ticks up to `most`.
 double stepOf(double most) {
     const double power = std::pow(10.0, std::floor(std::log10(most / 4)));
     const double share = most / 4 / power;

@@ -15,7 +15,7 @@ namespace diptych::bench {
 namespace {
 
 constexpr double mebibyte = 1 << 20;
-// Of the paper's deferred renderer, bytes a sample; and the picture whose memory it states.
+// The paper's deferred renderer: bytes per sample, and the image size for which it states memory.
 constexpr std::uint64_t paperBytes = 32, paperPixels = 1920 * 1080;
 
 double mebibytes(std::uint64_t bytes) {
@@ -34,7 +34,7 @@ SampleTable::Line& lineOf(SampleTable& table, const Settings& settings) {
     return table.lines.emplace_back(SampleTable::Line{settings.path, settings.transparency, {}});
 }
 
-// "12.3 (12.1 to 14)"
+// "12.3 (12.1 to 14)".
 std::string timeInWords(const FrameTime& time) {
     return fmt::format("{} ({} to {})", msText(time.median), msText(time.min), msText(time.max));
 }
@@ -48,7 +48,7 @@ std::string columnName(int samples) {
     return counted(static_cast<std::uint64_t>(samples), "sample");
 }
 
-// What each column of a cell is headed by, and says.
+// Header, width and text of a column.
 struct CellPart {
     const char* name;
     int width;

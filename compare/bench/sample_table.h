@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Time and memory by samples a pixel: the table of Billeter, Olsson and Assarsson 2013, "Tiled Forward
-// Shading" (GPU Pro 4), of any scene: forward+ without blended surfaces and with them, and deferred.
+// Time and memory by samples per pixel: forward+ with and without transparency, and deferred. After the
+// table of Billeter, Olsson and Assarsson 2013, "Tiled Forward Shading" (GPU Pro 4).
 #pragma once
 
 #include "compare/bench/bench.h"
@@ -14,7 +14,7 @@
 namespace diptych::bench {
 
 struct SampleTable {
-    // A path without blended surfaces or with them.
+    // A path with or without transparency.
     struct Line {
         Path path;
         Transparency transparency;
@@ -24,21 +24,21 @@ struct SampleTable {
     Size size;
     std::string scene;
     std::uint64_t lights = 0;
-    std::vector<int> columns;  // samples a pixel, ascending
+    std::vector<int> columns;  // samples per pixel, ascending
     std::vector<Line> lines;
 };
 
-// Of --table msaa one for each size and light count, in the order of the rows; else none. They refer to the
-// rows.
+// With --table msaa one per size and light count, in row order; else none. They point into the rows of
+// `bench`.
 std::vector<SampleTable> sampleTables(const Bench& bench);
 
-// The passes that light surfaces, ms.
+// Time of passes that light surfaces, ms.
 double lightingMs(const BenchRow& row);
-// A sample's share of depth and, of deferred, the G-buffer; bytes.
+// Bytes per sample of depth and, for deferred, the G-buffer.
 std::uint64_t bytesPerSample(const BenchRow& row);
 
-// What a path keeps for a sample, beside the 32 bytes that the paper's deferred renderer does and what these
-// take at 1920x1080: a sentence a path.
+// One sentence per path: bytes per sample, compared with the 32 bytes of the paper's deferred renderer,
+// and the totals at 1920x1080.
 std::vector<std::string> memoryInWords(const SampleTable& table);
 
 std::string sampleTablesText(const Bench& bench);

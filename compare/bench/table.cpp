@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The benchmark on a terminal.
+// Terminal text of a benchmark.
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
@@ -68,7 +68,7 @@ std::string benchEnd(const Bench& bench) {
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
     if (bench.options.table == BenchTable::growth) return out + growthText(bench);
     if (bench.options.table == BenchTable::msaa) out += "\n" + sampleTablesText(bench);
-    // Last, where it is read first.
+    // Conclusions last: a terminal shows the end first.
     for (const Conclusion& conclusion : conclusionsOf(bench)) out += conclusion.inWords() + "\n";
     return out;
 }

@@ -17,7 +17,7 @@ KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapa
             "makeWorkload: whole tiles, whole groups of four, lists no longer than lights");
     KernelWorkload workload{size, {}, {}, listCapacity};
     std::mt19937 random(seed);
-    // In [0, 1) by the generator's bits alone: distributions differ between standard libraries.
+    // In [0, 1), from raw generator bits: distributions differ between standard libraries.
     const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
     const float range = 4;
     for (std::uint32_t i = 0; i < lights; ++i) {
@@ -31,7 +31,7 @@ KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapa
     std::vector<std::uint32_t> all(lights);
     for (std::uint32_t i = 0; i < lights; ++i) all[i] = i;
     for (int tile = 0; tile < workload.tilesAcross() * workload.tilesDown(); ++tile) {
-        // The first of a shuffle (Fisher and Yates), then in order.
+        // Start of a Fisher-Yates shuffle, then sorted.
         for (int i = 0; i < listCapacity; ++i)
             std::swap(all[static_cast<std::size_t>(i)],
                       all[static_cast<std::size_t>(i) + random() % (lights - static_cast<std::uint32_t>(i))]);

@@ -36,15 +36,15 @@ const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
     return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
 }
 
-// use(slot number, slot) for each one that is read.
+// Calls use(slot index, slot) for each slot that the material reads.
 template <class Use>
 void forEachSlot(const Material& material, const Use& use) {
     for (std::size_t s = 0; s < materialSlots.size(); ++s)
         if (readsSlot(material, s)) use(s, slotOf(material, s));
 }
 
-// "Base colour and normal: TEXT" for the slots that share a text, one after the other. `textOf` an empty one:
-// the slot is left out.
+// "Base colour and normal: TEXT": groups slots with equal text. Skips slots for which `textOf` returns an
+// empty string.
 template <class TextOf>
 std::string bySlot(const Material& material, const TextOf& textOf) {
     std::vector<std::pair<std::string, std::string>> groups;  // text, slots
@@ -66,7 +66,7 @@ std::string bySlot(const Material& material, const TextOf& textOf) {
 
 // ---- texture transforms ------------------------------------------------------------------------------
 
-// Recovers the parameters of KHR_texture_transform from the matrix; a mirrored one gets a negative second
+// Recovers the parameters of KHR_texture_transform from the matrix. Mirroring becomes a negative second
 // scale.
 std::string transformOf(const TextureSlot& slot) {
     if (!isTransformed(slot)) return {};
@@ -74,7 +74,7 @@ std::string transformOf(const TextureSlot& slot) {
     const double sx = std::hypot(slot.u.x, slot.v.x);
     const double sy = std::copysign(std::hypot(slot.u.y, slot.v.y), determinant);
     const double angle = sx > 0 ? std::atan2(0 - slot.v.x, slot.u.x) : std::atan2(slot.u.y, slot.v.y);
-    // 1e-6: the rounding of sines and cosines, for numbers that the file holds exactly.
+    // 1e-6: rounding of sines and cosines.
     const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
     std::string out;
     const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
@@ -87,7 +87,7 @@ std::string transformOf(const TextureSlot& slot) {
 
 // ---- samplers ----------------------------------------------------------------------------------------
 
-// Of the coordinates that the slot reads its texture at.
+// Range of texture coordinates that the slot reads.
 std::pair<glm::dvec2, glm::dvec2> rangeOf(const Primitive& primitive, const TextureSlot& slot) {
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::vec2& uv : primitive.texcoords[slot.texcoord]) {
@@ -99,7 +99,7 @@ std::pair<glm::dvec2, glm::dvec2> rangeOf(const Primitive& primitive, const Text
     return {low, high};
 }
 
-// Whether the coordinates pass the texture's edge, by more than rounding, and then do not repeat.
+// Whether coordinates exceed [0, 1] by more than rounding, without repeating.
 bool isWrapped(Wrap wrap, double low, double high) {
     return wrap != Wrap::repeat && low <= high && (low < -1e-4 || high > 1 + 1e-4);
 }
@@ -138,7 +138,7 @@ float leastAlphaOf(const std::vector<Texel>& rgba) {
     return static_cast<float>(least) / static_cast<float>(std::numeric_limits<Texel>::max());
 }
 
-// Whether flat shading differs from smooth shading here.
+// Whether flat shading differs from smooth shading.
 bool isBent(const Primitive& primitive) {
     return std::ranges::any_of(primitive.normals,
                                [&](const glm::vec3& n) { return n != primitive.normals.front(); });
@@ -150,7 +150,7 @@ bool isMirrored(const Instance& instance) {
 
 }  // namespace
 
-// ---- which -------------------------------------------------------------------------------------------
+// ---- features ----------------------------------------------------------------------------------------
 
 CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materials,
                          const Primitive& primitive) {
@@ -181,7 +181,7 @@ CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materi
 CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures features) {
     if (isMirrored(instance)) {
         features |= bitOf(CheckFeature::mirrored);
-        features &= ~bitOf(CheckFeature::orientation);  // a mirrored instance may show its texture mirrored
+        features &= ~bitOf(CheckFeature::orientation);  // mirroring may be intended
     }
     if (scene.nodes[static_cast<std::size_t>(instance.node)].skin >= 0 &&
         !primitiveOf(scene, instance).joint_sets.empty())
@@ -189,9 +189,9 @@ CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeat
     return features;
 }
 
-// ---- what is seen ------------------------------------------------------------------------------------
+// ---- descriptions ------------------------------------------------------------------------------------
 
-// A lower bound of the primitive's alpha over all its texels and vertices.
+// Lower bound of the primitive's alpha over all texels and vertices.
 float CheckSentences::leastAlpha(const Primitive& primitive) {
     const Material& m = materialOf(materials_, primitive);
     float least = m.base_color.a;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Features of a scene that both paths may draw wrongly in the same way, and what is seen where they are
-// right.
+// Features that both paths may render wrongly in the same way, with a description of the correct image.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -14,7 +13,7 @@
 
 namespace diptych {
 
-//  name              heading of the report
+// name, heading in the report.
 #define CHECK_FEATURES(X)                         \
     X(texture_transform, "texture transforms")    \
     X(second_texcoord, "second UV set")           \
@@ -44,29 +43,28 @@ inline constexpr const char* checkHeadings[] = {
 };
 inline constexpr std::size_t checkFeatureCount = std::size(checkHeadings);
 
-// Bit f: CheckFeature f.
+// Bit f is CheckFeature f.
 using CheckFeatures = std::uint32_t;
 constexpr CheckFeatures bitOf(CheckFeature feature) {
     return CheckFeatures{1} << static_cast<unsigned>(feature);
 }
 
-// The features of a primitive that do not depend on its instance. Reads each of its vertices once. A feature
-// that cannot change a pixel (white vertex colours, a wrap mode where no coordinate passes the edge) is left
-// out.
-// `materials`: the scene's at the pose's time (materialsOf()).
+// Features of a primitive that do not depend on its instance. Reads each vertex once. Skips features
+// without effect, such as white vertex colours, or a wrap mode with all coordinates in [0, 1].
+// `materials`: at the pose's time (materialsOf()).
 CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materials,
                          const Primitive& primitive);
 
-// Adds the features that depend on the instance.
+// Adds features that depend on the instance.
 CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures ofPrimitive);
 
-// Sentences for people: what is seen where a feature is drawn correctly.
+// Describes the correct image of a feature, for visual inspection.
 class CheckSentences {
 public:
     CheckSentences(const Scene& scene, const std::vector<Material>& materials)
         : scene_(scene), materials_(materials) {}
 
-    // "Base colour: offset 0.5 0. What is pictured there (arrows, frames, seams) falls into place."
+    // "Base colour: offset 0.5 0. Arrows, frames and seams in the texture are in the right place."
     std::string of(const Instance& instance, CheckFeature feature);
 
 private:
@@ -75,7 +73,7 @@ private:
 
     const Scene& scene_;
     const std::vector<Material>& materials_;
-    std::map<int, float> least_alpha_;  // least alpha of an image's texels, found once
+    std::map<int, float> least_alpha_;  // key: image; cached
 };
 
 }  // namespace diptych

@@ -37,7 +37,7 @@ void MaterialPixels::Seen::add(std::uint64_t count, const PixelBox& where) {
     include(box, where);
 }
 
-// Ids are integers that float32 represents exactly; any other value, NaN included, is -1: no material.
+// IDs are integers below 2^24. Other values, NaN included, become -1: no material.
 int MaterialPixels::at(int x, int y) const {
     const float id = ids_.at(x, y);
     return id >= 0 && id < 0x1p24f ? static_cast<int>(id) : -1;

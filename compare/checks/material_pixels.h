@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the pixels of a material in part of a picture, fast enough for a million queries.
+// Finds a material's pixels in part of an image, fast enough for a million queries.
 #pragma once
 
 #include "compare/checks/pixel_box.h"
@@ -14,17 +14,17 @@ namespace diptych {
 
 class MaterialPixels {
 public:
-    // `ids` is the channel material_id: W x H x 1, -1 where nothing is. `positions` is the channel position,
-    // W x H x 3, or nullptr. Both must outlive this.
+    // `ids`: channel material_id, W x H x 1, -1 for background. `positions`: channel position, W x H x 3,
+    // or nullptr. Both must outlive the object.
     MaterialPixels(const Image& ids, const Image* positions);
 
     struct Seen {
         std::uint64_t pixels = 0;
-        PixelBox box;  // around them
+        PixelBox box;  // bounding box
         void add(std::uint64_t count, const PixelBox& where);
     };
-    // The pixels of `material` in `box` whose positions, where they are known, lie within `reach`. Visits no
-    // pixel outside the box, and takes whole tiles from their summaries.
+    // Pixels of `material` in `box`, with positions inside `reach` if known. Visits only pixels in the
+    // box, and uses whole tiles by their summaries.
     Seen within(int material, const PixelBox& box, const Bounds& reach) const;
 
 private:
@@ -33,7 +33,7 @@ private:
         Seen seen;
         Bounds positions;
     };
-    static constexpr int tile = 16;  // pixels wide and high
+    static constexpr int tile = 16;  // pixels, width and height
 
     int at(int x, int y) const;
     glm::dvec3 positionAt(int x, int y) const;
@@ -42,9 +42,9 @@ private:
     const Image& ids_;
     const Image* positions_;
     int columns_;
-    std::vector<std::size_t> first_;  // per tile, row by row, and the end: into entries_
-    std::vector<Entry> entries_;      // the materials of a tile, ascending
-    std::vector<PixelBox> extents_;   // per material, over the whole picture
+    std::vector<std::size_t> first_;  // per tile, row by row, plus the end: index into entries_
+    std::vector<Entry> entries_;      // materials per tile, ascending
+    std::vector<PixelBox> extents_;   // per material, over the whole image
 };
 
 }  // namespace diptych

@@ -3,7 +3,7 @@
 
 namespace diptych {
 
-// Pixels from (x0, y0), at the top left, up to but not including (x1, y1).
+// Pixels from (x0, y0), inclusive, to (x1, y1), exclusive; the origin is at the top left.
 struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     bool empty() const { return x0 >= x1 || y0 >= y1; }

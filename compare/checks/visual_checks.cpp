@@ -21,7 +21,7 @@
 namespace diptych {
 namespace {
 
-// ---- where it stands in the picture ------------------------------------------------------------------
+// ---- projection --------------------------------------------------------------------------------------
 
 Bounds boundsOf(const Primitive& primitive) {
     Bounds bounds;
@@ -32,7 +32,7 @@ Bounds boundsOf(const Primitive& primitive) {
     return bounds;
 }
 
-// Projects the bounds of instances, cut off at the near and far planes, to the pixels that they reach.
+// Projects bounds of instances, clipped at the near and far planes, to pixels.
 class Projection {
 public:
     explicit Projection(const View& view)
@@ -41,7 +41,7 @@ public:
           width_(view.width),
           height_(view.height) {}
 
-    // Where it is, in pixels and around the camera, world axes, m.
+    // Pixel box, and bounds relative to the camera, world axes, m.
     struct Place {
         PixelBox box;
         Bounds reach;
@@ -60,20 +60,17 @@ public:
             place.reach.max = glm::max(place.reach.max, glm::dvec3(p));
             corners[i] = clip_from_world_ * p;
         }
-        // A slack of a thousandth of the farthest coordinate, because positions are reconstructed from a
-        // float32 depth.
+        // Expand by 1e-3 of the largest coordinate: positions are reconstructed from float32 depth.
         const glm::dvec3 farthest = glm::max(glm::abs(place.reach.min), glm::abs(place.reach.max));
         const double slack = 1e-3 * std::max({farthest.x, farthest.y, farthest.z});
         place.reach.min -= slack;
         place.reach.max += slack;
-        // The near and far planes are parallel, so every corner of the clipped bounds lies on one of the
-        // box's edges.
+        // The near and far planes are parallel, so all corners of the clipped box lie on its edges.
         Extent extent;
         for (unsigned i = 0; i < 8; ++i)
             for (const unsigned axis : {1u, 2u, 4u})
                 if (!(i & axis)) addEdge(corners[i], corners[i | axis], extent);
-        // A millionth of a pixel of slack, so that rounding does not add a row; it contains no pixel's
-        // centre.
+        // Shrink by 1e-6 pixel, so that rounding adds no row. No pixel centre is lost.
         const glm::dvec2 low = glm::floor(extent.low + 1e-6), high = glm::ceil(extent.high - 1e-6);
         place.box = {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_),
                      pixel(high.y, height_)};
@@ -90,7 +87,7 @@ private:
         return std::isnan(x) ? 0 : static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size)));
     }
 
-    // Reversed depth: 0 <= z holds up to the far plane, z <= w from the near plane on.
+    // Reversed depth: z >= 0 up to the far plane, z <= w from the near plane on.
     void addEdge(const glm::dvec4& a, const glm::dvec4& b, Extent& extent) const {
         double from = 0, to = 1;
         for (const auto& [atA, atB] : {std::pair{a.z, b.z}, {a.w - a.z, b.w - b.z}}) {
@@ -102,21 +99,21 @@ private:
         if (from > to) return;
         for (const double t : {from, to}) {
             const glm::dvec4 p = glm::mix(a, b, t);
-            if (!(p.w > 0)) continue;  // rounding, or NaN: w is at least the near plane's distance, or 1
+            if (!(p.w > 0)) continue;  // rounding, or NaN: w is at least the near distance, or 1
             const glm::dvec2 at = (glm::dvec2(p) / p.w * 0.5 + 0.5) * glm::dvec2(width_, height_);
             extent.low = glm::min(extent.low, at);
             extent.high = glm::max(extent.high, at);
         }
     }
 
-    glm::dmat4 clip_from_world_;  // world axes, the camera as origin
+    glm::dmat4 clip_from_world_;  // world axes, origin at the camera
     glm::dvec3 eye_;
     int width_, height_;
 };
 
 // ---- names -------------------------------------------------------------------------------------------
 
-// Names are the file's, however long.
+// Names come from the file and may be long.
 constexpr std::size_t longestName = 60;
 
 std::string quoted(const std::string& name) {
@@ -130,7 +127,7 @@ std::string nameOr(const std::string& name, const char* what, int index) {
     return name.empty() ? fmt::format("{} {}", what, index) : oneLine(name, longestName);
 }
 
-// Materials and meshes have the numbers of the file; of its nodes the Scene keeps those that it draws.
+// Materials and meshes have the file's indices. Nodes have not: the Scene keeps only rendered ones.
 void name(const Scene& scene, const Instance& instance, VisualCheck& check) {
     const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -149,16 +146,16 @@ struct Candidate {
     std::uint64_t pixels;
     std::size_t instance;
     PixelBox box;
-    // Larger ones first, then in the order of the scene.
+    // Larger ones first, then scene order.
     bool operator<(const Candidate& other) const {
         return pixels != other.pixels ? pixels > other.pixels : instance < other.instance;
     }
 };
 
-// Keeps the best checksShown of any number of candidates.
+// Keeps the best checksShown candidates.
 struct Chosen {
     std::uint64_t found = 0;
-    std::vector<Candidate> best;  // a heap, the least of them on top
+    std::vector<Candidate> best;  // heap, worst on top
 
     void add(const Candidate& candidate) {
         ++found;
@@ -172,7 +169,7 @@ struct Chosen {
     }
 };
 
-// What is known of a primitive without its instances, found once.
+// Properties of a primitive without its instances, computed once.
 struct PrimitiveChecks {
     bool known = false;
     CheckFeatures features = 0;
@@ -228,7 +225,7 @@ private:
             if (features & bitOf(static_cast<CheckFeature>(f))) chosen_[f].add(candidate);
     }
 
-    // `rest`: the bounds of its primitive, object.
+    // `rest`: bounds of the primitive, object space.
     Projection::Place placeOf(const Instance& instance, const Bounds& rest) const {
         if (instance.box < 0) return projection_.placeOf(instance.world_from_object, rest);
         const PosedBox& box = pose_.boxes[static_cast<std::size_t>(instance.box)];

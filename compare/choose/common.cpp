@@ -40,7 +40,7 @@ public:
         }
         while (!fit.empty()) {
             raceFor(contendersOf(fit));
-            // Raced, some may take longer than they did before.
+            // The race may show some to be slower than before.
             std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
             if (std::ranges::count(fit, *found_.chosen) > 0) break;
             forgetRace();
@@ -53,7 +53,7 @@ public:
 private:
     std::vector<CommonCandidate>& all() { return found_.candidates; }
 
-    // Each scene in turn, and the next time in the reverse order: the last one is still at hand.
+    // Visits every scene. Alternates the direction, so that the last scene is still loaded.
     template <class Do>
     void inEachScene(double from, double to, std::string_view what, const Do& act) {
         for (std::size_t k = 0; k < own_.size(); ++k) {
@@ -64,9 +64,8 @@ private:
         backwards_ = !backwards_;
     }
 
-    // A scene's proposals, the most wanted first: its path's first candidates, which change nothing; what it
-    // chose; what is the most accurate of what it drew, as others may need more; and who else fits, the
-    // fastest first. Tier by tier, so that no scene crowds out another.
+    // A scene's proposals, most wanted first: each path's first candidate, the scene's choice, its most
+    // accurate candidate, then other fitting ones, fastest first. Other scenes may need the accurate one.
     std::vector<std::vector<std::size_t>> tiersOf(const Choice& choice) const {
         std::vector<std::vector<std::size_t>> tiers(3);
         std::vector<Path> paths;
@@ -90,7 +89,8 @@ private:
         return tiers;
     }
 
-    // Tier by tier, of each those first that most scenes propose in any.
+    // Takes proposals tier by tier, so that no scene crowds out another. Within a tier, those of most
+    // scenes come first.
     void propose() {
         struct Proposal {
             Settings settings;
@@ -159,7 +159,7 @@ private:
         return sum;
     }
 
-    // Four frames of each in each scene, forth and back.
+    // Times four frames per candidate and scene, in alternating order.
     void timeAll(const std::vector<std::size_t>& which) {
         std::vector<Settings> frames;
         std::vector<std::size_t> order;
@@ -179,8 +179,8 @@ private:
         timed_ = true;
     }
 
-    // Who may be the best of those that fit: all of them, or those whose worst error is the least. Of more
-    // than are raced the fastest.
+    // Candidates to race. Without an error budget, only those with the least worst error. The fastest, if
+    // there are too many.
     std::vector<std::size_t> contendersOf(std::vector<std::size_t> fit) {
         if (!budget_.isForSpeed()) {
             double least = std::numeric_limits<double>::infinity();
@@ -197,14 +197,13 @@ private:
         const std::size_t n = contenders.size();
         std::vector<Settings> frames;
         for (const std::size_t i : contenders) frames.push_back(all()[i].settings);
-        // Of each scene the logarithms of each contender's times, and at the end those of its own choice, one
-        // a round.
+        // By scene, contender, round: log times. Behind the contenders: the scene's own choice.
         std::vector<std::vector<std::vector<double>>> rounds(own_.size());
         const auto draw = [&](std::span<const std::size_t> order) {
             std::vector<double> logs(order.size(), 0.0);
             inEachScene(0.7, 1, "finalists of all scenes", [&](std::size_t scene) {
                 std::vector<Settings> drawn = frames;
-                // Its own choice goes first and last in each round, unless it is one of the contenders.
+                // Each round starts and ends with the scene's own choice, unless it is a contender.
                 const bool chose = own_[scene]->chosen && ownPlace(scene, frames) == n;
                 if (chose)
                     drawn.push_back(withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings));
@@ -257,7 +256,7 @@ private:
                                        : slowdown(rounds[scene][result.winner], rounds[scene][place]);
         }
     }
-    // Which of the contenders a scene chose itself; behind them all: none.
+    // Index of the scene's own choice in `contenders`; their count if it is not there.
     std::size_t ownPlace(std::size_t scene, const std::vector<Settings>& contenders) const {
         const Settings own = withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings);
         return static_cast<std::size_t>(std::ranges::find(contenders, own) - contenders.begin());

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// What it is in one scene.
+// Time, error and memory in one scene.
 std::string figuresIn(const CommonCandidate& candidate, std::size_t scene, const ChoiceReport& first) {
     const InScene& in = candidate.scenes[scene];
     return fmt::format("{}{} {:.4g}, {}", in.ms > 0 ? fmt::format("{:.4g} ms, ", in.ms) : "", first.figure,

@@ -11,8 +11,8 @@ namespace diptych::choose {
 
 namespace {
 
-constexpr double doubted = 0.05;  // that the truth lies outside an interval
-constexpr int rangeSteps = 4000;  // in which a range is searched
+constexpr double doubted = 0.05;  // 1 - confidence of intervals
+constexpr int rangeSteps = 4000;  // resolution of a range
 
 TimedValue timedValue(const Variation& variation, int rounds) {
     std::vector<std::size_t> order;
@@ -36,7 +36,8 @@ TimedValue timedValue(const Variation& variation, int rounds) {
     return result;
 }
 
-// The difference and half its interval at any value, on the lines through the measured ones.
+// Linear interpolation between measured values, and extrapolation beyond: the difference and its half
+// interval.
 struct Lines {
     std::span<const TimedValue> times;
     std::pair<double, double> at(double value) const {
@@ -52,7 +53,7 @@ struct Lines {
     }
 };
 
-// Geometric steps; from 0 the first one is to a hundred-thousandth of the range.
+// Geometric steps. A range from 0 starts with a step to 1e-5 of `most`.
 double stepped(double least, double most, int step) {
     if (least <= 0 && step == 0) return 0;
     const double from = least > 0 ? least : 1e-5 * most, part = static_cast<double>(step) / rangeSteps;
@@ -82,7 +83,7 @@ std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double val
         if (nearest && farOff(high, value) >= farOff(nearest->value, value)) continue;
         crossing.extrapolated = high < times.front().value || high > times.back().value;
         crossing.other_above = after < 0;
-        // As far as the lines leave it open; the step that ends it is within.
+        // Widen to the steps at which the lines are significant again.
         int down = step, up = step + 1;
         while (down > 0 && lines.isOpen(stepped(least, most, down))) --down;
         while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
@@ -114,7 +115,7 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
         decider.times.back().value = property.value;
         for (const auto& make : property.others) {
             say(property.name);
-            // A picture of twice the size may be too large for the device: no reason to lose the choice.
+            // A variation may exceed the device's limits, for example twice the size. Keep the choice.
             try {
                 decider.times.push_back(measure(make()));
             } catch (const std::runtime_error& error) {
@@ -123,7 +124,7 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
         }
         if (decider.times.size() > 1) property.not_varied.clear();
         std::ranges::sort(decider.times, {}, &TimedValue::value);
-        // Two of one value, as where a variation changes nothing, draw no line.
+        // Equal values define no line; they occur if a variation changes nothing.
         const auto same = std::ranges::unique(decider.times, {}, &TimedValue::value);
         decider.times.erase(same.begin(), same.end());
         if (property.few_values) {

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Of any size, in four digits, and whole numbers as such.
+// Four significant digits, or all digits of larger whole numbers.
 std::string figure(double value) {
     return std::abs(value) >= 1e4 && std::abs(value) < 1e8 ? fmt::format("{:.0f}", value)
                                                            : fmt::format("{:.4g}", value);
@@ -66,7 +66,7 @@ std::vector<std::string> inWords(const DecidersReport& report) {
         "Properties that decide between {} and {}{}: here {:.4g} ms against {:.4g} ms{}", report.chosen,
         report.other, report.other_fits ? "" : ", which does not fit and is compared by time only",
         here.ms[0], here.ms[1], here.isTold() ? "" : ", not measurably different")};
-    constexpr std::size_t told = 3;  // those that turn the choice come first; JSON has all
+    constexpr std::size_t told = 3;  // sorted by relevance; JSON has all
     for (std::size_t i = 0; i < std::min(told, report.deciders.properties.size()); ++i)
         lines.push_back("  " +
                         deciderInWords(report.deciders.properties[i], report.chosen_path, report.other_path));

@@ -30,7 +30,7 @@ std::string pathSwatch(const Settings& settings) {
     return fmt::format("<i class=\"swatch {}\"></i>", nameOf(settings.path));
 }
 
-// Lines that were made for a terminal, as a list.
+// Formats lines of terminal text as a list.
 std::string listOf(const std::vector<std::string>& lines) {
     std::string out;
     for (const std::string& line : lines) out += "<li>" + markup(line) + "</li>";
@@ -80,7 +80,7 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     return out + fmt::format("<td>{}</td></tr>\n", fate);
 }
 
-// What was judged first, the fastest first; then what was not.
+// The chosen candidate first, then raced ones, then judged ones; each group by time.
 std::string candidateTable(const ChoiceReport& report) {
     std::vector<std::size_t> order(report.choice.candidates.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

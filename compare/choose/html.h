@@ -9,14 +9,15 @@
 
 namespace diptych::choose {
 
-// index.html of a choice: one page without external resources, readable from file://. `files`: others of the
-// folder, which it links.
+// index.html of a choice: one page without external resources, works from file://. `files`: other files of
+// the folder, linked by the page.
 std::string choiceHtml(const Choices& choices, const std::vector<std::string>& files);
 
 inline constexpr const char* choiceManifest = "choice.json";
 
-// Writes the folder: the page, choice.json, settings.json where something fits, and of several scenes each
-// one's plot and Settings. Throws std::runtime_error naming -o where something else is there.
+// Writes the folder: page, choice.json, plots, and settings.json if something fits. With several scenes,
+// each scene gets its plot and Settings. Throws std::runtime_error naming -o if the folder has other
+// contents.
 void writeChoice(const Choices& choices, const std::filesystem::path& folder, bool force);
 
 }  // namespace diptych::choose

@@ -17,7 +17,7 @@ using page::markup;
 
 namespace {
 
-// Of the drawing, in its own units.
+// SVG user units.
 constexpr double plotWidth = 720, plotHeight = 440, leftEdge = 74, rightEdge = 16, topEdge = 54,
                  bottomEdge = 56;
 constexpr PlotBox axesBox{leftEdge, topEdge, plotWidth - rightEdge, plotHeight - bottomEdge};
@@ -33,7 +33,7 @@ public:
     std::string svg(PlotPlace place) const {
         std::string out = axes_.axes(report_.figure + " against the reference") + limits() + frontLine();
         const bool file = place == PlotPlace::file;
-        for (const bool raced : {false, true})  // the contenders on top
+        for (const bool raced : {false, true})  // contenders on top
             for (const std::size_t i : drawn_)
                 if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
         out += names() + legend();
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    // The interval of a contender's time, by its ratio to the fastest's.
+    // Confidence interval of a contender's time, ms; a missing end is 0.
     std::pair<double, double> intervalOf(const Candidate& candidate) const {
         const double best = candidate.ms() / candidate.standing->ratio;
         const auto known = [&](double ratio) { return std::isfinite(ratio) ? best * ratio : 0.0; };
@@ -97,7 +97,7 @@ private:
         return out;
     }
 
-    // The least error that is reached within a time, of what was timed.
+    // Pareto front: the least error within each time.
     std::string frontLine() const {
         std::vector<std::pair<double, double>> points;
         for (const std::size_t i : drawn_)
@@ -135,7 +135,7 @@ private:
         return out + pathMark(candidate.settings.path, px, py, raced ? 6 : 4.5) + "</g>";
     }
 
-    // Of the chosen one, the runner-up and, where nothing fits, the nearest.
+    // Labels the chosen candidate and the runner-up, or the nearest one if nothing fits.
     std::string names() const {
         std::vector<std::pair<std::size_t, std::string>> named;
         if (choice_.chosen) named.emplace_back(*choice_.chosen, "chosen");
@@ -147,7 +147,7 @@ private:
             const double px = x(choice_.candidates[i].ms()), py = y(choice_.candidates[i].judged->error);
             marks.push_back({px - 5, py - 5, px + 5, py + 5});
         }
-        constexpr double letter = 10, line = 17;  // where the style makes text largest
+        constexpr double letter = 10, line = 17;  // the style's largest text
         for (const auto& [i, word] : named)
             labels.push_back({x(choice_.candidates[i].ms()), y(choice_.candidates[i].judged->error),
                               letter * static_cast<double>(word.size()), line});
@@ -164,7 +164,7 @@ private:
         return "<g class=\"rows-named\">" + out + "</g>";
     }
 
-    // Above the plot, from the right: what there is of paths, contenders, others and limits.
+    // Above the plot, from the right: only entries that the plot shows.
     std::string legend() const {
         std::string out;
         double px = plotWidth - rightEdge;
@@ -196,7 +196,7 @@ private:
 
     const ChoiceReport& report_;
     const Choice& choice_;
-    const std::vector<std::size_t> drawn_;  // of the candidates
+    const std::vector<std::size_t> drawn_;  // indices of candidates
     const ErrorOverTime axes_;
 };
 

@@ -8,9 +8,9 @@
 
 namespace diptych::choose {
 
-// Error over time of all candidates that were judged and timed, as SVG: those timed again with the interval
-// of their time, the budget's limits, and the least error that is reached within a time. Both axes are
-// logarithmic; an error of 0 and an infinite one have a lane of their own.
+// SVG of error over time for all judged and timed candidates. Shows time intervals of raced candidates,
+// the budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own
+// lanes.
 std::string choicePlot(const ChoiceReport& report, PlotPlace place);
 
 }  // namespace diptych::choose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A choice for people and scripts: in words, as JSON and as a page.
+// A choice as text, JSON and page.
 #pragma once
 
 #include "compare/choose/common.h"
@@ -16,73 +16,73 @@
 
 namespace diptych::choose {
 
-// The chosen Settings from a camera that they were not chosen on.
+// Check of the chosen Settings from a held-out camera.
 struct UnseenCamera {
     std::string camera;
     double error = 0;
-    bool holds = true;  // within the error of the budget; without one, no more than half as large again
+    bool holds = true;  // within the error budget; without one, at most 1.5 times the chosen error
 };
 
-// --explain-choice: what of the scene decided between the paths.
+// --explain-choice: scene properties that decide between the paths.
 struct DecidersReport {
-    std::string chosen, other;            // Settings in words, of both paths
+    std::string chosen, other;            // descriptions of both paths' Settings
     std::string chosen_path, other_path;  // names
-    bool other_fits = true;               // the budget
+    bool other_fits = true;               // whether the other path is within the budget
     Deciders deciders;
 };
 
 struct ChoiceReport {
     std::string scene;
-    std::vector<std::string> cameras;  // their titles
+    std::vector<std::string> cameras;  // titles
     Settings given;
     Budget budget;
     std::string figure, figure_name;  // "FLIP", "flip"
     ReportDevice device;
     Choice choice;
-    // Of each candidate: its Settings in words; and the command that draws it.
+    // By candidate: description of its Settings, and the command that renders it.
     std::vector<std::string> words, commands;
-    std::vector<UnseenCamera> unseen;  // cameras of the scene that were not asked for
+    std::vector<UnseenCamera> unseen;  // other cameras of the scene
     std::vector<std::string> notes{};
     std::optional<DecidersReport> deciders{};
     double seconds = 0;
 };
 
-// Of several scenes: the Settings for all of them.
+// The joint choice for several scenes.
 struct CommonReport {
     std::vector<std::string> scenes;
     CommonChoice choice;
-    // Of each candidate; SCENE stands in the command for any of them.
+    // By candidate. Commands use SCENE as the scene's name.
     std::vector<std::string> words, commands;
     double seconds = 0;
 };
 
 struct Choices {
     std::vector<ChoiceReport> scenes;  // at least one
-    std::optional<CommonReport> all;   // of several
+    std::optional<CommonReport> all;   // with several scenes
 };
 
-// Of the only scene, or for all; nothing where nothing fits.
+// Of the only scene, or the joint choice. Empty if nothing fits.
 std::optional<Settings> chosenSettings(const Choices& choices);
 
 // "the fastest with FLIP at most 0.01"
 std::string goalInWords(const ChoiceReport& report);
-// For a terminal; ends with a new line.
+// Terminal text, ends with a newline.
 std::string inWords(const ChoiceReport& report);
-// `first`: any of its scenes, which says the budget.
+// `first`: report of any scene, for the budget.
 std::string inWords(const CommonReport& report, const ChoiceReport& first);
 // "takes 3.1 % longer (-0.5 % to +6.8 %)", "takes 0.5 % less time (-1.2 % to +0.3 %)".
 std::string longerInWords(double ratio, double low, double high);
-// Of one candidate: time, error and memory.
+// Time, error and memory of one candidate.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
 const char* fateInWords(Fate fate);
-// Why, who else, how sure, or by how much it is missed: a line each, without indentation.
+// Reasons, alternatives and significance, or how far the budget is missed. One line each, not indented.
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);
 std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);
-// A line on the two Settings, then the three properties that turn the choice first, two spaces before each.
+// A line on both Settings, then the three most relevant properties, indented by two spaces.
 std::vector<std::string> inWords(const DecidersReport& report);
 nlohmann::ordered_json toJson(const DecidersReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);
-// One scene's, or { "scenes": [...], "all": {...} } with the Settings for all as "settings".
+// The report of one scene, or { "scenes": [...], "all": {...} } with the joint choice as "settings".
 nlohmann::ordered_json toJson(const Choices& choices);
 
 }  // namespace diptych::choose

@@ -11,26 +11,27 @@ namespace diptych::choose {
 
 namespace {
 
-// Candidates that are timed together; all of them and the anchor hold images at once.
+// Candidates timed together. They and the anchor keep their images allocated.
 constexpr std::size_t timedTogether = 4;
-// A device whose speed moved by less than this, a logarithm, is as fast as it was: the rest is noise.
+// Smaller changes of the device's speed, in log time, are noise.
 constexpr double worthShifting = 0.15;
-// Candidates tried around the best before the table's effects are believed to hold no more.
+// Candidates per step around the best, and unsuccessful ones after which the search stops.
 constexpr std::size_t triedTogether = 3, mostInVain = 6;
-// A prediction adds effects of two noisy times each: a candidate may be this much better than predicted.
+// Predictions sum noisy effects: candidates predicted worse than needed by these factors are still tried.
 constexpr double timeSlack = 1.2, budgetSlack = 1.1;
-// A candidate that is this much slower than the best after two frames is not judged.
+// Slower candidates, relative to the best, are not judged after their two frames.
 constexpr double worthJudging = 1.05;
-// A row of the table that takes this much longer than a fitting one is not judged.
+// Table rows slower than a fitting one by this factor are not judged.
 constexpr double hopeless = 1.5;
-// A change helps if it takes off more than this, a logarithm; less is noise.
+// Smaller gains in log time do not count as improvements.
 constexpr double worthNoticing = 0.02;
-// The other path is improved where its best is within this ratio of the best.
+// The other path is improved only while its best is within this factor of the overall best.
 constexpr double worthImproving = 3;
 constexpr std::size_t contenders = 3;
 constexpr double worthTimingAgain = 1.15;
 
-// What a change does to its path's first candidate. Unknown: tried by itself before it is combined.
+// Effect of a change on its path's first candidate. An unknown effect is measured alone before it is
+// combined.
 struct Effect {
     double log_ms = 0, error = 0, bytes = 0;
     Effect operator+(const Effect& b) const { return {log_ms + b.log_ms, error + b.error, bytes + b.bytes}; }
@@ -76,8 +77,9 @@ private:
         all_[i].judged = lab_.judge(all_[i].settings);
         ++found_.judged;
     }
-    // Two frames of each, in an order and back, around those of a candidate whose time is known, if any:
-    // times are held against its, so that a drift of the device's speed makes none look slow.
+    // Times two frames per candidate, in an order and its reverse. A candidate with known time, if any,
+    // goes between them as the anchor. Times are relative to it, which cancels a drift of the device's
+    // speed.
     void time(std::vector<std::size_t> which, std::optional<std::size_t> anchor) {
         if (which.empty()) return;
         if (anchor && all_[*anchor].timings > 0 && std::ranges::count(which, *anchor) == 0)
@@ -119,7 +121,7 @@ private:
                 judge(i);
             }
         }
-        // Where nothing fits yet, what takes long may.
+        // If nothing fits yet, judge slow candidates as well.
         for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) judge(i);
     }
     double leastFitting() const {
@@ -130,7 +132,7 @@ private:
     }
 
     Effect measured(std::size_t i) const {
-        // The error of a row that was not judged is taken for its first's: it takes too long in any case.
+        // A row that was not judged borrows its first candidate's error: it is too slow anyway.
         const Candidate& candidate = all_[i];
         const Judged& judged =
             candidate.judged ? *candidate.judged : *all_[firsts_.at(candidate.settings.path)].judged;
@@ -138,7 +140,7 @@ private:
     }
     void learnChanges() {
         const auto add = [&](const Change& change, std::optional<Effect> effect) {
-            // Back to the first candidate's value as well.
+            // Also allow a return to the first candidate's value.
             const Change back{change.path, change.option,
                               all_[firsts_.at(change.path)].settings.valueOf(change.option)};
             effects_.try_emplace(back, Effect{});
@@ -158,7 +160,7 @@ private:
         for (const Change& change : options_.changes)
             if (firsts_.count(change.path) > 0) add(change, {});
     }
-    // A candidate that differs from one of known effects in a single change tells that change's.
+    // Derives an unknown effect from two candidates that differ in this change.
     void learnFrom(std::size_t from, std::size_t to) {
         if (!all_[from].judged || !all_[to].judged || all_[to].timings == 0) return;
         for (auto& [change, effect] : effects_)
@@ -173,7 +175,7 @@ private:
     double missBy(const Candidate& candidate) const {
         return missOf(*candidate.judged, candidate.ms(), budget_);
     }
-    // Less is better: the miss, then what is wanted.
+    // Less is better: the miss of the budget, then the objective.
     std::tuple<double, double, double> rank(std::size_t i) const {
         const Candidate& candidate = all_[i];
         if (!candidate.judged) return {std::numeric_limits<double>::infinity(), 0, 0};
@@ -190,10 +192,10 @@ private:
     }
 
     struct Trial {
-        std::tuple<double, double, double> rank;  // as predicted
+        std::tuple<double, double, double> rank;  // predicted
         std::vector<Change> changes;
     };
-    // What may be better than `from` by the effects of its changes, the most promising first.
+    // Changes that may improve `from` by their effects, most promising first.
     std::vector<Trial> trialsFrom(std::size_t from) const {
         const Candidate& best = all_[from];
         const double miss = missBy(best);
@@ -224,7 +226,7 @@ private:
         };
         for (std::size_t a = 0; a < singles.size(); ++a) {
             if (!singles[a].second) {
-                // Nothing is known: as good as the best, and a little better so that it counts as such.
+                // Unknown effect: assume slightly better than the best, so that it is tried.
                 consider({0, -1e-3 * best.judged->error, 0}, {singles[a].first});
                 continue;
             }
@@ -265,8 +267,8 @@ private:
             in_vain = helps ? 0 : in_vain + tried.size();
         }
     }
-    // Where the best fits and the fastest is wanted, times come first, else errors: what is no better by the
-    // one is not measured by the other.
+    // Measures cheaply first: times if the best fits and speed is wanted, else errors. A candidate that
+    // fails the first test skips the second.
     void measureTried(const std::vector<std::size_t>& tried, std::size_t best) {
         const double miss = missBy(all_[best]);
         const bool times_first = budget_.isForSpeed() && miss <= 0;
@@ -296,7 +298,7 @@ private:
             fit.resize(std::min(fit.size(), contenders));
             timeAgain(fit);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
-            // The fastest of them is too slow after all, and so are the others.
+            // The fastest contender exceeds the time budget, so all do.
             for (const std::size_t i : fit) all_[i].fate = Fate::too_slow;
             found_.chosen.reset();
             found_.runner_up.reset();
@@ -316,7 +318,7 @@ private:
         found_.sure = result.sure;
         found_.chosen = which[result.winner];
         found_.ms = result.standings[result.winner].ms;
-        // The device may be slower or faster by now: all times are told as of now.
+        // Shift earlier times to the device's current speed.
         const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
         if (std::abs(shift) >= worthShifting)
             for (Candidate& each : all_) each.log_ms += shift;
@@ -342,7 +344,7 @@ private:
     const SearchOptions& options_;
     const Budget& budget_;
     std::vector<Candidate> all_;
-    std::size_t known_ = 0;  // of the table
+    std::size_t known_ = 0;  // candidates of the table
     std::map<Path, std::size_t> firsts_;
     std::map<Change, std::optional<Effect>> effects_;
     Choice found_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t unusual = static_cast<std::size_t>(-1);
 
-// Its place in the list; `unusual` where it has none.
+// Index in the list, from 1; `unusual` if not in the list.
 std::size_t placeOf(const Change& change) {
     std::size_t place = 0;
     const auto has = [&](std::string_view option, std::string_view values) {

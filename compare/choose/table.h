@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The candidates that a choice draws first: each path as given, and with each of the usual single changes.
+// The candidates that a choice measures first: each path as given, and with each usual single change.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -11,20 +11,20 @@
 
 namespace diptych::choose {
 
-// One Setting of a path: its option and value, in the words of Settings::set().
+// One Setting of a path: option and value as words of Settings::set().
 struct Change {
     Path path = Path::deferred;
     std::string option, value;
     auto operator<=>(const Change&) const = default;
 };
 
-//  option, values: "*" is any. The first matter most: of more changes than a table has room for, they stay.
+// Options and values; "*" is any. Most relevant first: the table drops the last ones if it is full.
 #define DIPTYCH_USUAL_CHANGES(X)                                                                       \
-    X("assign", "every,tiled,clustered")      /* light lists cost time, and save it for many lights */ \
-    X("gbuffer", "compact,standard,full")     /* bytes a pixel against the error of normals */         \
+    X("assign", "every,tiled,clustered")      /* light lists cost time and save it with many lights */ \
+    X("gbuffer", "compact,standard,full")     /* bytes per pixel or normal error */                    \
     X("size", "*")                            /* fewer pixels: less time, more error */                \
-    X("shadows", "off,pcf,evsm,msm4,clipmap") /* filters of the sun's shadow */                        \
-    X("prepass", "on,off")                    /* saves time where surfaces hide each other */          \
+    X("shadows", "off,pcf,evsm,msm4,clipmap") /* directional shadow filters */                         \
+    X("prepass", "on,off")                    /* saves time with overdraw */                           \
     X("transparency", "sorted,unsorted,weighted,moments")                                              \
     X("msaa", "1,4")                                                                                   \
     X("msaa-edges", "all,exact,similar,coverage")                                                      \
@@ -41,11 +41,11 @@ struct Change {
 
 inline constexpr std::size_t mostInTable = 24;
 
-// Candidates of a table: each path's first, and those that differ from it in one usual change; all where they
+// Each path's first candidate and those that differ from it in one usual change; all candidates if they
 // are few. `candidates`: each path's first comes before its others.
 std::vector<Settings> tableOf(std::span<const Settings> candidates);
 
-// The options and values in which Settings differ from others of their path.
+// Options in which `to` differs from `from`, with the values of `to`.
 std::vector<Change> changesBetween(const Settings& from, const Settings& to);
 
 }  // namespace diptych::choose

@@ -11,7 +11,7 @@ namespace diptych::choose {
 
 namespace {
 
-// P(|T| <= t).
+// P(|T| <= t) of Student's t distribution.
 double within(double t, int freedom) {
     const double angle = std::atan(t / std::sqrt(static_cast<double>(freedom)));
     const double c = std::cos(angle), s = std::sin(angle);
@@ -27,7 +27,7 @@ double meanOf(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Mean and half the confidence interval of the difference of two contenders, over the rounds that both ran.
+// Mean and half-width of the confidence interval of a - b, over the rounds of both.
 struct Difference {
     double mean = 0, half = 0;
 };
@@ -60,7 +60,7 @@ Standings tellApart(std::size_t contenders, const DrawInOrder& draw, int least, 
     result.standings.resize(contenders);
     std::vector<std::size_t> running(contenders);
     std::iota(running.begin(), running.end(), std::size_t{0});
-    std::vector<std::vector<double>> rounds(contenders);  // logarithms of both draws' mean
+    std::vector<std::vector<double>> rounds(contenders);  // log of the geometric mean of both draws
     int done = 0;
     while (done < most) {
         std::vector<std::size_t> order;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times a few contenders in turn until the fastest is told apart from the others, or they are called equal.
+// Times a few contenders, interleaved, until the fastest is significantly faster or all count as equal.
 #pragma once
 
 #include <cstddef>
@@ -9,35 +9,35 @@
 
 namespace diptych::choose {
 
-// Times, ms, of drawing contenders in an order: one each, in that order.
+// Renders contenders in the given order; returns one time per entry, ms.
 using DrawInOrder = std::function<std::vector<double>(std::span<const std::size_t>)>;
 
 struct Standing {
-    double ms = 0;  // geometric mean of its times
-    // Its time over the winner's, and the confidence interval (toldApartConfidence).
+    double ms = 0;  // geometric mean
+    // Time over the winner's, with its confidence interval (toldApartConfidence).
     double ratio = 1, low = 1, high = 1;
     int rounds = 0;
     bool isSlower() const { return low > 1; }
 };
 
-// Each comparison's; 99 % rather than 95 % because the interval is looked at after every round.
+// Per comparison. 99 % instead of 95 %, because the test repeats after every round.
 inline constexpr double toldApartConfidence = 0.99;
-// Times within this ratio of each other are equal.
+// Times within this ratio count as equal.
 inline constexpr double equalTimes = 1.02;
 
 struct Standings {
-    std::vector<Standing> standings;  // of each contender
+    std::vector<Standing> standings;  // by contender
     std::size_t winner = 0;
-    bool sure = false;  // every other contender is slower; else some are equal, or not told apart
+    bool sure = false;  // all others are significantly slower
     std::size_t draws = 0;
 };
 
-// A round draws every contender that is not yet told apart, in an order and in its reverse, so that a drift
-// of the device's speed cancels. At least one contender; between `least` and `most` rounds, `least` of them
-// in one call of `draw`.
+// Each round renders every remaining contender in an order and its reverse, which cancels a drift of the
+// device's speed. Needs at least one contender. Runs `least` to `most` rounds; the first call of `draw`
+// has `least` rounds.
 Standings tellApart(std::size_t contenders, const DrawInOrder& draw, int least = 2, int most = 8);
 
-// Student's distribution: |t| exceeds the result with `probability` (0 to 1); `freedom`: 1 or more. By the
+// Student's t quantile: |t| exceeds it with `probability`, 0 to 1. `freedom` is at least 1. Uses the
 // finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4.
 double studentT(double probability, int freedom);
 

@@ -57,7 +57,7 @@ void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
             camera.error, camera.holds ? "" : ", over the budget: name both cameras with --camera"));
 }
 
-// How the chosen Settings compare with the best of the other path that were judged and fit, pass by pass.
+// Compares the chosen Settings with the other path's best fitting ones, pass by pass.
 std::string whyInWords(const ChoiceReport& report) {
     const Choice& choice = report.choice;
     if (!choice.chosen) return {};
@@ -70,7 +70,7 @@ std::string whyInWords(const ChoiceReport& report) {
     for (const PassTime& pass : chosen.passes) passes[pass.name].first += pass.ms;
     for (const PassTime& pass : other.passes) passes[pass.name].second += pass.ms;
     std::vector<std::pair<double, std::string>> parts;
-    constexpr double worthTelling = 0.03;  // of a frame
+    constexpr double worthTelling = 0.03;  // fraction of a frame
     for (const auto& [name, ms] : passes)
         if (std::abs(ms.first - ms.second) > worthTelling * other.ms())
             parts.emplace_back(-std::abs(ms.first - ms.second),
@@ -121,7 +121,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
               {"frames_timed", candidate.timings}};
     json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
-    json["first_camera_error"] = Json();  // of schema 1, as "estimated"
+    json["first_camera_error"] = Json();  // schema 1 key, unused
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
     if (candidate.standing)
         json["race"] = {{"ratio", candidate.standing->ratio},
@@ -241,7 +241,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
-    json["estimated"] = 0;  // of schema 1: every picture is judged from all cameras
+    json["estimated"] = 0;  // schema 1 key, unused: every image is judged from all cameras
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
     json["notes"] = report.notes;

@@ -22,7 +22,7 @@ AuditOpening::AuditOpening(const Options& options, const Settings& settings, con
       audited_{options.scenes.front(), settings.camera.empty() ? subject_.view_name : settings.camera,
                settings, reportDevice(device_), scene_.notes} {
     say(options, "on " + device_.info().name);
-    // An audit holds up to six reference Frames: of the usual scene, of the pushed one, and those compared.
+    // An audit keeps up to six reference Frames at a time.
     const std::vector<Settings> references(6, referenceSettings(settings));
     RenderOptions drawing;
     drawing.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};

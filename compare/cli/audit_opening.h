@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `audit` begins with, whether it pushes quantities or asks relations: the folder, the device and the
-// scene.
+// The start of both forms of `audit`: opens the output folder, the device and the scene.
 #pragma once
 
 #include "compare/audit/case.h"
@@ -16,8 +15,8 @@ namespace diptych::cli {
 
 class AuditOpening {
 public:
-    // `folder`, `what`, `manifest`: of outputFolder(). Loads the scene, of which there is one. Throws
-    // std::runtime_error, one line. `options` and `settings` outlive it.
+    // `folder`, `what` and `manifest` go to outputFolder(). Loads the command line's only scene. `options`
+    // and `settings` must outlive the object. Throws std::runtime_error, one line.
     AuditOpening(const Options& options, const Settings& settings, const char* folder, const char* what,
                  const char* manifest);
 
@@ -26,10 +25,10 @@ public:
     Device& device() { return device_; }
     const Stage& stage() const { return stage_; }
     const audit::Subject& subject() const { return subject_; }
-    // With the scene's notes.
+    // Includes the scene's notes.
     const audit::Audited& audited() const { return audited_; }
 
-    // On stdout, above the progress line; nothing with --json and --quiet.
+    // Prints on stdout, above the progress line. Does nothing with --json or --quiet.
     void print(const std::string& words);
 
 private:

@@ -29,16 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// A channel of a scene that fails, in whichever camera and pair most.
+// The largest failing difference of a channel over a scene's cameras and pairs.
 struct Failing {
     double max = 0;
     std::string pair;
 };
-using AllFailing = std::map<std::pair<std::string, std::string>, Failing>;  // by scene and channel
+using AllFailing = std::map<std::pair<std::string, std::string>, Failing>;  // keys: scene, channel
 
 using Place = JsonAt<nlohmann::json>;
 
-// A report, with what says something here.
+// Reads only the keys of a report that `accept` needs.
 nlohmann::json reportIn(const fs::path& where) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
@@ -88,10 +88,10 @@ AllFailing failingIn(const fs::path& where, const std::string& scene, const std:
     return failingOf(Place(json).at("comparisons"), scene, channel);
 }
 
-// An earlier file's rules stay, but for one that was accepted for the same before.
+// Rules of an existing file; none if there is no file.
 Json rulesIn(const fs::path& file) {
     if (!fs::exists(file)) return {{"rules", Json::array()}};
-    readRules(file);  // throws where they are none
+    readRules(file);  // throws if the file is not a rules file
     return orderedJsonIn(file);
 }
 

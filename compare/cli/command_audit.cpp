@@ -36,8 +36,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Unless the command line says otherwise: a picture that a reference draws in a tenth of a second, and
-// shadows only where they are what is pushed, since the filter of a shadow map is an error by itself.
+// Defaults of an audit: a size that the reference renders in about 0.1 s, and no shadows. A shadow map's
+// filter is an error by itself, so shadows are on only for shadow quantities.
 Settings auditedSettings(const Options& options) {
     Settings settings = options.settings;
     if (!options.size_given) settings.size = {160, 90};
@@ -60,7 +60,8 @@ void checkAuditOptions(const Options& options) {
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
 }
 
-// Its size and time, which tell whether what is not in view has changed; null of a built-in scene.
+// Size and modification time of the scene file, which also detect changes outside the view. Null for a
+// built-in scene.
 Json fileFacts(const std::string& scene) {
     std::error_code error;
     const auto size = std::filesystem::file_size(scene, error);
@@ -68,7 +69,7 @@ Json fileFacts(const std::string& scene) {
     return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
 }
 
-// A folder of this command alone, removed at its end.
+// Temporary folder, removed by the destructor.
 struct TrialFolder {
     std::filesystem::path path;
 
@@ -108,7 +109,7 @@ public:
                  "the results of an interrupted audit belong to another scene, device or Settings; starting "
                  "anew");
         sayWhenInterrupted("finished steps are kept: the same command continues from there");
-        // What is required is pushed, too.
+        // Quantities of --require are measured too.
         std::vector<std::string> names = options_.audit.quantities;
         for (const auto& [name, magnitude] : options_.audit.required)
             if (!names.empty()) names.push_back(name);
@@ -119,7 +120,7 @@ public:
             audit_.to_come.erase(audit_.to_come.begin());
             measure(*all[q], subject, measurer, kept,
                     stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
-            // Plots can be looked at while others are measured.
+            // Plots of finished quantities can be viewed while others are measured.
             const bool shown = audit_.quantities.back().lacks.empty();
             if (shown && q + 1 < all.size()) audit::writeAudit(audit_, opened_.folder(), options_.force);
         }
@@ -145,7 +146,8 @@ public:
     }
 
 private:
-    // All that a step depends on beside its magnitude and series: the truth's pixels stand for the scene.
+    // Inputs of a step besides its magnitude and series. The ground truth's fingerprint identifies the
+    // scene's visible contents.
     Json keyOf(audit::Measurer& measurer, const audit::Subject& subject) const {
         return {{"schema", 1},
                 {"software", softwareName},
@@ -161,7 +163,7 @@ private:
 
     void measure(const audit::Quantity& quantity, const audit::Subject& subject, audit::Measurer& measurer,
                  const KeptFolder& kept, const Stage& stage) {
-        const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // and some between them
+        const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // plus some in between
         double done = 0;
         std::vector<double> required;
         for (const auto& [name, magnitude] : options_.audit.required)
@@ -194,7 +196,7 @@ private:
         opened_.print(audit::inWords(audit_.quantities.back()));
     }
 
-    // Runs a command that would be printed, as it would be typed.
+    // Runs a command exactly as the report would print it. Returns whether compare fails.
     bool compareFails(std::vector<std::string> words, const std::filesystem::path& folder) const {
         const std::string out = (folder / "report").string();
         words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
@@ -213,7 +215,7 @@ private:
         try {
             audit::Step step = audit::stepFromJson(json);
             return step.outcomes.size() == series ? std::optional(std::move(step)) : std::nullopt;
-        } catch (const std::exception&) {  // not what was written: it is measured again
+        } catch (const std::exception&) {  // malformed: measure the step again
             return {};
         }
     }

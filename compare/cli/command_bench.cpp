@@ -15,7 +15,7 @@ using namespace bench;
 
 namespace {
 
-// Frames of one kernel where --runs says less: its slope is that of the fastest two.
+// Minimum timed frames per kernel: its slope comes from the two fastest.
 constexpr int fewestKernelRuns = 15;
 
 void checkBenchOptions(const Options& options) {
@@ -37,7 +37,7 @@ BenchCases casesOf(const Options& options, const BenchOptions& bench) {
     return makeBenchCases(options.scenes.front(), given, bench);
 }
 
-// --path X is --paths X where that says nothing.
+// --path X means --paths X if --paths is missing.
 BenchOptions benchOptions(const Options& options) {
     BenchOptions bench = options.bench;
     if (bench.paths.empty() && options.path_given) bench.paths = {options.settings.path};

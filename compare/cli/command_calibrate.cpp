@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// One picture of the charts by the renderer. Without lamps it must be had, for nothing can be told without;
-// under one, its absence says that such lamps are not drawn.
+// The renderer's image of the charts under one lamp type. A missing image is an error without a lamp;
+// under a lamp it means that the renderer does not support that type.
 external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const external::Renderer& renderer) {
     external::Shown shown{lamp, external::truthUnder(charts, lamp), {}, {}};
     const Scene scene = external::chartsUnder(charts, lamp);

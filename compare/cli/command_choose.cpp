@@ -26,7 +26,7 @@ bool isSettingsFile(const std::filesystem::path& out) {
     return out.extension() == ".json";
 }
 
-// Settings that an earlier choice left may be replaced, and nothing else without --force.
+// Without --force only a file of Settings may be replaced.
 void checkSettingsFile(const std::filesystem::path& file, bool force) {
     std::error_code ignored;
     if (force || !std::filesystem::exists(file, ignored)) return;

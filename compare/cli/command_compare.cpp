@@ -23,7 +23,7 @@
 namespace diptych::cli {
 namespace {
 
-// The one scene, camera and time that a picture can be of.
+// A baseline file is an image of one scene, camera and time.
 void checkOnePicture(const Options& options, const std::vector<Settings>& settings) {
     if (options.scenes.size() != 1 || settings.size() != 2)
         throw std::runtime_error(
@@ -31,7 +31,7 @@ void checkOnePicture(const Options& options, const std::vector<Settings>& settin
                         options.baseline_file.string(), options.times.size() > 1 ? " and one time" : ""));
 }
 
-// Which of the Frames drawn becomes the baseline: as the file says, or --path.
+// The Frame that becomes the new baseline: of --path, else of the old baseline's path.
 const Frame& renewing(const Options& options, const Frame* old, const std::vector<Frame>& frames) {
     const Path path = old && !options.path_given && old->settings.path != Path::reference
                           ? old->settings.path
@@ -126,7 +126,7 @@ int runCompare(const Options& given) {
     if (!updated.empty()) note(options, updated);
     sayErrors(report.errors);
     if (!report.errors.empty()) return 2;
-    // The old baseline's verdict is no longer the question.
+    // The new baseline replaces the old one, so only the last comparison counts.
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
 }
 

@@ -16,7 +16,7 @@
 namespace diptych::cli {
 namespace {
 
-using ProbeResults = std::map<int, std::vector<probe::Result>>;  // by the device's index
+using ProbeResults = std::map<int, std::vector<probe::Result>>;  // key: device index
 
 nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices, const ProbeResults& probes) {
     nlohmann::ordered_json json{{"schema", 1}, {"devices", nlohmann::ordered_json::array()}};
@@ -81,7 +81,7 @@ int runDevices(const Options& options) {
             if (const auto found = probes.find(device.index); found != probes.end())
                 printColored(options, "\n" + probe::tableOf(found->second, options.verbose));
         }
-    // Drivers install their files where the loader finds them, but for those that come with a program.
+    // The loader finds installed drivers by itself. Drivers bundled with a program need VK_DRIVER_FILES.
     if (!options.json && !options.quiet && options.device.empty())
         printOut(
             "To use devices of several drivers at once (compare --against-device), set "

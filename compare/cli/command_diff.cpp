@@ -17,13 +17,13 @@
 
 namespace diptych::cli {
 
-// The share of reading and measuring; the rest is writing.
+// Fraction of the time spent on reading and measuring; writing takes the rest.
 constexpr double measuring = 0.9;
 
 namespace {
 
-// Bytes a pixel that writing takes while the pictures are in memory, measured: a report's pictures, errors
-// and one picture of floats, or a PNG.
+// Bytes per pixel allocated for writing while the images are in memory, measured. A folder needs the
+// images, their errors and one float image; else a PNG.
 double outputBytes(const std::optional<Output>& output) {
     if (!output || output->kind == OutputKind::exr) return 0;
     return output->kind == OutputKind::folder ? 13 : 4;
@@ -36,7 +36,7 @@ void print(const Options& options, const std::string& text) {
         printColored(options, text);
 }
 
-// Two folders: every picture that has one name in both.
+// Compares all images whose names exist in both folders.
 int diffFolders(const Options& options, PictureDiffOptions settings, const std::optional<Output>& output) {
     namespace fs = std::filesystem;
     if (output && output->kind != OutputKind::folder)
@@ -57,7 +57,7 @@ int diffFolders(const Options& options, PictureDiffOptions settings, const std::
             diff.pictures.push_back(diffPictures((left / name).string(), (right / name).string(), settings));
             diff.pictures.back().name = name;
         } catch (const std::system_error&) {
-            throw;  // of this machine
+            throw;  // errors of this machine, such as a full disk, end the command
         } catch (const std::runtime_error& error) {
             diff.errors.push_back({name, error.what()});
         }
@@ -93,7 +93,7 @@ int runDiff(const Options& options) {
     settings.output_bytes = outputBytes(output);
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
     const auto isFolder = [&](std::size_t i) {
-        std::error_code ignored;  // what cannot be looked at is said by who reads it
+        std::error_code ignored;  // diffPictures() reports unreadable files
         return std::filesystem::is_directory(options.scenes.at(i), ignored);
     };
     if (isFolder(0) && isFolder(1)) return diffFolders(options, std::move(settings), output);

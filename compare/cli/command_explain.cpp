@@ -28,7 +28,7 @@ namespace diptych::cli {
 
 namespace {
 
-// The other path, and what --test names.
+// The test Settings: those of --test, else the other path.
 Settings testOf(const Options& options, const Settings& baseline, std::string& name) {
     if (!options.test.empty() && options.sides.any())
         throw std::runtime_error(
@@ -55,7 +55,7 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
     return test;
 }
 
-// Prints what was found, and writes it where -o says so.
+// Prints the explanation, and writes it if -o is given.
 void leave(const Options& options, const PictureChoice& picture, const Device& device,
            const Explanation& explanation, const ExplainedPictures& of, const Frame& baseline,
            const Frame& test) {
@@ -72,7 +72,7 @@ void leave(const Options& options, const PictureChoice& picture, const Device& d
     }
 }
 
-// The picture of the one renderer of --renderer, of the view of `ours`.
+// The view of `ours`, rendered by the one --renderer.
 Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours, Renderer& drawing,
                    const RenderOptions& render) {
     const external::Renderer& renderer = options.renderers.front();
@@ -164,7 +164,7 @@ bool isExr(const std::string& name) {
     return ending == ".exr" || ending == ".EXR";
 }
 
-// A picture file. Whatever it does not say of its Settings is as on the command line.
+// Reads an EXR. Settings that it does not declare come from the command line.
 Frame readPicture(const Options& options, const std::string& file) {
     Frame frame = frameFromExr(file);
     frame.name = file;
@@ -178,7 +178,7 @@ Frame readPicture(const Options& options, const std::string& file) {
                         "explain replaces; give images of deferred or forward_plus",
                         file));
     if (frame.settings.path == Path::reference)
-        frame.settings.path = Path::forward_plus;  // of another renderer
+        frame.settings.path = Path::forward_plus;  // from another renderer
     const Image& any = frame.channels.begin()->second;
     frame.settings.size = {any.width, any.height};
     return frame;

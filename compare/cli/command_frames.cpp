@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// render --frames: the scene is loaded and uploaded once, and whoever waits sees each picture as soon as it
-// is drawn.
+// render --frames: loads and uploads the scene once, and writes each image as soon as it is rendered.
 #include "compare/cli/render_output.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/output_folder.h"
@@ -28,18 +27,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// "0007" of the eighth; as many digits in all names, so that their order is that of the pictures.
+// "0007" for the eighth image. Equal digit counts keep names in the order of the images.
 std::string numberOf(int frame, int frames) {
     const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
     return fmt::format("{:0{}}", frame, digits);
 }
 
-// "out.0007.exr" of "out.exr".
+// "out.exr" becomes "out.0007.exr".
 fs::path numberedFile(fs::path file, const std::string& number) {
     return file.replace_extension(number + file.extension().string());
 }
 
-// Everything that says what is drawn must be of one picture.
+// --frames takes one scene and one camera.
 void checkOneView(const Options& options) {
     if (options.scenes.size() > 1 || options.cameras.size() > 1)
         throw std::runtime_error(
@@ -57,7 +56,7 @@ public:
           shown_(shownChannels(options)),
           picture_(pictureChoice(options)),
           result_(resultOf(made)) {
-        // Before the first is drawn.
+        // Fail before rendering if an output cannot be replaced.
         if (output_.kind == OutputKind::folder) {
             checkFolder(output_, 1, options.force);
             folder_.emplace(output_.path);
@@ -89,7 +88,7 @@ public:
         if (!options_.json && !options_.quiet) print(frame, place, number);
     }
 
-    // After the last: a folder is put in place as a whole.
+    // Call after the last image: replaces the folder atomically.
     void finish() {
         if (folder_) {
             Json manifest = result_;
@@ -105,13 +104,13 @@ public:
     }
 
 private:
-    // Of an output that is no folder.
+    // Files of one image. Only for outputs that are not folders.
     std::vector<fs::path> filesOf(int number) const {
         const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
         return output_.kind == OutputKind::png ? pictureFiles(file, shown_) : std::vector{file};
     }
 
-    // All pictures are exposed as the first is: each by itself would flicker.
+    // The first image sets the exposure of all; automatic exposure per image would flicker.
     void chooseExposure(const Frame& first) {
         exposure_line_ = exposureLine(first, picture_);
         if (picture_.exposure || picture_.ev100) return;
@@ -121,7 +120,7 @@ private:
         exposure_line_ += "; chosen from the first image, used for all";
     }
 
-    // FRAME.0007.exr and CHANNEL.0007.png.
+    // Writes FRAME.0007.exr and CHANNEL.0007.png.
     fs::path writeInFolder(const Frame& frame, int number, Json& entry) {
         const std::string ending = numberOf(number, options_.frames);
         const std::string exr = fmt::format("{}.{}.exr", frame.name, ending);
@@ -153,12 +152,12 @@ private:
     PictureChoice picture_;
     Json result_;
     std::optional<OutputFolder> folder_;
-    std::vector<std::string> files_;  // in it
+    std::vector<std::string> files_;  // within folder_
     std::string exposure_line_;
-    std::set<std::string> said_;  // notes, whatever numbers they have
+    std::set<std::string> said_;  // printed notes, without their numbers
 };
 
-// One Frame after the other; the scene is uploaded once.
+// Renders one Frame at a time from one upload of the scene.
 class FrameSource {
 public:
     FrameSource(const Scene& scene, Device* device) : views_(scene) {
@@ -167,7 +166,7 @@ public:
     Frame draw(const Settings& settings, const RenderOptions& render) {
         Frame frame = renderer_ ? renderer_->draw(settings, render)
                                 : std::move(drawWithoutDevice(views_, {settings}, render).front());
-        views_.clear();  // no other frame is of this time
+        views_.clear();  // no other frame has this time
         return frame;
     }
 

@@ -34,7 +34,7 @@ using namespace bench;
 
 namespace {
 
-// --heat is a flag, and a flag takes a value behind = only: so that "--heat off" says what it seems to.
+// CLI11 flags take values only after "=": joins "--heat off" into "--heat=off".
 std::vector<std::string> joinFlagValues(const std::vector<std::string>& words) {
     std::vector<std::string> joined;
     for (const std::string& word : words)
@@ -86,7 +86,7 @@ std::vector<std::string> pathNames() {
     return names;
 }
 
-// Of a list of --times.
+// One time of a --times list, s.
 double timeOf(const std::string& word, const std::string& list) {
     Settings settings;
     try {
@@ -105,7 +105,7 @@ void resolveTimes(Options& options, const ParsedOptions& parsed) {
     if (parsed.times) {
         const std::string& list = *parsed.times;
         options.times.clear();
-        // A comma at the end is followed by an empty word, too.
+        // <= size: a trailing comma yields an empty word, which is an error.
         for (std::size_t at = 0; at <= list.size();) {
             const std::size_t end = std::min(list.find(',', at), list.size());
             const std::string word = list.substr(at, end - at);
@@ -212,7 +212,7 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     bench.frames = parsed.kernels != "only";
 }
 
-// "64MiB"; nothing where the word is empty.
+// Parses "64MiB". Empty for an empty word.
 std::optional<std::uint64_t> bytesOf(const std::string& word) {
     if (word.empty()) return {};
     double number = -1;
@@ -241,7 +241,7 @@ void resolveAudit(AuditOptions& audit, const ParsedOptions& parsed) {
         throw std::runtime_error("--quantity: --relations stresses no quantity; give one of the two");
     if (audit.relations && !parsed.require.empty())
         throw std::runtime_error("--require: --relations stresses no quantity; give one of the two");
-    audit::quantitiesOf(audit.quantities);  // throws where there is none of a name
+    audit::quantitiesOf(audit.quantities);  // throws for unknown names
     for (const std::string& words : parsed.require) {
         const std::size_t at = words.find('=');
         double magnitude = -1;
@@ -272,7 +272,7 @@ Twice twiceOf(const std::string& word) {
     throw std::runtime_error(fmt::format("--twice {}: takes all, lit or none", word));
 }
 
-// "X,Y", from the top left.
+// "X,Y" in pixels from the top left.
 Options::Pixel pixelOf(const std::string& words) {
     Options::Pixel pixel;
     const char *at = words.data(), *const end = at + words.size();
@@ -288,7 +288,7 @@ Options::Pixel pixelOf(const std::string& words) {
     return pixel;
 }
 
-// What each word means together with the others.
+// Resolves options that depend on each other.
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
     options.sides = readSides(parsed.sides, options.settings);
@@ -329,7 +329,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     resolveAudit(options.audit, parsed);
 }
 
-// CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".
+// Rewrites CLI11's "--size: At Most 1 required but received 3".
 std::string inOurWords(const std::string& error) {
     constexpr std::string_view tooOften = ": At Most 1 required but received ";
     const std::size_t at = error.find(tooOften);
@@ -350,7 +350,7 @@ std::vector<std::string> builtinScenes() {
     return names;
 }
 
-// Of CLI11's "The following argument was not expected: --sise" the option that was meant.
+// The likely intended option for CLI11's "The following argument was not expected: --sise".
 std::string meantOption(const std::string& error, const CLI::App& app) {
     const std::size_t at = error.find("--");
     if (at == error.npos) return {};
@@ -365,14 +365,14 @@ std::string meantOption(const std::string& error, const CLI::App& app) {
 
 Options parseCommandLine(const std::vector<std::string>& given) {
     Options options;
-    // Of submit, what stands behind -- is a command of its own.
+    // Words of submit after -- belong to another command.
     std::vector<std::string> words = given;
     if (!given.empty() && given.front() == "submit") {
         const auto end = std::ranges::find(words, "--");
         if (end != words.end()) options.submit.words.assign(end + 1, words.end());
         words.erase(end, words.end());
     }
-    // "--help all" prints every option, --help those that are used most.
+    // "--help all" prints every option, "--help" the most used ones.
     bool every = false;
     for (std::size_t i = 1; i < words.size(); ++i)
         if (words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h")) {
@@ -413,8 +413,7 @@ Options parseCommandLine(const std::vector<std::string>& given) {
     const CLI::App* chosen = &app;
     try {
         const std::vector<std::string> joined = joinFlagValues(words);
-        app.parse(
-            std::vector<std::string>(joined.rbegin(), joined.rend()));  // CLI11 takes them from the back
+        app.parse(std::vector<std::string>(joined.rbegin(), joined.rend()));  // CLI11 reads from the back
         if (manual) {
             options.help = manualPage(app, std::string("diptych ") + versionName());
             return options;
@@ -489,7 +488,7 @@ Options parseReported(const std::vector<std::string>& words) {
         if (name == word && i + 1 == words.size())
             throw std::runtime_error(
                 fmt::format("the command of the comparison ends after {}, without its value", name));
-        // Joined, so that a value is never taken for an option.
+        // Joined with "=", so that CLI11 never reads a value as an option.
         const std::string value = name == word ? name + "=" + words[++i] : word;
         if (!unread) read.push_back(value);
     }

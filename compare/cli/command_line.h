@@ -9,13 +9,13 @@
 
 namespace diptych::cli {
 
-// `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;
-// throws std::runtime_error, one line, for a usage error and for what is not built yet.
+// `words` come from the shell, without the program's name. Throws std::runtime_error, one line, for a
+// usage error.
 Options parseCommandLine(const std::vector<std::string>& words);
 
-// The words that a report has of a comparison ("compare ..."), as those of `view`. Anyone may have written
-// them: only scene, Settings and what influences a verdict are taken. Where the report went and other
-// renderers are left out; any other option throws std::runtime_error naming it.
+// Parses the words of a comparison in a report ("compare ...") as words of `view`. Reports are untrusted
+// input: only the scene, Settings and options that influence a verdict are read. Output paths and external
+// renderers are skipped. Any other option throws std::runtime_error naming it.
 Options parseReported(const std::vector<std::string>& words);
 
 }  // namespace diptych::cli

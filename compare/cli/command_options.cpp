@@ -152,7 +152,7 @@ void addFiles(CLI::App& app, Options& options, const std::string& usual) {
     app.add_flag("--force", options.force, "also replace files that diptych did not write");
 }
 
-// Which pixels count.
+// Selection of compared pixels.
 void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
     app.add_option("--mask", selection.mask, "compare only pixels where this picture is at least half white")
@@ -221,8 +221,8 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
         ->check(CLI::Range(1, 1000));
 }
 
-// Options that are accepted everywhere, so that a line of one command can be given to another, but that this
-// one does not read.
+// Hides options that the command accepts and ignores. They are accepted so that one option line works for
+// several commands.
 void hide(CLI::App& app, std::initializer_list<const char*> options) {
     for (const char* option : options)
         if (CLI::Option* found = app.get_option_no_throw(option)) found->group("");
@@ -256,7 +256,7 @@ void hideUnread(CLI::App& app, const std::string& command) {
     if (command == "devices") hideGroup(app, pixel_group);
 }
 
-// Which of many scenes.
+// Selection of scenes.
 void addShard(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
     app.add_option("--shard", options.shard,
@@ -276,7 +276,7 @@ void addSince(CLI::App& app, Options& options) {
         ->type_name("DIR|report.json");
 }
 
-// Which Settings are tried.
+// Settings that a sweep tries.
 void addGrid(CLI::App& app, Options& options, const char* usual) {
     app.add_option(
            "--grid", options.grid,
@@ -337,7 +337,7 @@ void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed) {
         ->allow_extra_args(false);
 }
 
-// What a report holds.
+// Contents of a report.
 void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.option_defaults()->group(output_group);
     app.add_option("--keep", parsed.keep, "comparisons whose pictures and EXRs the report keeps (all)")
@@ -356,7 +356,7 @@ void addView(CLI::App& app, ViewOptions& view) {
     app.get_option("--pixel")->description("pixel to inspect first");
 }
 
-// What is timed; every list is separated by commas.
+// Options of bench; every list is comma-separated.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("Benchmark");
     app.add_option("--table", parsed.bench_table,
@@ -389,7 +389,7 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
         ->type_name("on|off|only");
 }
 
-// Renderers of others.
+// External renderers.
 void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
     app.add_option(
            "--renderer", parsed.renderers,
@@ -400,7 +400,7 @@ void addRenderers(CLI::App& app, ParsedOptions& parsed, const char* what) {
         ->group(picture_group);
 }
 
-// Settings of one path.
+// Settings of one path only.
 void addSides(CLI::App& app, ParsedOptions& parsed) {
     for (std::size_t side = 0; side < drawn_paths.size(); ++side)
         app.add_option(sideOption(drawn_paths.at(side)), parsed.sides.at(side),
@@ -444,7 +444,7 @@ std::size_t hideSeldomUsed(CLI::App& app, const Command& command) {
 
 namespace {
 
-// CLI11 reads numbers as C does: "0x10" would be 16.
+// CLI11 accepts C literals: "0x10" would mean 16.
 void refuseHexadecimals(CLI::App& app) {
     constexpr std::array<std::string_view, 9> numbers{"F",      "N",     "K",     "T",     "E",
                                                       "PIXELS", "STOPS", "SHARE", "ID,..."};
@@ -550,7 +550,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
 
     if (command == "compare" || command == "explain" || command == "view") addSides(app, parsed);
 
-    // view understands the options of every compare, so that one line can be given to either.
+    // view accepts every option of compare, so that one option line works for both.
     if (command == "compare" || command == "view") {
         app.add_option("--times", parsed.times, "several animation times in one report, seconds (--time)")
             ->type_name("S,S,...")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The names and options of every command, for the command line's parser.
+// Names and options of every command, for the parser.
 #pragma once
 
 #include "compare/cli/options.h"
@@ -18,18 +18,18 @@ namespace diptych::cli {
 
 struct Command {
     std::string name, does, example;
-    std::string most_used{};  // options that --help prints, at most ten; empty: all of them
+    std::string most_used{};  // options that --help prints, at most ten; empty: all
 };
 std::span<const Command> allCommands();
-// Leaves the most used options alone in the command's help; returns how many others it has.
+// Hides all but the most used options from the command's help. Returns how many it hid.
 std::size_t hideSeldomUsed(CLI::App& app, const Command& command);
 
-// The options as parsed, before resolve() interprets them together.
+// Parsed options before resolve() combines them.
 struct ParsedOptions {
-    std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
+    std::vector<std::pair<std::string, std::string>> settings;  // in command-line order
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
-    std::array<std::string, 2> sides;  // of drawn_paths: NAME=VALUE,...
+    std::array<std::string, 2> sides;  // by drawn_paths: NAME=VALUE,...
     std::vector<std::string> test;
     std::vector<std::string> renderers;  // NAME=FILE.json
     std::optional<std::string> times;
@@ -47,12 +47,12 @@ struct ParsedOptions {
     std::vector<std::string> require;  // audit: NAME=MAGNITUDE
 };
 
-// Timed frames where --runs does not say otherwise: few where times only stand beside a picture or a verdict.
+// Default of --runs. Low where times only accompany images or verdicts.
 constexpr int usualRuns(std::string_view command) {
     return command == "bench" || command == "tradeoff" ? 5 : 2;
 }
 
-// Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.
+// Adds all options of `command` to `app`. Parsing fills `options` and `parsed`.
 void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed);
 
 }  // namespace diptych::cli

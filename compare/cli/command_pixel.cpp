@@ -15,7 +15,7 @@ namespace diptych::cli {
 
 namespace {
 
-// What no story can be told of.
+// Throws for options that a pixel breakdown does not support.
 void checkOnePixel(const Options& options) {
     const auto [x, y] = *options.pixel;
     const std::string pixel = fmt::format("--pixel {},{}", x, y);

@@ -24,14 +24,14 @@ struct ScenePlan {
     std::string scene;
     Requirements needs;
     std::vector<Requirements::Line> lines;
-    std::vector<std::string> notes;  // what was read otherwise than the file says
+    std::vector<std::string> notes;  // deviations from the glTF file
     std::vector<PathPlan> paths;
-    std::vector<FrameWork> work;         // of --estimate
-    std::vector<CompiledPath> compiled;  // of --compile-on
+    std::vector<FrameWork> work;         // with --estimate
+    std::vector<CompiledPath> compiled;  // with --compile-on
     const DeviceInfo* compiler = nullptr;
 };
 
-// Estimates for the GPUs of the compiler's family; without a compiler for all GPUs.
+// Estimates for the compiler's GPU family, or for all GPUs without a compiler.
 std::vector<bench::FrameEstimate> estimatesOf(const ScenePlan& plan, const FrameWork& work) {
     std::vector<bench::FrameEstimate> all;
     std::vector<bench::PassCycles> cycles;

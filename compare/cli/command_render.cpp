@@ -61,7 +61,7 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
     return frames;
 }
 
-// Everything or nothing of it. Returns where each Frame is.
+// Writes the output atomically. Returns the location of each Frame.
 std::vector<std::filesystem::path> writeAll(const Options& options, const PictureChoice& picture,
                                             const std::vector<Frame>& frames, Json& result,
                                             const ReportDevice& device, const Stage& progress) {
@@ -125,7 +125,7 @@ int runRender(const Options& options) {
     const ReportDevice made = madeBy(device);
     say(options, "on " + made.name);
     Json result = resultOf(made);
-    // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
+    // Render everything before writing, so that an unreadable scene leaves no partial folder.
     KeptReferences kept(output.path, output.kind == OutputKind::folder);
     const std::vector<Frame> frames = drawAll(options, settings, device ? &*device : nullptr, kept, progress);
     for (const Frame& frame : frames) {

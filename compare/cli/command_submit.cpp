@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mostShards = 16;  // where none are asked for
+constexpr int mostShards = 16;  // at most, without --shards
 
-// The words without -o and what it says.
+// Removes -o and its value.
 std::vector<std::string> withoutOut(const std::vector<std::string>& words) {
     std::vector<std::string> left;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -46,7 +46,8 @@ int runSubmit(const Options& options) {
     if (words.empty())
         throw std::runtime_error(
             "submit slurm: a command is missing; for example submit slurm -- compare scenes/ -o report");
-    const Options command = parseCommandLine(words);  // whatever is wrong is said here, not in a log
+    const Options command = parseCommandLine(words);  // reports usage errors here instead of in a job's
+                                                      // log
     if (!command.help.empty() || (command.command != "compare" && command.command != "tradeoff"))
         throw std::runtime_error(fmt::format(
             "submit slurm: {}: only compare and tradeoff can be split into shards", words.front()));

@@ -52,8 +52,8 @@ void checkTradeoffOptions(const Options& options) {
         throw std::runtime_error(*problem);
 }
 
-// All that a row depends on beside its Settings. The reference's pixels stand for the scene's contents,
-// whatever files they come from; the file's size and time for what is not in view.
+// Inputs of a row besides its Settings. The reference's fingerprint identifies the visible contents; the
+// file's size and time detect other changes.
 Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFrames& references) {
     const std::string& scene = options.scenes.front();
     std::error_code error;
@@ -75,14 +75,15 @@ Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFram
             {"driver", tradeoff.device.driver}};
 }
 
-// What a row takes, in pixels drawn: for a progress line.
+// Relative cost of a row, pixels, for the progress line.
 double weightOf(const Settings& settings) {
     return static_cast<double>(settings.size.width) * settings.size.height;
 }
 
-// Timed frames of each visit of a row: the first when it is drawn, the others once all are.
+// Timed frames in each timing block of a row. The first block runs when the row is rendered, the others
+// after all rows.
 std::vector<int> visitsOf(int runs) {
-    constexpr int most = 5;  // each makes the row's images anew
+    constexpr int most = 5;  // each block allocates the row's images again
     const int at_once = std::max(4, (runs + most - 1) / most);
     std::vector<int> visits{std::min((runs + 1) / 2, at_once)};
     for (int left = runs - visits.front(); left > 0; left -= visits.back())
@@ -143,7 +144,7 @@ public:
         sayWhenInterrupted(fmt::format("finished rows are kept in {}: the same command continues from there",
                                        SweepState::folderOf(folder_).string()));
         const double drawn =
-            referenceDone + (0.98 - referenceDone) * 0.7;  // captures and errors are in the first visit
+            referenceDone + (0.98 - referenceDone) * 0.7;  // the first block includes captures and errors
         measure(renderer, references, state, stage.part(referenceDone, drawn));
         timeAgain(renderer, references, state, stage.part(drawn, 0.98));
         addExternalRows(views, references, state);
@@ -193,7 +194,7 @@ private:
         }
     }
 
-    // A row of each renderer that is not ours, from every camera; one that fails has none.
+    // Adds a row for each external renderer, over all cameras. A failed renderer gets a note instead.
     void addExternalRows(SceneViews& views, const ReferenceFrames& references, SweepState& state) {
         const TradeoffTable table(tradeoff_, sweep_.rows, terminalColumns(stdout), options_.verbose);
         for (const external::Renderer& renderer : options_.renderers) {
@@ -226,7 +227,7 @@ private:
         }
     }
 
-    // Whoever reads may have gone: what was asked for is the folder, and that is finished.
+    // A closed stdout does not stop the sweep: the folder is the result.
     void print(const std::string& line) {
         if (std::ferror(stdout)) return;
         progress_.wipe();
@@ -234,11 +235,11 @@ private:
         std::fflush(stdout);
     }
 
-    // The other frames, in rounds of all rows, each in an order of its own: what disturbs the device for a
-    // while falls on no choice of Settings more than on another. Rows that are visited together take turns.
+    // Times the remaining blocks in rounds over all rows, each round in a random order. A temporary
+    // disturbance of the device then biases no row. The rows of one batch are interleaved.
     void timeAgain(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                    const Stage& stage) {
-        constexpr std::size_t atOnce = 6;  // rows whose images there are
+        constexpr std::size_t atOnce = 6;  // rows with allocated images
         const std::vector<int> visits = visitsOf(options_.runs);
         double all = 0, done = 0;
         for (const TradeoffRow& row : tradeoff_.rows)
@@ -279,7 +280,7 @@ private:
     Progress progress_;
     Device device_;
     Tradeoff tradeoff_;
-    std::vector<SceneError> errors_;  // of renderers of others
+    std::vector<SceneError> errors_;  // from external renderers
 };
 
 }  // namespace

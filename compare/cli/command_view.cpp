@@ -32,14 +32,14 @@ namespace {
 
 using Place = JsonAt<nlohmann::json>;
 
-// What a report says of one comparison and one of its channels.
+// One comparison of a report, and one of its channels.
 struct ReportedView {
-    std::vector<std::string> command;  // that made the comparison
+    std::vector<std::string> command;  // reproduces the comparison
     std::string channel;
     std::optional<Options::Pixel> pixel;
 };
 
-constexpr int most_side = 65536;  // pixels a side of a picture
+constexpr int most_side = 65536;  // largest image side, pixels
 
 bool fails(const Place& of) {
     return of.at("verdict").text() == "fail";
@@ -49,7 +49,7 @@ bool isOf(const Place& channel, int number) {
     return channel.at("number").json() == number;
 }
 
-// Whether it fails, and by the channel asked for, if one was.
+// Whether the comparison fails; with --debug, whether that channel fails.
 bool failsHere(const Place& comparison, const Options& options) {
     if (!options.debug_given) return fails(comparison);
     return std::ranges::any_of(comparison.at("channels").each(), [&](const Place& channel) {
@@ -57,7 +57,7 @@ bool failsHere(const Place& comparison, const Options& options) {
     });
 }
 
-// The first that fails, or else the first; of the scene, if one was given.
+// The first failing comparison, else the first. Considers only the given scene, if any.
 Place chosenComparison(const Place& comparisons, const Options& options) {
     std::optional<Place> first;
     for (const Place& comparison : comparisons.each()) {
@@ -70,7 +70,7 @@ Place chosenComparison(const Place& comparisons, const Options& options) {
     return *first;
 }
 
-// The channel asked for; else the first that fails, or lit.
+// The channel of --debug, else the first that fails, else lit.
 Place chosenChannel(const Place& channels, const Options& options) {
     std::optional<Place> best;
     for (const Place& channel : channels.each()) {
@@ -106,7 +106,7 @@ ReportedView readReport(const Options& options) {
     });
 }
 
-// The options that the report's comparison was made with, and what of this command line goes beyond them.
+// Options of the report's comparison, extended by those of this command line.
 Options reported(const Options& given) {
     const ReportedView of = readReport(given);
     Options options =
@@ -142,7 +142,7 @@ int runView(const Options& given) {
     view.subject.scene = options.scenes.front();
     view.subject.settings = options.settings;
     view.subject.sides = options.sides;
-    // Places in the picture, and pictures beside it, are of the size that compare would draw.
+    // Pixel coordinates and images beside the view refer to the size that compare renders.
     view.size_given =
         options.size_given || options.pixel || options.selection.any() || !options.baseline_file.empty();
     view.look.mode = options.shown;
@@ -168,7 +168,7 @@ int runView(const Options& given) {
         const Settings settings = options.sides.of(withoutReference(view.subject.settings), path);
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
     }
-    // What is wrong with the command is said before a window opens; what goes wrong later, in it.
+    // Report usage errors before the window opens, and later errors inside it.
     if (std::filesystem::is_directory(view.subject.scene))
         throw std::runtime_error(fmt::format(
             "{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene));

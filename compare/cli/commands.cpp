@@ -69,7 +69,7 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
                 settings.camera = camera;
                 settings.time = time;
                 settings = options.sides.of(settings, path);
-                // A path drawn beside the reference gets no Setting that only the reference reads.
+                // Drop Settings that only the reference reads from the paths beside it.
                 if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
                     settings = withoutReference(settings);
                 if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
@@ -121,7 +121,7 @@ void checkValidation(const Device& device) {
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
-    // In multiples of drawing one frame, roughly: files differ widely, built-in scenes are made at once.
+    // In units of one rendered frame, roughly. File sizes vary widely; built-in scenes load at once.
     const double load = scene.starts_with("builtin:") ? 0.1 : 4;
     return load / (load + framesIn(render) * static_cast<double>(frames));
 }

@@ -38,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The commands that the report names draw one of its scenes again, beside it and not in its place.
+// The report's commands write beside the report instead of replacing it.
 std::string againBeside(const fs::path& folder) {
     constexpr const char* name = "diptych-again";
     return folder.filename() == name ? std::string(name) + "-again" : name;
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    // Parts of one report are of one device, or of the same two.
+    // All parts of a report come from the same device, or the same two devices.
     void checkDevice() {
         Json device = Json::array();
         for (const Device* of : {&device_, other_.get()})
@@ -110,20 +110,20 @@ private:
                                        items_.mine.size()));
     }
 
-    // Runs what is about one scene. One that cannot be read or drawn becomes an error of the report, and the
-    // others are compared.
+    // Runs `work` on one scene. A scene that cannot be read or rendered becomes an error of the report,
+    // and the other scenes continue.
     void attempt(const shards::Item* item, const std::function<void()>& work) {
         try {
             work();
         } catch (const std::system_error&) {
-            throw;  // of this machine
+            throw;  // errors of this machine, such as a full disk, end the command
         } catch (const std::runtime_error& error) {
             errors_.emplace(item, SceneError{item->scene, error.what()});
             say(options_, fmt::format("{}; continuing with the other scenes", error.what()));
         }
     }
 
-    // Before anything is drawn, which may take long.
+    // Detects unreadable scenes before the long rendering starts.
     void checkHeaders() {
         for (const shards::Item* item : items_.mine)
             if (!parts_.contains(item)) attempt(item, [&] { checkScene(item->scene); });
@@ -135,7 +135,7 @@ private:
             if (!parts_.contains(item) && !errors_.contains(item)) left.push_back(item);
         const auto all = static_cast<double>(items_.mine.size());
         auto done = all - static_cast<double>(left.size());
-        // One scene is loaded while another is drawn.
+        // Loads the next scene while one is rendered.
         const auto load = [&](std::size_t i) {
             return std::async(std::launch::async, [this, name = left[i]->scene] {
                 return loadShown(name, options_.settings, {});
@@ -182,7 +182,7 @@ private:
         }
         ReportPart part =
             writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));
-        // Where another renderer failed, the next run tries again.
+        // If an external renderer failed, the next run tries the scene again.
         if (report.errors.empty()) kept_.keep(nameOf(item), stampOf(item.scene));
         for (const SceneError& error : report.errors) errors_.emplace(&item, error);
         references.remove();
@@ -231,11 +231,11 @@ private:
     Progress progress_;
     Device device_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    const std::unique_ptr<Device> other_;  // of --against-device
+    const std::unique_ptr<Device> other_;  // --against-device
     AgainstDevice against_;
     TextureProbe probe_;
     std::map<const shards::Item*, ReportPart> parts_;
-    std::multimap<const shards::Item*, SceneError> errors_;  // of the scene, or of other renderers
+    std::multimap<const shards::Item*, SceneError> errors_;  // of the scene or of external renderers
 };
 
 }  // namespace

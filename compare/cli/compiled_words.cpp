@@ -17,7 +17,7 @@ std::string numberOr(const ShaderCost::Value& value, const char* otherwise) {
     return value ? fmt::format("{:.0f}", *value) : otherwise;
 }
 
-// One path's pipelines of a row.
+// One path's pipelines in a row.
 struct Cell {
     int pipelines = 0;
     ShaderCost heaviest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A compiler's statistics of both paths' pipelines, as text and as JSON.
+// Compiler statistics of both paths' pipelines, as text and JSON.
 #pragma once
 
 #include "compare/render/compiled_plan.h"
@@ -11,11 +11,11 @@
 
 namespace diptych::cli {
 
-// One row for each shader of each pass, the paths side by side: how many pipelines have it, and what is said
-// of the heaviest. Below: what each feature adds, what is wrong.
+// Table with one row per shader and pass, the paths side by side: number of pipelines and the heaviest
+// one. Below it: the cost of each feature, and problems.
 std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& device);
 
-// "+38 VGPRs, occupancy 16 to 10, +2,048 bytes": what changes.
+// The changed statistics: "+38 VGPRs, occupancy 16 to 10, +2,048 bytes".
 std::string addedInWords(const FeatureCost& cost);
 
 nlohmann::ordered_json compiledJson(std::span<const CompiledPath> paths, const DeviceInfo& device);

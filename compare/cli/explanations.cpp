@@ -27,7 +27,7 @@ bool isWanted(const Options& options, const Comparison& comparison) {
            });
 }
 
-// A scene on the device.
+// A scene uploaded to the device.
 struct Drawing {
     Drawing(const Options& options, Device& device, const Frame& frame, const Stage& progress)
         : name(frame.scene),
@@ -45,15 +45,15 @@ bool hasAll(const Frame& frame, const std::vector<int>& channels) {
     return std::ranges::all_of(channels, [&](int mode) { return frame.channels.contains(mode); });
 }
 
-// A Frame of a file of another renderer does not say how it was lit: as ours, then.
+// Another renderer's file declares no lighting Settings: assume ours.
 Frame asOurs(const Frame& file, const Frame& drawn) {
     Frame frame = file;
     frame.settings = drawn.settings;
     return frame;
 }
 
-// Surfaces that another renderer may have where its channels say nothing of them: one change of Settings of a
-// row at most is believed.
+// Surface conventions that another renderer may use without declaring them. At most one change per row is
+// accepted.
 using SurfaceChange = void (*)(Settings&);
 template <SpecularKernel kernel>
 void widenRoughness(Settings& s) {
@@ -67,15 +67,16 @@ const std::vector<std::vector<SurfaceChange>> otherSurfaces{
     {turnNormalsOtherwise},
     {widenRoughness<SpecularKernel::variance>, widenRoughness<SpecularKernel::slope>}};
 
-// The view of `plain` with such surfaces, where each brings lit nearer to the other renderer's by at least
-// half of what it changes: as much as anything has to that it is believed of (unsaid_settings.h).
+// Renders the view of `plain` with the accepted changes; empty if there are none. A change is accepted if
+// it brings lit closer to the other renderer by at least half of its effect, the criterion of
+// unsaid_settings.h.
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
     const auto lit = [](const Frame& frame) -> const Image& {
         return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
     };
     const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
-    // Under the conventions that it shows: what these do would hide what surfaces do.
+    // Find the renderer's lighting conventions first: their effect would hide that of the surfaces.
     RenderOptions light = options;
     light.channels = {static_cast<int>(gpu::DEBUG_lit)};
     const ConventionTrial trial{[&](const Settings& settings) { return lit(renderer.draw(settings, light)); },
@@ -102,7 +103,7 @@ std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Rend
         shown = std::move(*nearest);
     }
     if (surfaces == plain.settings) return {};
-    // Its channels: those of surfaces are the same under any convention.
+    // Surface channels do not depend on the lighting conventions.
     return renderer.draw(surfaces, options);
 }
 
@@ -112,7 +113,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
     const bool file = !left.origin.file.empty(), external = right.origin.external;
     if (file && external)
         throw std::runtime_error("Diptych rendered neither image, so it cannot explain their lighting");
-    // Where --channels left some out.
+    // Render again if --channels omitted channels.
     std::optional<Frame> again[2];
     RenderOptions render = renderOptions(options);
     render.channels = channels;
@@ -183,7 +184,7 @@ Frame lentChannels(const Frame& external, const Frame& plain, Renderer& renderer
     Frame frame = external;
     frame.settings = ours.settings;
     frame.requested.clear();
-    // Not what ours adds up light from: that is ours alone.
+    // Only explained channels: our lighting sums describe our own image.
     for (const int mode : explainedChannels())
         if (const auto found = ours.channels.find(mode); found != ours.channels.end())
             frame.channels.try_emplace(mode, found->second);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why lit differs, for a report.
+// Explanations of lit differences, for a report.
 #pragma once
 
 #include "compare/cli/options.h"
@@ -14,21 +14,21 @@
 
 namespace diptych::cli {
 
-// Whether some comparison gets an explanation: with --explain all do, else those whose lit fails.
+// Whether any comparison is explained: all with --explain, else those whose lit fails.
 bool isExplained(const Options& options, const Report& report);
 
-// Adds them. Verdicts stay as they are. What cannot be explained says why.
+// Adds explanations; verdicts do not change. A comparison that cannot be explained gets the reason.
 void addExplanations(const Options& options, Device& device, Report& report, const Stage& progress);
 
-// The words of the command line that explains a scene: the other path, or what `test` names, against
+// Words of the command that explains a scene. The test is the other path or `test`, compared with
 // `baseline`.
 std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
                                       const std::vector<std::pair<std::string, std::string>>& test);
 
-// Another renderer's picture of the view of `ours`, as explain() takes it: with the Settings and the channels
-// of `ours` where it says nothing of them, so that what its lit differs by is sought in the lighting. Where
-// ours comes nearer to it with normals of skins turned otherwise (--skin-normals) or roughness that is
-// widened by normals (--spec-aa), those are the channels.
+// Another renderer's image of the view of `ours`, as input of explain(). Settings and channels that it
+// does not declare come from `ours`, so lit differences are attributed to lighting. Tries other skin
+// normals (--skin-normals) and widened roughness (--spec-aa), and takes the channels that bring lit
+// closer.
 Frame lentChannels(const Frame& external, const Frame& ours, Renderer& renderer,
                    const RenderOptions& options);
 

@@ -24,8 +24,7 @@
 
 namespace {
 
-// Everything that goes wrong ends here: one line on stderr, exit code 2; with --json an object on stdout as
-// well.
+// Handles every error: one line on stderr, exit code 2, and an object on stdout with --json.
 int fail(const std::string& what, bool json) {
     diptych::printMessage(what);
     if (json) {
@@ -36,15 +35,14 @@ int fail(const std::string& what, bool json) {
     return 2;
 }
 
-// The reader of stdout has closed the pipe, so the program ends by SIGPIPE as usual. Until here the signal
-// was ignored, so that no unfinished file is left behind.
+// The reader of stdout closed the pipe. Ends the program by SIGPIPE, which was ignored until now so that
+// no partial file remains.
 [[noreturn]] void endOfPipe() {
     diptych::dieOf(SIGPIPE);
 }
 
-// Whoever starts the program may have closed descriptor 0, 1 or 2, and the next file that is opened would get
-// its number and the messages. Opened the wrong way round, so that reading and writing fail as on a closed
-// one.
+// Opens descriptors 0, 1 and 2 if the parent closed them. Otherwise the next opened file would receive the
+// messages. The access mode is reversed, so that reads and writes fail as on a closed descriptor.
 void holdStandardDescriptors() {
     for (const int descriptor : {0, 1, 2})
         if (::fcntl(descriptor, F_GETFD) == -1 &&
@@ -65,12 +63,12 @@ int main(int argc, char** argv) {
     const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     try {
         std::signal(SIGPIPE, SIG_IGN);
-        std::signal(SIGXFSZ, SIG_IGN);  // too large a file (ulimit -f) is an error of writing as any other
+        std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) becomes a write error
         diptych::watchInterruption();
         const int code = run(diptych::cli::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
         errno = 0;
         if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-            // An earlier write may have failed, whose reason is gone.
+            // errno is lost if an earlier write failed: test the pipe.
             pollfd reader{STDOUT_FILENO, POLLOUT, 0};
             if (errno == 0 && poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) endOfPipe();
             throw std::system_error(errno, std::generic_category(), "stdout: cannot write");

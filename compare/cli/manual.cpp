@@ -13,12 +13,12 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Of the commands, in the order in which --help has them.
+// Visible commands in the order of --help.
 std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
 }
 
-// Those that --help prints.
+// Options that --help prints.
 std::vector<const CLI::Option*> optionsOf(const CLI::App& app) {
     return app.get_options(
         [](const CLI::Option* option) { return !option->get_group().empty() && !option->get_positional(); });
@@ -31,7 +31,7 @@ Words spellingsOf(const CLI::Option& option) {
     return spellings;
 }
 
-// "on|off" of an option that takes one of these; empty where it takes anything, or nothing.
+// The values of an option of type "on|off". Empty if it takes any value, or none.
 Words valuesOf(const CLI::Option& option) {
     Words values;
     const std::string type = option.get_type_size() == 0 ? "" : option.get_type_name();
@@ -41,7 +41,7 @@ Words valuesOf(const CLI::Option& option) {
         bar = type.find('|', from);
         values.push_back(type.substr(from, bar == std::string::npos ? bar : bar - from));
     }
-    // In capitals stands what any word may take the place of.
+    // Drop placeholders, which are in capitals.
     std::erase_if(values, [](const std::string& value) {
         return value.empty() || std::ranges::all_of(value, [](char c) { return c < 'a' || c > 'z'; });
     });
@@ -50,7 +50,7 @@ Words valuesOf(const CLI::Option& option) {
 
 // ---- the manual page --------------------------------------------------------------------------------------
 
-// As it stands: no line begins with a dot or quote, and hyphens are the command line's.
+// Escapes text for roff: lines that begin with a dot or quote, backslashes and hyphens.
 std::string roff(const std::string& text) {
     std::string out;
     bool at_start = true;
@@ -91,7 +91,7 @@ std::string list(const Words& words) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-// Of every command the options, and of every option that has such the values.
+// Options of every command, and values of every option that has a list of them.
 std::string bashCompletion(const CLI::App& app, const Words& scenes) {
     Words names;
     std::string cases, values;
@@ -144,7 +144,7 @@ complete -o filenames -o nospace -F _diptych diptych
         }());
 }
 
-// A description within [] of zsh's _arguments.
+// A description inside the [] of zsh's _arguments.
 std::string zshText(std::string text) {
     text = oneParagraph(std::move(text));
     std::string out;

@@ -85,7 +85,7 @@ nlohmann::ordered_json resultOf(const ReportDevice& made) {
 }
 
 ReportDevice madeBy(const std::optional<Device>& device) {
-    // In files of a reference that was drawn without any device: what made it.
+    // Named in the files of a reference that needed no device.
     return device ? reportDevice(*device)
                   : ReportDevice{"double precision, no Vulkan device", softwareName, "cpu"};
 }

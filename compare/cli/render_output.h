@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `render` draws and writes, of one picture or of many.
+// Outputs of `render`, for one image or many.
 #pragma once
 
 #include "compare/cli/commands.h"
@@ -16,40 +16,40 @@
 
 namespace diptych::cli {
 
-inline constexpr const char* single_manifest = "frame.json";  // in a folder that holds one Frame
-// In a folder that holds a folder for each Frame, or the numbered pictures of --frames.
+inline constexpr const char* single_manifest = "frame.json";  // in a folder of one Frame
+// In a folder with one folder per Frame, or with the numbered images of --frames.
 inline constexpr const char* several_manifest = "frames.json";
 
 Output outputIn(const Options& options);
-// The folder of one of several Frames: "1" of the first.
+// The folder of one of several Frames: "1" for the first.
 std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame);
-// One Frame may replace several and the other way round. Throws, naming -o, where something cannot be
-// replaced: call it before the first Frame is drawn.
+// Throws, naming -o, if the output cannot be replaced: call before rendering. Folders of one and of
+// several Frames may replace each other.
 void checkFolder(const Output& output, std::size_t count, bool force);
-// What an earlier render left, one Frame or several.
+// Files of an earlier render, one Frame or several.
 std::vector<std::string> earlierIn(const std::filesystem::path& folder);
 
-// Asked for by name, a channel must be there, or it throws; of "all", a path gives what it can.
+// Throws if the path does not support a channel that was requested by name.
 void checkChannels(const Options& options);
-// What pictures show: the channels asked for by name, and --debug; without either, lit.
+// Channels shown in images: those requested by name, and --debug. Default: lit.
 ShownChannels shownChannels(const Options& options);
-// What the files need: an EXR the channels asked for; pictures those that they show, lit for its exposure,
-// and which pixels are background.
+// Channels to render. An EXR needs the requested ones. Images need the shown ones, lit for the exposure,
+// and material_id for the background.
 std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested);
-// Notes what was given for and the path ignores.
+// Notes options that the path ignores.
 void noteIgnored(const Options& options);
 
-// The JSON of a run, without Frames.
+// The JSON of a run, with an empty list of Frames.
 nlohmann::ordered_json resultOf(const ReportDevice& made);
-// What is said to have made Frames; the reference needs no device.
+// The device named in the output; the reference needs none.
 ReportDevice madeBy(const std::optional<Device>& device);
-// Where in the command's time drawing ends: writing takes as long as five frames drawn (lavapipe, the gallery
-// at 1280x720 with all channels).
+// Fraction of the command's time after which rendering ends. Writing takes as long as five rendered frames
+// (lavapipe, gallery, 1280x720, all channels).
 double drawnShare(const RenderOptions& render);
 // "x.lit.png, x.normals.png"
 std::string pictureNames(const std::vector<std::filesystem::path>& files);
 
-// render --frames N: numbered pictures of one scene, each written as soon as it is drawn.
+// render --frames N: numbered images of one scene, each written as soon as it is rendered.
 int runFrames(const Options& options);
 
 }  // namespace diptych::cli

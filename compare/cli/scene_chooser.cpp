@@ -43,7 +43,7 @@ std::size_t figureOf(const std::string& name) {
     throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
 }
 
-// What may be chosen: with --grid what that says, else what a sweep tries of what the scene feels.
+// Candidates: the rows of --grid, or default rows limited to settings that the scene is sensitive to.
 std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
                                     const Scene& scene) {
     const Settings& given = options.settings;
@@ -52,13 +52,13 @@ std::vector<Settings> candidatesFor(const Options& options, const Device& device
     if (options.grid.empty()) sweep = tradeoff::rowsThatAreFelt(sweep, view.lights, &scene);
     sweep = tradeoff::withoutRefused(std::move(sweep), given,
                                      [&](const Settings& row) { return drawingProblem(device, row); });
-    // What the command line says comes first of its path: the others are told by what they change of it.
+    // For each path, Settings of the command line come first: other rows are described as changes to them.
     std::ranges::stable_sort(sweep.rows, {},
                              [&](const Settings& row) { return tradeoff::choicesOf(row, given).size(); });
     return std::move(sweep.rows);
 }
 
-// Settings with some changes more; nothing where a sweep would not draw them.
+// Settings with further changes; empty if a sweep would not render them.
 std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
     tradeoff::Grid grid;
     for (const tradeoff::Choice& choice : tradeoff::choicesOf(of, given))
@@ -81,7 +81,7 @@ std::vector<std::string> allCameras(const Scene& scene) {
     return cameras.empty() ? std::vector<std::string>{""} : cameras;
 }
 
-// The scene's cameras that are not among `cameras`, which are named as the command line names them.
+// The scene's cameras that are not in `cameras`. `cameras` has indices or names, as on the command line.
 std::vector<std::string> unseenCameras(const Scene& scene, const std::vector<std::string>& cameras) {
     std::vector<std::string> unseen;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
@@ -179,11 +179,11 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
-        // Of all cameras, and of other scenes perhaps.
+        // Printed commands apply to all cameras, and maybe to other scenes.
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
-    held.lab->release();  // others draw from here on
+    held.lab->release();  // frees memory for other evaluators
     if (report.choice.chosen)
         for (const std::string& camera : unseenCameras(held.scene, cameras))
             report.unseen.push_back(fromUnseen(held, truth, report, camera));
@@ -200,7 +200,7 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
     const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
-    // The other path's best, or where none of it fits, its most accurate.
+    // The other path's best candidate, or its most accurate one if none fits the budget.
     std::optional<std::size_t> other = bestOfOtherPath(choice, report.budget);
     const bool fits = other.has_value();
     for (std::size_t i = 0; i < choice.candidates.size() && !fits; ++i)
@@ -208,8 +208,9 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
             candidate.judged && candidate.settings.path != chosen_path &&
             (!other || candidate.judged->error < choice.candidates[*other].judged->error))
             other = i;
-    if (!other) return {};  // --grid has candidates of one path alone
-    // Where nothing is blended, both may differ in how they would blend: not where a variation blends.
+    if (!other) return {};  // --grid has candidates of one path only
+    // Without blended pixels the candidates may differ in transparency settings. Equalize these, because
+    // variations may add blending.
     std::array<Settings, 2> compared{chosen.settings, choice.candidates[*other].settings};
     const tradeoff::ReferenceFrames& references = references_.at(report.scene);
     if (std::ranges::all_of(references.frames,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses for scenes on one device: reads them, draws their references, and measures what a choice asks for.
+// Runs `choose` on one device: reads scenes, renders references, measures candidates.
 #pragma once
 
 #include "compare/choose/common.h"
@@ -19,13 +19,13 @@ namespace diptych::cli {
 
 class SceneChooser {
 public:
-    // `options` must outlive it. Throws where --figure is none.
+    // `options` must outlive the object. Throws if --figure names no metric.
     explicit SceneChooser(const Options& options);
     ~SceneChooser();
 
     choose::ChoiceReport choose(const std::string& scene);
-    // One Settings for all of these, which choose() chose for. Of the scenes one at a time is held; another
-    // is read again, but its reference is kept.
+    // One Settings for all scenes; call choose() for each first. Only one scene is in memory: others are
+    // read again, but their references are kept.
     choose::CommonReport chooseForAll(const std::vector<choose::ChoiceReport>& reports);
 
 private:
@@ -41,7 +41,7 @@ private:
     Progress progress_;
     Device device_;
     std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::string, tradeoff::ReferenceFrames> references_;  // by scene
+    std::map<std::string, tradeoff::ReferenceFrames> references_;  // key: scene
     std::unique_ptr<Held> held_;
 };
 

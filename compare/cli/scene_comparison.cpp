@@ -31,18 +31,19 @@ std::vector<std::string> materialNames(const Scene& scene) {
     return names;
 }
 
-// What a reference in mode scene grants the device of a scene that has textures.
+// Measured texture sampling of the device, a tolerance for comparisons with a traced reference. Empty if
+// not needed.
 std::optional<TextureSampling> texelsFor(const Options& options, const std::vector<Settings>& settings,
                                          Device& device, bool textures, TextureProbe& probe) {
     const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
         return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
     });
     if (!textures || !againstReference(options) || !scenes) return {};
-    if (!probe) probe = probeTextures(device, settings.front().textures);  // of all alike
+    if (!probe) probe = probeTextures(device, settings.front().textures);  // the same for all Settings
     return probe;
 }
 
-// The left panel's place among a report's Frames, of those of one view that begin at `first`.
+// Index of the left panel's Frame in the report. The view's Frames begin at `first`.
 std::size_t leftPanel(const Options& options, std::size_t first) {
     if (!options.baseline_file.empty()) return 0;
     if (againstReference(options)) return first;
@@ -50,14 +51,14 @@ std::size_t leftPanel(const Options& options, std::size_t first) {
     return first + static_cast<std::size_t>(path - drawn_paths.begin());
 }
 
-// A short name for a device in those of Frames and files: "SwiftShader" of "SwiftShader Device (Subzero)".
+// Short device name for Frames and files: "SwiftShader" for "SwiftShader Device (Subzero)".
 std::string shortName(const std::string& device) {
     const auto end =
         std::ranges::find_if(device, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
     return std::string(device.begin(), end);
 }
 
-// Puts the Frames of another device behind those of each view, and gathers what they are judged with.
+// Inserts the other device's Frames after those of each view, and adds the inputs of their verdicts.
 void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, AgainstDevice& against,
                     std::vector<Frame> there, const std::shared_ptr<PipelineSet>& pipelines,
                     DrawnScene& drawn) {
@@ -87,8 +88,7 @@ void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, Again
     drawn.frames = std::move(frames);
 }
 
-// One view by every renderer that is not ours. One that fails is an error of the report, and nothing is
-// compared with it.
+// Renders one view with every external renderer. A failed renderer becomes an error of the report.
 void drawExternals(const Scene& scene, const SceneView& view, const Settings& settings,
                    const Options& options, std::size_t baseline, const Stage& stage, DrawnScene& drawn) {
     const auto all = static_cast<double>(options.renderers.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What compare does with a scene: draws it by all paths and cameras and compares the Frames.
+// Renders a scene with all paths and cameras and compares the Frames.
 #pragma once
 
 #include "compare/checks/visual_checks.h"
@@ -24,59 +24,59 @@ namespace diptych::cli {
 bool againstReference(const Options& options);
 std::vector<Path> comparedPaths(const Options& options);
 
-// Whether a comparison is with a reference in mode scene, drawn now or read from a file.
+// Whether the baseline is a reference in mode scene, rendered now or read from a file.
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline);
 
-// The reference must have samples where the paths have them; and what is compared with it then is lit. Throws
-// std::runtime_error, one line.
+// Checks a multisampled comparison with the reference. Throws std::runtime_error, one line, if the sample
+// counts do not match, or if --channels lacks lit: only lit is compared then.
 void checkSamples(const Options& options, const std::vector<Settings>& settings,
                   const std::optional<Frame>& baseline);
 
-// Throws std::runtime_error, one line, over what two devices are not compared with.
+// Throws std::runtime_error, one line, for options that a cross-device comparison does not support.
 void checkAgainstDevice(const Options& options, const std::vector<Settings>& settings);
 
-// Where in a scene's time drawing ends, and comparing. In frames drawn, to a Frame: comparing takes one,
-// writing the report three (lavapipe, the gallery at 1280x720: 4.8 s, 0.3 s and 0.9 s).
+// Fractions of a scene's time after which rendering and comparing end. Per Frame, comparing takes one
+// rendered frame, writing three (lavapipe, gallery, 1280x720: 4.8 s, 0.3 s and 0.9 s).
 struct Shares {
     double drawn, compared;
 };
 Shares sharesOf(const RenderOptions& render);
 
-// What was drawn of a scene.
+// The rendered Frames of a scene.
 struct DrawnScene {
-    std::vector<Frame> frames;  // two by two; three by three where the reference comes first
+    std::vector<Frame> frames;  // in pairs; in triples if the reference comes first
     std::vector<Requirements> needs;
-    // Per camera and time: what a person must look at, and the materials' names by id.
+    // Per camera and time: visual inspections, and material names by ID.
     std::vector<std::vector<FeatureChecks>> visual_checks;
     std::vector<std::vector<std::string>> materials;
-    std::optional<TextureSampling> texels{};  // of a scene with textures beside a reference in mode scene
-    std::vector<ExternalPicture> external{};  // of --renderer
-    std::vector<SceneError> errors{};         // of renderers that failed
-    // With --against-device: one per view and path, and frames are four by four.
+    std::optional<TextureSampling> texels{};  // for textured scenes with a reference in mode scene
+    std::vector<ExternalPicture> external{};  // --renderer
+    std::vector<SceneError> errors{};         // failed external renderers
+    // With --against-device: one per view and path; frames are then in groups of four.
     std::vector<AcrossDevices> across{};
 };
 
-// The other device of --against-device, and what scenes share: its pipelines, and the precision of both, with
-// what is measured of textures once a scene has some.
+// The other device of --against-device, and data that scenes share: its pipelines and both devices'
+// precision. Texture precision is measured at the first textured scene.
 struct AgainstDevice {
     Device& device;
     std::shared_ptr<PipelineSet> pipelines;
     std::array<DevicePrecision, 2> precision;
 };
 
-// What the device makes of texels, measured when the first scene asks.
+// The device's texture sampling, measured at the first use.
 using TextureProbe = std::optional<TextureSampling>;
-// `outside`: while other renderers draw. `pipelines`: shared with other scenes; nullptr: its own. `against`:
-// every Frame is drawn there, too.
+// `outside`: progress of external renderers. `pipelines`: shared with other scenes; nullptr: its own.
+// `against`: renders every Frame there too.
 DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
                      Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
                      const std::shared_ptr<PipelineSet>& pipelines = nullptr,
                      AgainstDevice* against = nullptr);
 
-// How much of drawing a scene, 0 to 1, is ours, and not the other renderers'.
+// Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
 double ourShare(const Options& options);
 
-// Its comparisons, and what failed; the commands of them write to `again`.
+// The scene's comparisons and errors. Commands in the report write to `again`.
 Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn,
                 std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
                 const std::string& again, const Stage& progress);

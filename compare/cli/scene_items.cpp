@@ -30,7 +30,7 @@ Json fileStamp(const fs::path& file) {
     return {file.string(), size, fs::last_write_time(file, error).time_since_epoch().count()};
 }
 
-// What the command was asked for beside its scenes, by name.
+// Options that affect the result, besides the scenes, by name.
 Json askedOf(const Options& options, const std::vector<Settings>& settings) {
     Json asked = Json::object();
     const Json first = parseOrderedJson(toJson(settings.front()));
@@ -52,7 +52,7 @@ Json askedOf(const Options& options, const std::vector<Settings>& settings) {
     asked["exposure"] = {options.picture.exposure.value_or(0), options.picture.ev100.value_or(0),
                          options.picture.tonemap};
     asked["grid"] = options.grid;
-    // By contents: another machine may have these files elsewhere.
+    // Identify files by content: paths differ between machines.
     for (const auto& [name, file] : {std::pair<const char*, fs::path>{"tolerances", options.tolerances},
                                      {"mask", options.selection.mask},
                                      {"match-exposure", options.match_exposure},
@@ -103,7 +103,7 @@ Json resumeKey(const Options& options, const std::vector<Settings>& settings) {
             {"program", shards::programStamp()},
             {"command", options.command},
             {"asked", askedOf(options, settings)},
-            {"one", options.scenes.size() == 1},  // whether files stand in a folder of the scene's
+            {"one", options.scenes.size() == 1},  // affects the folder of a scene
             {"single_file", options.single_file},
             {"files", files}};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of a command that takes many, and which of them this program has.
+// The scenes of a command, and the ones of this shard.
 #pragma once
 
 #include "compare/cli/options.h"
@@ -15,16 +15,16 @@ namespace diptych::cli {
 struct SceneItems {
     shards::Shard shard;
     std::vector<shards::Item> all;
-    std::vector<const shards::Item*> mine;  // of `all`, in its order
+    std::vector<const shards::Item*> mine;  // in `all`, same order
     nlohmann::ordered_json plan;            // of shards::Manifest
 };
 
-// As --shard and --timings say. `settings`: of every camera, time and path. Throws std::runtime_error, one
-// line, where they say nothing that can be done.
+// Applies --shard and --timings. `settings`: all cameras, times and paths. Throws std::runtime_error, one
+// line, if they are invalid.
 SceneItems itemsOf(const Options& options, const std::vector<Settings>& settings);
 
-// Everything but scenes and device that the parts of a command depend on: those of another are of no use when
-// it is gone on with. And what tells that a scene's files are those that they were.
+// resumeKey(): the inputs of a command's parts except scenes and device. An interrupted command reuses
+// parts with the same key. stampOf() detects changed scene files.
 nlohmann::ordered_json resumeKey(const Options& options, const std::vector<Settings>& settings);
 nlohmann::ordered_json stampOf(const std::string& scene);
 

@@ -10,10 +10,10 @@ namespace diptych::cli {
 
 namespace {
 
-// Candidates whose frames are kept for their times: each has images of its own.
+// Prepared candidates kept for timing. Each owns its images.
 constexpr std::size_t mostKept = 4;
 
-// The Settings from each camera of the reference frames.
+// The Settings with each camera of the reference frames.
 std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::ReferenceFrames& references) {
     std::vector<Settings> seen;
     for (const Frame& reference : references.frames) {
@@ -40,7 +40,7 @@ tradeoff::FrameErrors SceneLab::errorsOf(std::size_t camera, const Image& lit) {
 }
 
 choose::Judged SceneLab::judge(const Settings& settings) {
-    // A picture of another size is enlarged by what its pixels show, which takes a capture.
+    // An image of another size is upsampled by its channels, which requires a capture.
     if (!isOfReferenceSize(settings)) return judgeCaptured(settings);
     tradeoff::ErrorsOfCameras errors;
     choose::Judged judged;
@@ -92,8 +92,8 @@ PreparedFrames& SceneLab::drawn(const Settings& seen) {
     return each.frames;
 }
 
-// A driver may compile a pipeline when it is first drawn with, and a clipmap's pages are drawn in the first
-// frame and kept for the others; else the first frame is like any other.
+// The first frame may differ from the next: a driver may compile the pipeline, and a clipmap renders pages
+// that later frames reuse. Renders it in these cases only.
 SceneLab::Drawn& SceneLab::readyForTimes(const Settings& seen) {
     Drawn& each = prepared(seen);
     if (each.made_pipelines || seen.shadows == Shadows::clipmap) drawn(seen);

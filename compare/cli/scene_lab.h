@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Candidates of a choice, drawn and timed on a device.
+// Renders and times candidates on a device, for a choice.
 #pragma once
 
 #include "compare/choose/search.h"
@@ -16,18 +16,18 @@
 
 namespace diptych::cli {
 
-// Of one scene, from every camera of the reference frames: errors are of all their pixels together, times the
-// mean over them, memory that of the camera that takes most; passes are those of the first camera.
+// Evaluates one scene over all cameras of the reference frames. Errors cover all pixels together, times
+// are the mean, memory is the maximum; passes are of the first camera.
 class SceneLab final : public choose::Lab {
 public:
-    // `figure`: of tradeoff::errorFigures. The renderer and the references must outlive it.
+    // `figure`: index in tradeoff::errorFigures. The renderer and the references must outlive the object.
     SceneLab(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
              const RenderOptions& options)
         : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
 
     choose::Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
-    // Drops the frames that it keeps: each has images of its own.
+    // Drops the prepared frames, which own images.
     void release() {
         drawn_.clear();
         judged_.clear();
@@ -38,7 +38,7 @@ private:
     std::size_t cameras() const { return references_.frames.size(); }
     bool isOfReferenceSize(const Settings& settings) const;
     choose::Judged judgeCaptured(const Settings& settings);
-    // Of a picture from one of the cameras; FLIP of what was judged before is known by its pixels.
+    // Errors of one camera's image. FLIP results are cached by the image's hash.
     tradeoff::FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
     struct Drawn {
@@ -46,12 +46,12 @@ private:
         PreparedFrames frames;
         bool made_pipelines, is_drawn = false;
     };
-    // Makes frames of Settings with their cameras unless they are there, so that what was judged is timed
-    // without being made anew. Of the others the latest are kept, mostKept for each camera.
+    // Allocates frames of these Settings, cameras included, unless they exist. Evaluated candidates can
+    // then be timed without a new allocation. Keeps the latest mostKept others per camera.
     void prepare(std::span<const Settings> seen);
     Drawn& prepared(const Settings& seen);
-    PreparedFrames& drawn(const Settings& seen);  // that were prepared, drawn once at least
-    // That were prepared, and whose next frame, which the caller draws, is like all others.
+    PreparedFrames& drawn(const Settings& seen);  // prepared before, rendered at least once
+    // Prepared before. The next frame, which the caller renders, costs the same as later ones.
     Drawn& readyForTimes(const Settings& seen);
 
     Renderer& renderer_;
@@ -59,7 +59,7 @@ private:
     std::size_t figure_;
     RenderOptions options_;
     std::list<Drawn> drawn_;
-    // By camera and picture; only of FLIP, as other figures hold every pixel.
+    // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
     std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;
 };
 

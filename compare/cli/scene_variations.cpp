@@ -24,8 +24,7 @@ namespace {
 constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
               materialId = static_cast<int>(gpu::DEBUG_material_id);
 
-// The cameras of some references and nothing else of them. One that was chosen by how much it shows is named,
-// so that a variation is seen from there too.
+// The references' cameras only. Automatic cameras become explicit, so that variations use the same view.
 tradeoff::ReferenceFrames viewpointsOf(const Scene& scene, const tradeoff::ReferenceFrames& references) {
     tradeoff::ReferenceFrames viewpoints;
     for (const Frame& reference : references.frames) {
@@ -43,7 +42,7 @@ tradeoff::ReferenceFrames viewpointsOf(const Scene& scene, const tradeoff::Refer
     return viewpoints;
 }
 
-// A scene that was made of another, uploaded.
+// A modified copy of a scene, uploaded.
 struct MadeScene {
     MadeScene(Scene made, const VariedScene& of, tradeoff::ReferenceFrames from)
         : scene(std::move(made)),
@@ -58,10 +57,10 @@ struct MadeScene {
     SceneLab lab;
 };
 
-// Sums over cameras.
+// Sums over all cameras.
 struct Figures {
-    double fragments = 0, covered = 0, triangles = 0;  // solid
-    double lights = 0, surface = 0;                    // evaluated, over the pixels that show a solid surface
+    double fragments = 0, covered = 0, triangles = 0;  // opaque
+    double lights = 0, surface = 0;                    // evaluated lights, pixels with an opaque surface
 };
 
 Overdraw overdrawFrom(const VariedScene& of, SceneViews& views, const Settings& settings) {
@@ -109,7 +108,7 @@ std::size_t materialsIn(const Scene& scene) {
     return used.size();
 }
 
-// Shares of the pictures: blended over, and showing any surface.
+// Fractions of the images: blended pixels, and pixels with any surface.
 std::pair<double, double> blendedShare(const tradeoff::ReferenceFrames& references, double surface) {
     double blended = 0, all = 0;
     for (const Frame& frame : references.frames) {
@@ -132,7 +131,7 @@ public:
     }
 
 private:
-    // Both Settings changed, the scene as it is.
+    // The same scene with other Settings on both paths.
     std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
         return [this_of = of_, value, settings] {
             const auto lab =
@@ -142,7 +141,7 @@ private:
                              }};
         };
     }
-    // Another scene; `valueOf` measures its value.
+    // A modified scene; `valueOf` measures the property.
     template <class Make, class ValueOf>
     std::function<Variation()> withScene(Make make, ValueOf valueOf, bool bakedLights = false) const {
         std::array<Settings, 2> settings = of_.settings;
@@ -196,7 +195,7 @@ private:
         seen.camera = viewpoints_.frames.front().settings.camera;
         const SceneView& view = of_.views.at(viewRequest(seen));
         std::vector<Light> lights = view.lights;
-        if (view.sun && !lights.empty()) lights.pop_back();  // the environment's, which is taken out again
+        if (view.sun && !lights.empty()) lights.pop_back();  // the environment's light
         if (lights.empty()) property.not_varied = "the scene has no light to remove or copy";
         for (const double factor : {0.5, 2.0, 4.0}) {
             if (lights.empty() || (factor < 1 && lights.size() < 2)) continue;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's properties that may decide between the paths, as a device measures them, and the scene with other
-// values of them.
+// Measures properties of a scene that may decide between the paths, and varies them.
 #pragma once
 
 #include "compare/choose/deciders.h"
@@ -19,30 +18,30 @@ namespace diptych::cli {
 struct VariedScene {
     Device& device;
     std::shared_ptr<PipelineSet> pipelines;
-    SceneViews& views;  // of the scene as it is
+    SceneViews& views;  // of the original scene
     Renderer& renderer;
     const tradeoff::ReferenceFrames& references;
-    std::array<Settings, 2> settings;  // the chosen ones, and the other path's
+    std::array<Settings, 2> settings;  // chosen path, other path
 };
 
-// Draws both of the scene as it is, from every camera of the references.
+// Renders both Settings of the original scene, from every camera of the references.
 choose::DrawInOrder drawAsIs(const VariedScene& of);
 
-// Size, overdraw, lights a pixel, blended pixels, samples, materials and triangles. What `of` refers to must
-// outlive the variations, which are made when they are asked for, one at a time.
+// Size, overdraw, lights per pixel, blended pixels, samples, materials and triangles. The references in
+// `of` must outlive the variations. Variations are created on demand, one at a time.
 std::vector<choose::Property> propertiesOf(const VariedScene& of);
 
-// Copies of a scene with one thing changed. Of posed `lights` each `factor` times, a whole number; or of 1/n
-// every n-th one.
+// Copies of a scene with one change. withLights(): `lights` have world transforms. `factor` n repeats each
+// light n times; 1/n keeps every n-th light.
 Scene withLights(const Scene& scene, std::span<const Light> lights, double factor);
-// Before each solid triangle that no skin moves so many copies of it, a little below it.
+// Adds `copies` hidden copies below each opaque triangle that is not skinned or morphed.
 Scene withOverdraw(const Scene& scene, int copies);
-// For each triangle so many more that cover nothing.
+// Adds `copies` degenerate triangles per triangle.
 Scene withEmptyTriangles(const Scene& scene, int copies);
-// One material for all that is solid; one for each primitive.
+// withOneMaterial(): one for all opaque primitives. withOwnMaterials(): one for each primitive.
 Scene withOneMaterial(const Scene& scene);
 Scene withOwnMaterials(const Scene& scene);
-// Every material blended, or none.
+// Makes every material blended, or none.
 Scene withBlends(const Scene& scene, bool all);
 
 }  // namespace diptych::cli

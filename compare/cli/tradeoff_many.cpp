@@ -38,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 using page::markup;
 
-// A scene's tradeoff, as the page of all lists it.
+// One scene's row on the page of all scenes.
 struct Swept {
     std::string scene, folder, device;
     std::size_t rows = 0, front = 0;
@@ -67,7 +67,7 @@ Swept sweptOf(const shards::Item& item, const Place& json) {
     return swept;
 }
 
-// Reads the tradeoff of a scene below `root`; throws where it is none.
+// Reads a scene's tradeoff below `root`; throws if the file is not a tradeoff.
 Swept sweptIn(const fs::path& root, const shards::Item& item) {
     const std::string name = item.folder + tradeoff::tradeoffManifest;
     return named((root / name).string(), [&] {
@@ -122,8 +122,8 @@ std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>&
         rows, page::tables);
 }
 
-// The page and the manifest: at first of no scene, so that the folder is ours from then on, and of all once
-// they are there. Returns the manifest.
+// Writes the page and the manifest, and returns the manifest. Called first without scenes, which marks the
+// folder as ours, and again with all scenes.
 std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
                       const std::vector<const shards::Item*>& done) {
     std::vector<Swept> swept;
@@ -187,7 +187,7 @@ int tradeoffMany(const Options& options, const fs::path& folder,
             kept.keep(name, stampOf(item->scene));
             done.push_back(item);
         } catch (const std::system_error&) {
-            throw;  // of this machine
+            throw;  // errors of this machine, such as a full disk, end the command
         } catch (const std::runtime_error& error) {
             manifest.errors.push_back({item->scene, error.what()});
             say(options, fmt::format("{}; continuing with the other scenes", error.what()));

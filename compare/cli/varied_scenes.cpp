@@ -22,10 +22,10 @@ float lengthOf(const glm::vec3& v) {
     return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-// Before each triangle `copies` of it, each a little deeper below the surface: drawn first, they are shaded
-// and covered again, unless a pre-pass has told that they will be.
+// Inserts `copies` before each triangle, each slightly deeper below the surface. They are rendered first,
+// so without a pre-pass they are shaded and then overdrawn.
 void addBelow(Primitive& primitive, int copies) {
-    constexpr float deeper = 1e-3f;  // of the primitive's extent; far more than depth resolves
+    constexpr float deeper = 1e-3f;  // fraction of the primitive's extent; far above depth precision
     const std::size_t count = primitive.positions.size();
     const float step = deeper * lengthOf(extentOf(primitive));
     std::vector<std::uint32_t> indices;
@@ -58,10 +58,10 @@ Scene withLights(const Scene& scene, std::span<const Light> lights, double facto
     varied.lights.clear();
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light light = lights[i];
-        light.node = -1;  // `lights` are posed
+        light.node = -1;  // `lights` have world transforms
         light.source = -1;
         if (factor >= 1) {
-            // As bright: --light-cutoff gives a darker one a smaller range.
+            // Full brightness: --light-cutoff would shrink the range of a darker light.
             varied.lights.push_back(light);
             light.shadow = false;
             for (int copy = 1; copy < static_cast<int>(factor); ++copy) varied.lights.push_back(light);

@@ -13,7 +13,7 @@
 namespace diptych::cli {
 namespace {
 
-// Collects "--option value" for options that differ from their defaults; numbers keep all their digits.
+// Collects "--option value" for options that differ from their defaults. Numbers keep all digits.
 class WordList {
 public:
     template <class T>

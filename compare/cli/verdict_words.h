@@ -10,12 +10,11 @@ namespace diptych::cli {
 
 struct Options;
 
-// What `compare` was told about what counts. Reads the rules; throws std::runtime_error, one line, where they
-// are wrong or name no channel.
+// Options of `compare` that influence a verdict. Reads the rules; throws std::runtime_error, one line, if
+// they are invalid or name an unknown channel.
 CompareOptions compareOptions(const Options& options);
 
-// The words of the options that influence a verdict, except scene, camera and Settings: rules, pixels,
-// metric.
+// Words of options that influence a verdict (rules, pixels, metric), without scene, camera and Settings.
 std::vector<std::string> wordsOfWhatCounts(const Options& options);
 
 }  // namespace diptych::cli

@@ -25,12 +25,12 @@ namespace diptych::external {
 namespace {
 
 constexpr double named_fov = 0.15;      // degrees
-constexpr double named_aspect = 0.01;   // a ratio beyond 1
+constexpr double named_aspect = 0.01;   // pixel aspect ratio minus 1
 constexpr double named_shift = 0.2;     // pixels
-constexpr double named_factor = 0.113;  // of the logarithm: 12 %
-constexpr double named_dark = 0.02;     // of what should be shown: it is not lit at all
+constexpr double named_factor = 0.113;  // 12 %, natural logarithm
+constexpr double named_dark = 0.02;     // fraction of the expected value; less means not lit
 
-// The lamp that lights of a kind stand for; Lamp::none of none of them.
+// The lamp type for a light type. Any other type counts as area.
 Lamp lampOf(LightKind kind) {
     switch (kind) {
         case LightKind::directional:
@@ -44,7 +44,7 @@ Lamp lampOf(LightKind kind) {
     }
 }
 
-// "pi", "1 / (4 pi)", "2": a factor that has a name, within 6 %; else the number.
+// A well-known factor within 6 %, such as "pi", "1 / (4 pi)" or "2"; else the number itself.
 struct NamedFactor {
     double value;
     const char* name;
@@ -105,7 +105,7 @@ private:
         return all;
     }
 
-    // What a picture writes of a chart; what should be shown.
+    // written(): pixel value of a chart; told(): expected radiance.
     std::optional<glm::dvec3> written(Lamp lamp, const std::string& chart) const {
         const Shown& shown = *pictures_.at(lamp);
         if (shown.picture.empty()) return {};
@@ -146,7 +146,7 @@ private:
         if (std::abs(aspect - 1) > named_aspect)
             say("aspect", fmt::format("pixels are {:.3g} times as wide as high", aspect));
         if (std::abs(found->shift.x) > named_shift || std::abs(found->shift.y) > named_shift) {
-            // A grant tells a projection, and what is turned round afterwards moves the other way.
+            // Corrections apply to the projection, so a flip of the image reverses the shift.
             const auto grant = [](double shift, bool turned) {
                 return std::round(-100 * (turned ? -shift : shift)) / 100;
             };
@@ -206,16 +206,16 @@ private:
             if (best == 1) say("colour_textures_linear", "colour textures are read as linear; they are sRGB");
             if (best == 2) say("colour_textures_twice", "colour textures are decoded from sRGB twice");
         }
-        // Under whichever lamp lights the face beside it.
+        // Uses the first lamp that lights the neighbouring white face.
         for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot}) {
             const auto white = radiance(lamp, "white"), data = radiance(lamp, "data texture");
             const double white_told = luminous(told(lamp, "white"));
             if (!white || !data || luminous(*white) < named_dark * white_told) continue;
-            // The metal's part of what is reflected is the same whichever way the number is read.
+            // The metal's reflectance does not depend on how the texture is decoded.
             const double metallic = 128.0 / 255, other = linearFromSrgb(metallic);
             const double as_told = luminous(told(lamp, "data texture")) / white_told;
             const double metal = (as_told - (1 - metallic)) / metallic;
-            // Of lamps near by, both faces get what the truth says.
+            // The ground truth includes the distance of near lamps for both faces.
             const std::array candidates{as_told, 1 - other + other * metal};
             if (nearest(luminous(*data) / luminous(*white), candidates) == 1)
                 say("data_textures_srgb", "data textures are decoded from sRGB; they are linear");
@@ -234,7 +234,7 @@ private:
         return best;
     }
 
-    // The part of what a lamp should make the white face show that it does.
+    // White face under a lamp: measured over expected radiance.
     std::optional<double> partOf(Lamp lamp) const {
         const auto shown = radiance(lamp, "white");
         return shown ? std::optional(luminous(*shown) / luminous(told(lamp, "white"))) : std::nullopt;
@@ -253,7 +253,7 @@ private:
                 factors[lamp] = *part;
         }
         if (factors.empty()) return;
-        // One factor of all that are drawn is one convention.
+        // A common factor of all supported lamps is a single convention.
         const double first = factors.begin()->second;
         const bool alike = factors.size() > 1 && std::ranges::all_of(factors, [&](const auto& of) {
                                return std::abs(std::log(of.second / first)) < named_factor;
@@ -334,7 +334,7 @@ Settings chartSettings(Lamp lamp) {
     Settings settings;
     settings.size = {384, 216};
     settings.shadows = Shadows::off;
-    settings.scene_lights = lamp != Lamp::none;  // else a scene without lights gets a sun
+    settings.scene_lights = lamp != Lamp::none;  // otherwise a scene without lights gets a default sun
     return settings;
 }
 
@@ -345,7 +345,7 @@ ChartTruth truthUnder(const Scene& charts, Lamp lamp) {
     RenderOptions options;
     options.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};
     options.runs = 0;
-    // Of what faces take from the sky lightFrom() says more than a picture, which takes seconds.
+    // lightFrom() gives the exact irradiance of faces; rendering the sky takes seconds.
     const Scene scene = chartsUnder(charts, lamp == Lamp::environment ? Lamp::none : lamp);
     settings.scene_lights = lamp != Lamp::environment && settings.scene_lights;
     Frame frame = std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a renderer of others means what it is told: what it shows of charts (builtin:calibration) whose answer
-// is known, under no lamp, under one of each kind, and under a sky.
+// Detects how another renderer interprets its inputs. Renders charts with known radiance
+// (builtin:calibration) without light, under one lamp of each type, and under an environment.
 #pragma once
 
 #include "compare/external/renderer_file.h"
@@ -18,40 +18,41 @@
 
 namespace diptych::external {
 
-// What lights the charts in one picture.
+// The light source of one calibration image.
 enum class Lamp { none, directional, point, spot, area, environment };
 inline constexpr Lamp lamps[] = {Lamp::none, Lamp::directional, Lamp::point,
                                  Lamp::spot, Lamp::area,        Lamp::environment};
 std::string_view nameOf(Lamp lamp);  // "no light", "directional", ...
 
-// The charts with that lamp alone.
+// The charts with this lamp only.
 Scene chartsUnder(const Scene& charts, Lamp lamp);
-// Of all these pictures: 384x216, without shadows.
+// 384x216, without shadows.
 Settings chartSettings(Lamp lamp);
 
-// The charts as they must be shown: lit, and material_id; by the reference. Under a sky lit is without it.
+// Expected lit and material_id, by the reference. lit excludes the environment's light.
 struct ChartTruth {
     Image lit, ids;
 };
 ChartTruth truthUnder(const Scene& charts, Lamp lamp);
 
-// A picture of the charts, or why there is none.
+// An image of the charts, or the reason for its absence.
 struct Shown {
     Lamp lamp = Lamp::none;
     ChartTruth truth;
-    Image picture;  // empty: there is none
+    Image picture;  // empty: missing
     std::string problem{};
 };
 
-// One way in which a renderer does not mean what it is told. `name`: as README.md lists them; `grant`: what
-// of "granted" in its file would make up for it, empty where nothing does.
+// One deviation from the requested inputs. `name`: see README.md. `grant`: members of "granted" that
+// correct it; empty if nothing does.
 struct Deviation {
     std::string name, words;
     nlohmann::ordered_json grant = nlohmann::ordered_json::object();
 };
 
-// Of pictures under every lamp, Lamp::none first. Nothing: it means what it is told, as far as the charts
-// show: a field of view to 0.15 degrees, places to 0.2 pixels, intensities to 12 %.
+// `pictures`: one per lamp, Lamp::none required. Detects deviations above 0.15 degrees of field of view,
+// 0.2 pixels of position and 12 % of intensity. Empty if there are none. Throws std::invalid_argument
+// without the image for Lamp::none.
 std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> pictures);
 
 }  // namespace diptych::external

@@ -32,7 +32,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A file descriptor of this process, closed at its end.
+// Owns a file descriptor.
 class Descriptor {
 public:
     explicit Descriptor(int number = -1) : number_(number) {}
@@ -51,8 +51,8 @@ void check(int error, const char* what) {
     if (error != 0) throw std::system_error(error, std::generic_category(), what);
 }
 
-// All that posix_spawn is told: what to run, where, what it reads and writes, and a group of its own. It is
-// made before the fork, behind which nothing is allocated.
+// Arguments of posix_spawn: program, folder, stdin, stdout, stderr and a new process group. Built before
+// fork(), because the child must not allocate.
 class SpawnPlan {
 public:
     SpawnPlan(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int output,
@@ -69,7 +69,7 @@ public:
         check(posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0), "posix_spawn");
         check(posix_spawn_file_actions_adddup2(&actions_, output, 1), "posix_spawn");
         check(posix_spawn_file_actions_adddup2(&actions_, error, 2), "posix_spawn");
-        // The signals that this program waits for are blocked in it, and the program's own are not.
+        // Resets the signal mask and handlers, which the program would inherit.
         sigset_t none, all;
         sigemptyset(&none);
         sigfillset(&all);
@@ -87,20 +87,20 @@ public:
     SpawnPlan(const SpawnPlan&) = delete;
     SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-    // 0, or why the program did not start.
+    // Returns 0 or an errno.
     int start(pid_t& process) const {
         return posix_spawnp(&process, words_.front(), &actions_, &attributes_, words_.data(),
                             variables_.data());
     }
 
 private:
-    std::string pwd_;  // the folder that it runs in, which programs also look up there
+    std::string pwd_;  // PWD must agree with the working directory
     std::vector<char*> variables_, words_;
     posix_spawn_file_actions_t actions_{};
     posix_spawnattr_t attributes_{};
 };
 
-// A pipe from a program; the end that it writes to is closed here once it has begun.
+// A pipe from the program. The write end is closed here after the fork.
 struct Pipe {
     Pipe() {
         int ends[2];
@@ -112,7 +112,7 @@ struct Pipe {
     std::optional<Descriptor> output, input;
 };
 
-// A socket pair: one end hears when the other says something, or is gone with its process.
+// A socket pair: one end notices if the other sends a byte or its process dies.
 struct Lifeline {
     Lifeline() {
         int ends[2];
@@ -123,7 +123,7 @@ struct Lifeline {
     std::optional<Descriptor> ours, supervisors;
 };
 
-// Returns how many bytes it has cut off.
+// Keeps the last most_said bytes; returns the number of dropped ones.
 std::size_t addToEnd(std::string& text, std::string_view more) {
     text.append(more);
     const std::size_t over = text.size() - std::min(text.size(), most_said);
@@ -131,7 +131,7 @@ std::size_t addToEnd(std::string& text, std::string_view more) {
     return over;
 }
 
-// Adds what there is to read; false at the end of it.
+// Reads all available bytes. Returns false at the end of the stream.
 bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     char bytes[4096];
     for (;;) {
@@ -145,18 +145,18 @@ bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     }
 }
 
-// The supervisor's report on the program, at its own end.
+// The supervisor's report.
 struct Told {
-    int failed = 0;  // an errno: it did not start
-    int status = 0;  // as waitpid() has it
+    int failed = 0;  // errno of a failed start
+    int status = 0;  // of waitpid()
 };
 
-// By its number: glibc 2.36 declares pidfd_open() without C linkage.
+// By system call number: glibc 2.36 declares pidfd_open() without C linkage.
 int handleOf(pid_t process) {
     return static_cast<int>(::syscall(SYS_pidfd_open, process, 0));
 }
 
-// Kills every child of this process, which has one thread.
+// Kills all children of this single-threaded process.
 void killChildren() {
     const int list = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
     if (list < 0) return;
@@ -173,9 +173,9 @@ void killChildren() {
     ::close(list);
 }
 
-// A process whose parent ends becomes a child of this one, the subreaper: killing children until none is left
-// ends all that the program started, whatever group or session it is in. A process that lives after 5 s is
-// stuck in the kernel, or another user's.
+// Kills everything that the program started, in any group or session. Orphans become children of this
+// process, the subreaper, so it kills children until there are none. A process that survives 5 s is stuck
+// in the kernel or belongs to another user.
 void killAllBelow() {
     constexpr timespec pause{0, 1'000'000};
     for (int i = 0; i < 5000; ++i) {
@@ -188,9 +188,9 @@ void killAllBelow() {
     }
 }
 
-// The locks and pipes of this program are not the supervisor's: of its descriptors these two are left.
+// Closes all inherited descriptors, such as locks and pipes, except these two.
 void keepOnly(int& lifeline, int& report) {
-    // From 3 on, where neither is in the other's way.
+    // Duplicates from 3 on first, so that neither overwrites the other.
     lifeline = ::dup2(::fcntl(lifeline, F_DUPFD_CLOEXEC, 3), 0);
     report = ::dup2(::fcntl(report, F_DUPFD_CLOEXEC, 3), 1);
     if (::syscall(SYS_close_range, 2u, ~0u, 0u) == 0) return;
@@ -198,11 +198,11 @@ void keepOnly(int& lifeline, int& report) {
     for (int file = 2; file < most; ++file) ::close(file);
 }
 
-// The process between this program and another: it starts that, and ends all of it when that has ended, when
-// the lifeline says so, and when this program is gone, however it went. In a child of a program with threads:
-// system calls alone.
+// The supervisor process. Starts the program, and kills all its processes when it ends, when the lifeline
+// signals, or when our process dies in any way. Runs in the fork of a multithreaded process: system calls
+// only.
 [[noreturn]] void supervise(const SpawnPlan& plan, int lifeline, int report) {
-    ::setpgid(0, 0);  // no signal of a terminal's
+    ::setpgid(0, 0);  // own group: the terminal sends it no signals
     sigset_t all;
     sigfillset(&all);
     ::sigprocmask(SIG_BLOCK, &all, nullptr);
@@ -218,7 +218,7 @@ void keepOnly(int& lifeline, int& report) {
         if (watched[0].fd < 0) told.failed = errno;
         while (told.failed == 0 && ::poll(watched, 2, -1) < 0 && errno == EINTR) {
         }
-        // Before it is waited for: until then nobody else can have its group's number.
+        // Before waitpid(): until then the group's number cannot be reused.
         ::kill(-process, SIGKILL);
         ::waitpid(process, &told.status, 0);
         killAllBelow();
@@ -227,8 +227,8 @@ void keepOnly(int& lifeline, int& report) {
     ::_exit(written == sizeof told ? 0 : 1);
 }
 
-// Until the supervisor has ended or the time is over, reads what the program says. The supervisor's end is
-// what counts and not that of the output, which whoever was started may hold open.
+// Reads output until the supervisor ends or the time is over. The end of the output is no criterion: a
+// grandchild may keep it open.
 bool waitFor(int supervisor, const Pipe& output, const Pipe& error, double seconds, Ended& ended) {
     const auto last = Clock::now() + std::chrono::duration<double>(seconds);
     pollfd watched[3] = {
@@ -257,7 +257,7 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
     const pid_t supervisor = ::fork();
     check(supervisor >= 0 ? 0 : errno, "fork");
     if (supervisor == 0) {
-        lifeline.ours.reset();  // its own copy would outlive this program's
+        lifeline.ours.reset();  // this copy would keep the lifeline open
         supervise(plan, lifeline.supervisors->number(), report.input->number());
     }
     for (Pipe* written : {&output, &error, &report}) written->input.reset();
@@ -272,7 +272,7 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
         }
         check(failed, "pidfd_open");
     }
-    Told told{0, SIGKILL};  // where somebody has killed the supervisor
+    Told told{0, SIGKILL};  // if the supervisor was killed
     const ssize_t count = ::read(report.output->number(), &told, sizeof told);
     if (count == sizeof told && told.failed != 0)
         throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),

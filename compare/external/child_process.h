@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another program that is run to its end, within a time.
+// Runs another program with a time limit.
 #pragma once
 
 #include <cstddef>
@@ -9,31 +9,31 @@
 
 namespace diptych::external {
 
-// How a program ended, and what it said.
+// Exit status and output of a program.
 struct Ended {
-    int code = -1;           // its exit code; -1: a signal ended it
+    int code = -1;           // exit code; -1: ended by a signal
     int signal = 0;          // that signal; 0: none
-    bool timed_out = false;  // it took longer than it may, and was killed
-    // The end of what it wrote to stdout and stderr, at most most_said bytes, as it wrote them; and how many
-    // bytes came before that.
+    bool timed_out = false;  // exceeded its time and was killed
+    // The last bytes of stdout and stderr, at most most_said, unmodified; and the number of bytes before
+    // them.
     std::string said;
     std::size_t unsaid = 0;
-    std::string warned;  // the end of what of it was written to stderr
+    std::string warned;  // the last bytes of stderr
     double ms = 0;
 
     bool well() const { return code == 0 && !timed_out; }
 };
 inline constexpr std::size_t most_said = 16 * 1024;
 
-// Runs arguments[0], which is looked for in PATH where it has no slash, with `arguments` as they are: no
-// shell reads them. Its working directory is `folder`, its stdin is empty, and all that it started, in
-// whatever group or session, is killed when the program ends, when `seconds` are over, and when this process
-// ends, however it does. Throws std::runtime_error, one line naming the program, where it cannot be started.
+// Runs arguments[0], found in PATH if it has no slash, with `arguments`; no shell is involved. The working
+// directory is `folder`, stdin is empty. Kills everything that the program started, in any group or
+// session, when it ends, after `seconds`, or when this process dies. Throws std::runtime_error, one line
+// naming the program, if it cannot start.
 Ended runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  double seconds);
 
-// "was killed after 60 s", "exited with 3", "was ended by signal 11 (Segmentation fault)"; empty where all is
-// well.
+// "was killed after its timeout of 60 s", "exited with 3", "was ended by signal 11 (Segmentation fault)".
+// Empty on success.
 std::string howItEnded(const Ended& ended, double seconds);
 
 }  // namespace diptych::external

@@ -29,9 +29,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The longest argument that Linux hands over, MAX_ARG_STRLEN with its end.
+// Linux limit of one argument: MAX_ARG_STRLEN less the terminator.
 constexpr std::size_t longest_argument = 128 * 1024 - 1;
-// Lines of what a renderer said that become notes; its last ones.
+// Last lines of stderr that become notes.
 constexpr std::size_t most_lines = 10;
 
 std::vector<std::string> linesOf(const std::string& text) {
@@ -53,7 +53,7 @@ std::vector<std::string> argumentsOf(const Renderer& renderer, const Job& job) {
     return arguments;
 }
 
-// To Rec.709 from linear RGB of other primaries with the same white, D65 (ITU-R BT.2087, SMPTE EG 432-1).
+// To linear Rec.709 from other primaries, both with white point D65 (ITU-R BT.2087, SMPTE EG 432-1).
 using Rows = std::array<std::array<double, 3>, 3>;
 constexpr Rows rec709_from_p3{
     {{1.2249401, -0.2249402, 0.0}, {-0.0420569, 1.0420571, 0.0}, {-0.0196376, -0.0786361, 1.0982735}}};
@@ -79,11 +79,11 @@ void turnRound(Image& image, bool rows, bool columns) {
                     from.at(columns ? image.width - 1 - x : x, rows ? image.height - 1 - y : y, c);
 }
 
-// As the renderer means its pixels.
+// Applies the input corrections to the pixels.
 void readAsGranted(Frame& frame, const Granted& granted) {
     for (auto& [mode, image] : frame.channels) {
         if (granted.upside_down || granted.mirrored) turnRound(image, granted.upside_down, granted.mirrored);
-        // The curve is that of display colours: of radiance alone.
+        // Transfer curve and primaries apply to radiance only.
         if (mode != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (granted.transfer == Transfer::srgb)
             for (float& value : image.data)
@@ -115,12 +115,12 @@ timespec writtenAt(const fs::path& file) {
     if (::lstat(file.c_str(), &status) != 0)
         throw std::runtime_error(errno == ENOENT ? std::string("wrote no picture to output.file")
                                                  : fmt::format("its picture: {}", std::strerror(errno)));
-    // A link leads to what was there before.
+    // Rejects links, which may lead to an older file.
     if (!S_ISREG(status.st_mode)) throw std::runtime_error("its picture is not a regular file");
     return status.st_mtim;
 }
 
-// Where the renderer failed: how, and the last line that it said.
+// How the renderer failed, and the last line of its output.
 std::string problemOf(const std::string& how, const Ended& ended) {
     const std::vector<std::string> lines = linesOf(ended.said);
     return lines.empty() ? how : fmt::format("{}: {}", how, lines.back());
@@ -136,7 +136,7 @@ Frame readPicture(const fs::path& file, const fs::path& after, const Granted& gr
         try {
             return frameFromExr(file);
         } catch (const std::runtime_error& error) {
-            std::string why = error.what();  // which names a folder that is gone by then
+            std::string why = error.what();  // names a temporary folder
             if (const std::size_t at = why.find(file.string()); at != std::string::npos)
                 why.replace(at, file.string().size(), "its picture");
             throw std::runtime_error(why);
@@ -174,7 +174,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         frame.origin.file = renderer.file.string();
         frame.origin.external = true;
         frame.origin.left_out = std::move(picture.origin.left_out);
-        std::erase(frame.origin.left_out, "A");  // how much of a pixel is covered
+        std::erase(frame.origin.left_out, "A");  // pixel coverage
         frame.origin.granted = inWords(renderer.granted);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.granted)

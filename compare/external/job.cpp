@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The view that is told: with the field of view that is granted.
+// The view with a corrected field of view.
 View toldView(const View& view, const Granted& granted) {
     View told = view;
     const double yfov = view.camera.yfov + glm::radians(granted.fov_offset);
@@ -38,12 +38,13 @@ View toldView(const View& view, const Granted& granted) {
     return told;
 }
 
-// OpenGL's clip space, as glTF has it: y up, depth -1 at the near plane and 1 at the far one.
+// OpenGL clip space, as in glTF: y up, depth -1 at the near plane, 1 at the far plane.
 glm::dmat4 clipFromView(const View& view, const Granted& granted) {
     const Camera& camera = view.camera;
     const double aspect = static_cast<double>(view.width) / view.height;
     const double n = camera.near, f = camera.far;
-    // A pixel is 2 / size of clip space, of which w is the part that grows with depth.
+    // A pixel is 2 / size in NDC. With perspective, w is the view depth, so the shift goes into the z
+    // column.
     const double x = 2 * granted.shift_x / view.width, y = -2 * granted.shift_y / view.height;
     glm::dmat4 clip(0.0);
     if (camera.orthographic) {
@@ -114,7 +115,7 @@ Image fromRightToLeft(const Image& image) {
     return turned;
 }
 
-// What "?scene=" and built-in names stand for is in no file that another renderer could read as meant.
+// Built-in scenes and "?scene=" names are not files that another renderer can read.
 bool isFile(const std::string& scene) {
     std::error_code error;
     return !scene.starts_with("builtin:") && fs::is_regular_file(scene, error);
@@ -187,7 +188,6 @@ private:
              std::vector<std::string>& notes) const {
         writeFile(folder_ / name, written.glb);
         for (const std::string& line : written.notes) {
-            // Of a copy the rig says the same once more.
             const std::string note = fmt::format("{}: omitted from {}: {}", renderer_.name, who, line);
             notes.push_back(note);
         }
@@ -204,7 +204,7 @@ private:
                 {"intensity", double{settings_.ibl_intensity} * granted_.environment_factor}};
     }
 
-    // Our pictures are 0 where no surface is seen, and nothing there is compared.
+    // Our images are 0 without a surface, and those pixels are not compared.
     Json background() const {
         const bool other = view_.background && view_.background != view_.environment;
         return {{"shown", false},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What another renderer is told: one JSON file of one picture, and the files that it names.
+// Input of an external renderer: one JSON file per image, and the files that it names.
 #pragma once
 
 #include "compare/external/renderer_file.h"
@@ -15,16 +15,16 @@
 namespace diptych::external {
 
 struct Job {
-    std::string text;                // the JSON, on one line: the last argument
-    std::filesystem::path file;      // the same as a file
-    std::filesystem::path picture;   // that is to be written
-    std::vector<std::string> notes;  // what of the scene it cannot say, one line each
+    std::string text;                // the JSON on one line: the last argument
+    std::filesystem::path file;      // the JSON as a file
+    std::filesystem::path picture;   // output
+    std::vector<std::string> notes;  // scene features that it cannot express, one line each
 };
 
-// Writes into `folder`, which is empty, absolute and remains the caller's: job.json, rig.glb, where there is
-// an environment environment.exr (and background.exr, where the one that is seen is another), and scene.glb
-// where the scene is no file of its own or the renderer asks for a copy. `settings`: of the picture that ours
-// is compared with. compare/external/job.schema.json describes the text. Throws std::runtime_error, one line.
+// Writes job.json and rig.glb into `folder`. With an environment adds environment.exr, and background.exr
+// if the visible one differs. Adds scene.glb if the scene is not a file or the renderer requests a copy.
+// `folder` is empty and absolute; the caller owns it. `settings`: of our image. The format is
+// compare/external/job.schema.json. Throws std::runtime_error, one line.
 Job writeJob(const std::filesystem::path& folder, const Scene& scene, const SceneView& view,
              const Settings& settings, const Renderer& renderer);
 

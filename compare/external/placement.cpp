@@ -12,7 +12,7 @@
 namespace diptych::external {
 namespace {
 
-// Of one mark: where its middle is, pixels from the picture's, and how many pixels it has.
+// A mark: centroid, pixels from the image's centre, and area, pixels.
 struct Mark {
     glm::dvec2 place{0};
     double area = 0;
@@ -44,7 +44,7 @@ double brightness(const Image& picture, int x, int y) {
     return most;
 }
 
-// What is brighter than half of the brightest around `place`, which no curve that grows changes.
+// Pixels around `place` with more than half of the maximum, which also works under a tone curve.
 std::optional<Mark> shownAround(const Image& picture, const glm::dvec2& place, double reach) {
     const glm::dvec2 corner = place + glm::dvec2(picture.width, picture.height) / 2.0;
     const int left = std::max(0, static_cast<int>(corner.x - reach)),
@@ -66,7 +66,7 @@ std::optional<Mark> shownAround(const Image& picture, const glm::dvec2& place, d
     return mark;
 }
 
-// A straight line through points, b = slope a + offset, by least squares; slope 1 where all have one a.
+// Least-squares line b = slope a + offset; slope 1 if all a are equal.
 struct Line {
     double slope = 1, offset = 0;
 };
@@ -85,8 +85,7 @@ Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
     return {slope, mb - slope * ma};
 }
 
-// The placement that is nearest to `guess`, with at least `least` marks; empty where one that must be in the
-// picture is not.
+// Refines `guess` from at least `least` marks. Empty if a mark that must be visible is not found.
 std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& picture,
                                 const Placement& guess) {
     constexpr std::size_t least = 4;
@@ -97,7 +96,7 @@ std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& pic
         const glm::dvec2 place = guess(mark.place);
         if (std::abs(place.x) + reach > picture.width / 2.0 ||
             std::abs(place.y) + reach > picture.height / 2.0)
-            continue;  // may be cut off
+            continue;  // may be clipped
         const std::optional<Mark> shown = shownAround(picture, place, reach);
         const double area = mark.area * guess.scale.x * guess.scale.y;
         if (!shown || shown->area < 0.6 * area || shown->area > 1.6 * area) return {};
@@ -127,22 +126,24 @@ std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>&
     for (const int material : marks)
         if (const std::optional<Mark> mark = markOf(ids, material)) told.push_back(*mark);
     std::optional<Placement> best;
-    constexpr double step = 1.02;  // of scales: 4 pixels at the edge of a picture of 400
+    constexpr double step = 1.02;  // scale step: 4 pixels at the edge of a 400 pixel image
     for (const bool upside_down : {false, true})
         for (const bool mirrored : {false, true})
             for (double scale = 0.5; scale < 2.05; scale *= step) {
                 Placement guess{upside_down, mirrored, glm::dvec2(scale), glm::dvec2(0), 0};
                 std::optional<Placement> found = fitted(told, picture, guess);
-                if (found) found = fitted(told, picture, *found);  // windows around where they are
+                if (found)
+                    found = fitted(told, picture, *found);  // search windows around the refined
+                                                            // positions
                 if (found && (!best || found->residual < best->residual)) best = found;
             }
-    constexpr double most = 1;  // pixels: squares that are sampled at pixels' middles are found to 0.1
+    constexpr double most = 1;  // pixels; squares sampled at pixel centres have an error of 0.1
     return best && best->residual < most ? best : std::nullopt;
 }
 
 std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& picture,
                                   const Placement& placement) {
-    constexpr int edge = 3;  // pixels that a filter may mix with what is beside
+    constexpr int edge = 3;  // pixels that a filter may mix with neighbours
     std::vector<double> values[3];
     const auto isInside = [&](int x, int y) {
         for (int v = -edge; v <= edge; ++v)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a picture shows the marks of the calibration charts, beside where it should.
+// Locates the marks of the calibration charts in an image.
 #pragma once
 
 #include "shared/image/image.h"
@@ -12,12 +12,12 @@
 
 namespace diptych::external {
 
-// From a place that was told to where it is shown, in pixels from the picture's middle, x to the right and y
-// down: first the picture is turned round, then made larger, then moved.
+// Maps expected to actual positions, pixels from the image's centre, x right, y down: first flips, then
+// scales, then shifts.
 struct Placement {
     bool upside_down = false, mirrored = false;
     glm::dvec2 scale{1}, shift{0};
-    double residual = 0;  // root mean square of what it leaves of the marks' places, pixels
+    double residual = 0;  // RMS of the marks' position errors, pixels
 
     glm::dvec2 operator()(const glm::dvec2& told) const {
         return {(mirrored ? -told.x : told.x) * scale.x + shift.x,
@@ -25,13 +25,13 @@ struct Placement {
     }
 };
 
-// `ids`: material_id as it should be, of which `marks` are emitters of 1 before nothing; `picture`: of the
-// same size, whatever curve it has. Each mark's centroid is measured within a window, for pictures that are
-// turned round in any way and of half to twice the scale. Empty where the marks are not found, to a pixel.
+// `ids`: expected material_id, with `marks` as emitters of radiance 1 on black. `picture`: same size, any
+// monotonic tone curve. Uses the centroid of each mark in a window; handles flips and scales from 1/2 to
+// 2. Empty if the residual exceeds a pixel.
 std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks, const Image& picture);
 
-// The median of a material's pixels, away from its edges, where the picture shows them; by component. Empty
-// where it does not.
+// Per-component median over a material's pixels in the image, away from its edges. Empty if none are
+// visible.
 std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& picture,
                                   const Placement& placement);
 

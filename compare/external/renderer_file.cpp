@@ -32,12 +32,12 @@ std::string_view wordOf(const std::pair<std::string_view, E> (&names)[N], E valu
     return "?";
 }
 
-// A grant that is a number, and one that is a flag.
+// Input corrections: numbers and flags.
 struct NumberGrant {
     std::string_view name;
     double Granted::*value;
     double neutral, least, most;
-    std::string_view words;  // {} is the number
+    std::string_view words;  // {}: the number
 };
 constexpr double largest_factor = 1e6;
 constexpr NumberGrant numbers[] = {
@@ -68,7 +68,7 @@ constexpr FlagGrant flags[] = {
     {"upside_down", &Granted::upside_down, "its picture is read from the bottom up"},
     {"mirrored", &Granted::mirrored, "its picture is read from right to left"}};
 
-constexpr std::string_view light_factor = "light_factor";  // of all kinds
+constexpr std::string_view light_factor = "light_factor";  // for all light types
 
 template <class E, std::size_t N>
 E oneOf(const JsonFields& fields, std::string_view key, const std::pair<std::string_view, E> (&names)[N]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another renderer, as a JSON file names it: its command, and the conventions that it is granted.
+// Describes an external renderer, read from a JSON file: its command and its known conventions.
 #pragma once
 
 #include <filesystem>
@@ -9,45 +9,46 @@
 
 namespace diptych::external {
 
-// Curve and primaries of the pixels that a renderer writes; ours are linear and of Rec.709.
+// Transfer curve and primaries of a renderer's pixels; ours are linear Rec.709.
 enum class Transfer { linear, srgb };
 enum class Primaries { rec709, display_p3, rec2020 };
 
-// How a renderer means what it is told, where that is not what the job says: what is told to it, or read from
-// it, is changed by as much. Neutral by default.
+// Corrections for a renderer that interprets its inputs differently. "Sent" corrections change the job,
+// "read" corrections change its image. Neutral by default.
 struct Granted {
-    // Told: lights of a kind are so many times as bright as they are; and the environment's radiance.
+    // Sent: factors on the intensity of lights by type, and on the environment's radiance.
     double point_factor = 1, spot_factor = 1, directional_factor = 1, area_factor = 1, environment_factor = 1;
-    double environment_rotation = 0;    // told: turned by so many degrees more, as --env-rotation
-    bool environment_mirrored = false;  // told: the picture of the environment, left for right
-    double fov_offset = 0;              // told: so many degrees more, vertically
-    // Told: the projection's centre, moved by so many pixels to the right and down. Of the matrix alone.
+    double environment_rotation = 0;    // sent: additional degrees, as in --env-rotation
+    bool environment_mirrored = false;  // sent: flips the environment image left to right
+    double fov_offset = 0;              // sent: additional degrees, vertical
+    // Sent: shift of the projection centre, pixels right and down. Affects the matrix only.
     double shift_x = 0, shift_y = 0;
-    bool upside_down = false, mirrored = false;  // read: row by row, column by column from the other side
-    Transfer transfer = Transfer::linear;        // read: what the pixels are decoded from
-    Primaries primaries = Primaries::rec709;     // read: what they are converted from
+    bool upside_down = false, mirrored = false;  // read: reverses rows, columns
+    Transfer transfer = Transfer::linear;        // read: curve to decode
+    Primaries primaries = Primaries::rec709;     // read: primaries to convert
 };
 
-// What is granted, a sentence each, as reports say it: "light_factor 2: ...".
+// One sentence per correction, for reports: "light_factor 2: ...".
 std::vector<std::string> inWords(const Granted& granted);
 
-// The names that "granted" of a file may have.
+// Allowed keys of "granted".
 std::vector<std::string_view> grantNames();
 
 struct Renderer {
     std::string name;                  // NAME of --renderer NAME=FILE.json
-    std::filesystem::path file;        // as the user wrote it
-    std::filesystem::path folder;      // that the file is in, absolute: where the command runs
+    std::filesystem::path file;        // as given
+    std::filesystem::path folder;      // absolute folder of the file; the command's working directory
     std::vector<std::string> command;  // argument list, not empty
-    double timeout = 60;               // s, for one picture
-    bool posed = false;                // it is always handed a copy of the scene, with all in its place
+    double timeout = 60;               // s, per image
+    bool posed = false;                // always send a posed copy of the scene
     Granted granted;
 };
 
-// Of "NAME=FILE.json". A name has letters, digits, "-", "_" and dots, and is none that a report gives.
-// Throws std::runtime_error, one line: "--renderer three: is NAME=FILE.json", "three.json: timeout: ...".
+// Parses "NAME=FILE.json". A name has letters, digits, "-", "_" and dots, and is not reserved by reports.
+// Throws std::runtime_error, one line: "--renderer three: give NAME=FILE.json", "three.json: timeout:
+// ...".
 Renderer readRenderer(const std::string& words);
-// The same of a file alone, as `diptych calibrate` takes it; its name is the file's without its ending.
+// Reads a file for `diptych calibrate`. The name is the file's stem.
 Renderer readRendererFile(const std::filesystem::path& file);
 
 }  // namespace diptych::external

@@ -12,7 +12,7 @@
 namespace diptych::external {
 namespace {
 
-constexpr double most_off = 0.06;  // of the logarithm; sRGB and a power of 1 / 2.2 differ by 0.1 at 0.02
+constexpr double most_off = 0.06;  // natural logarithm; sRGB and gamma 2.2 differ by 0.1 at 0.02
 
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -20,8 +20,8 @@ double medianOf(std::vector<double> values) {
     return *middle;
 }
 
-// What is written of Rec.709's primaries by a renderer that has others, column by column; white is alike.
-// Inverse of what external_frame.cpp converts by.
+// Pixel values of Rec.709 primaries in other primaries, column by column, for equal white points. Inverse
+// of the matrices in external_frame.cpp.
 const glm::dmat3 p3_from_rec709{
     {0.8224622, 0.0331942, 0.0170827}, {0.1775378, 0.9668058, 0.0723974}, {0.0, 0.0, 0.9105199}};
 const glm::dmat3 rec2020_from_rec709{
@@ -37,14 +37,14 @@ double distance(const glm::dmat3& a, const glm::dmat3& b) {
 }  // namespace
 
 Response::Response(std::vector<RampStep> ramp) {
-    // Steps that are written alike, or the least of the ramp that is written as nothing, say nothing.
+    // Skips steps that are written as 0 or like their predecessor.
     for (const RampStep& step : ramp)
         if (step.shown > 1e-9 && (ramp_.empty() || step.shown > 1.02 * ramp_.back().shown))
             ramp_.push_back(step);
     if (ramp_.size() < 2) return;
     if (ramp.back().shown <= 1.02 * ramp_.back().shown && ramp_.back().told < ramp.back().told)
         cut_off_ = ramp_.back().told;
-    // The step at which all is cut off has been cut already.
+    // The step at the limit is clipped already.
     const std::span<const RampStep> sound(ramp_.data(), ramp_.size() - (cut_off_ ? 1 : 0));
     const auto fits = [&](const auto& decoded, std::size_t most_steps) {
         std::vector<double> logs;
@@ -59,7 +59,7 @@ Response::Response(std::vector<RampStep> ramp) {
     if (fits([](double shown) { return shown; }, sound.size())) {
         kind_ = CurveKind::linear;
     } else {
-        // Beyond 1 the curve is not defined: whoever writes it goes on with it, or cuts off.
+        // sRGB is undefined above 1: renderers extrapolate or clip.
         std::size_t below = 0;
         while (below < sound.size() && sound[below].shown <= 1.001) ++below;
         if (below >= 4 && fits(linearFromSrgb, below)) kind_ = CurveKind::srgb;
@@ -71,7 +71,7 @@ double Response::straight(double shown) const {
     if (!(shown > 0) || ramp_.size() < 2) return 0;
     if (kind_ == CurveKind::linear) return shown / exposure_;
     if (kind_ == CurveKind::srgb) return linearFromSrgb(shown) / exposure_;
-    // Between two steps, and beyond the last ones as between them, a power of what is written.
+    // Power-law interpolation between steps, and extrapolation beyond them.
     auto next = std::ranges::lower_bound(ramp_, shown, {}, &RampStep::shown);
     next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
     const RampStep &a = *(next - 1), &b = *next;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a renderer writes of radiance: a curve, and primaries. Measured of emitters whose radiance is known.
+// Maps a renderer's pixel values to radiance: curve and primaries, measured from emitters of known
+// radiance.
 #pragma once
 
 #include "compare/external/renderer_file.h"
@@ -14,25 +15,25 @@
 namespace diptych::external {
 
 struct RampStep {
-    double told = 0, shown = 0;  // radiance, W/(sr m^2), and what was written
+    double told = 0, shown = 0;  // radiance, W/(sr m^2), and pixel value
 };
 
 enum class CurveKind { linear, srgb, tone };
 
-// From what is written back to radiance.
+// Converts pixel values to radiance.
 class Response {
 public:
-    // Of a ramp in ascending order, at least two of which differ. A curve is linear or sRGB's, by any factor,
-    // where that leaves at most 6 % of each step that is not cut off; else it is told by the ramp alone.
+    // `ramp`: ascending, with at least two distinct values. A curve counts as linear or sRGB, with any
+    // factor, if each unclipped step is within 6 %. Otherwise it interpolates the ramp.
     explicit Response(std::vector<RampStep> ramp);
 
     CurveKind kind() const { return kind_; }
-    double exposure() const { return exposure_; }  // a factor on all radiance; 1 of a tone curve
-    std::optional<double> cutOffAt() const { return cut_off_; }  // radiance beyond which all is written alike
+    double exposure() const { return exposure_; }                // on all radiance; 1 for a tone curve
+    std::optional<double> cutOffAt() const { return cut_off_; }  // greater radiance is clipped
 
-    // `columns[c]`: what is written of an emitter of the radiance `told` in component c alone.
+    // `columns[c]`: pixel value of an emitter with radiance `told` in component c only.
     void measurePrimaries(const std::array<glm::dvec3, 3>& columns, double told);
-    // Nothing where it is none of the known ones, although other than Rec.709.
+    // Empty if the primaries are unknown.
     std::optional<Primaries> primaries() const { return primaries_; }
 
     glm::dvec3 radiance(const glm::dvec3& shown) const;
@@ -40,7 +41,7 @@ public:
 private:
     double straight(double shown) const;  // without primaries
 
-    std::vector<RampStep> ramp_;  // ascending in both, what is cut off left out
+    std::vector<RampStep> ramp_;  // both ascending; without clipped steps
     CurveKind kind_ = CurveKind::tone;
     double exposure_ = 1;
     std::optional<double> cut_off_;

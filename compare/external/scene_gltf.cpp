@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int float_component = 5126, index_component = 5125;
 
-// A line for every kind of thing that is left out, however many there are.
+// Counts omissions: one line per kind.
 class LeftOut {
 public:
     void add(const std::string& what, const std::string& why) { ++counts_[{what, why}]; }
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    std::map<std::pair<std::string, std::string>, std::size_t> counts_;  // a noun, and the reason
+    std::map<std::pair<std::string, std::string>, std::size_t> counts_;  // key: noun, reason
 };
 
 std::vector<glm::vec3> inFloat(const std::vector<glm::dvec3>& values) {
@@ -46,7 +46,7 @@ std::vector<glm::vec3> inFloat(const std::vector<glm::dvec3>& values) {
     return out;
 }
 
-// A node's matrix whose -Z is the direction.
+// Node transform whose -Z axis is `direction`.
 glm::dmat4 shining(const glm::dvec3& position, const glm::dvec3& direction) {
     const glm::dvec3 back = -unitOr(direction, {0, 0, -1}), right = perpendicularTo(back);
     glm::dmat4 world(1.0);
@@ -111,7 +111,7 @@ public:
         for (std::size_t i = 0; i < file_.json["nodes"].size(); ++i) roots.push_back(i);
         file_.json["scene"] = 0;
         file_.json["scenes"] = Json::array({{{"nodes", std::move(roots)}}});
-        // glTF forbids empty lists.
+        // glTF forbids empty arrays.
         for (const char* list : {"nodes", "meshes", "materials"})
             if (file_.json[list].empty()) file_.json.erase(list);
         if (file_.json["scenes"][0]["nodes"].empty()) file_.json["scenes"][0].erase("nodes");
@@ -132,14 +132,14 @@ private:
         addNode({{"mesh", found->second}, {"matrix", listOf(instance.world_from_object)}});
     }
 
-    // In world space.
+    // Vertices in world space.
     static Primitive posedPrimitive(const Scene& scene, const Pose& pose, const Instance& instance,
                                     SkinNormals normals) {
         Primitive posed = primitiveOf(scene, instance);
         const PosedVertices vertices = posedVertices(scene, pose, instance, normals == SkinNormals::blended);
         posed.positions = inFloat(vertices.positions);
         posed.normals = inFloat(vertices.normals);
-        // The handedness of the instance's transform is in its winding and its bitangents.
+        // Applies the transform's handedness to winding and bitangents.
         const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
         for (std::size_t i = 0; i < posed.tangents.size(); ++i)
             posed.tangents[i] = glm::vec4(
@@ -194,7 +194,7 @@ private:
         file_.json["materials"].push_back(std::move(written));
     }
 
-    // Nothing where its image cannot be written.
+    // Empty if the image cannot be written.
     std::optional<Json> textureOf(const Scene& scene, const TextureSlot& slot) {
         const Texture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
         const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
@@ -204,7 +204,7 @@ private:
         }
         Json reference{{"index", textureIndex(texture, image)}, {"texCoord", slot.texcoord}};
         if (isTransformed(slot)) {
-            // u = (c sx, s sy), v = (-s sx, c sy).
+            // slot.u = (c sx, s sy), slot.v = (-s sx, c sy).
             const double across = std::hypot(slot.u.x, slot.v.x), turn = std::atan2(-slot.v.x, slot.u.x);
             const double along = std::cos(turn) * slot.v.y + std::sin(turn) * slot.u.y;
             extensions_.insert("KHR_texture_transform");
@@ -225,7 +225,7 @@ private:
         const auto wrap = [](Wrap how) {
             return how == Wrap::repeat ? 10497 : how == Wrap::mirrored_repeat ? 33648 : 33071;
         };
-        const int nearest = 9728;  // GL's numbers: + 1 is linear; with mip levels 9984 and on
+        const int nearest = 9728;  // GL constants: + 1 is linear; 9984 and up with mip levels
         const int minify =
             !s.mipmaps ? nearest + s.minify_linear : 9984 + s.minify_linear + 2 * s.mipmaps_linear;
         file_.json["samplers"].push_back({{"magFilter", nearest + s.magnify_linear},
@@ -254,8 +254,8 @@ private:
     GltfFile file_;
     LeftOut left_out_;
     std::set<std::string> extensions_;
-    std::map<std::pair<int, int>, std::size_t> meshes_;  // by mesh and primitive
-    std::map<int, std::size_t> images_;                  // by Scene::images
+    std::map<std::pair<int, int>, std::size_t> meshes_;  // key: mesh, primitive
+    std::map<int, std::size_t> images_;                  // key: index in Scene::images
     std::vector<std::pair<Texture, std::size_t>> textures_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = glm::pi<double>();
 
-// The direction in which a sky that is mirrored and then turned shows what stood at the result's.
+// Direction in the original environment that appears at `direction` after mirroring and rotation.
 glm::dvec3 before(const glm::dvec3& direction, const SkyMeaning& meaning) {
     const double angle = glm::radians(-meaning.turned), c = std::cos(angle), s = std::sin(angle);
     const glm::dvec3 unturned(c * direction.x + s * direction.z, direction.y,
@@ -23,7 +23,7 @@ glm::dvec3 before(const glm::dvec3& direction, const SkyMeaning& meaning) {
     return {meaning.mirrored ? -unturned.x : unturned.x, unturned.y, unturned.z};
 }
 
-// The sky's pixels as lamps: directions, and what each adds to a face that looks there.
+// Environment pixels as directional lights: direction, and irradiance / pi at normal incidence.
 class Texels {
 public:
     explicit Texels(const Image& sky) {
@@ -91,8 +91,8 @@ SkyMeaning skyMeaning(const Image& sky, std::span<const TiltedFace> faces) {
                     one.residual < best.residual)
                     best = one;
     if (!(best.residual < 0.5 * as_told.residual)) return as_told;
-    // What is simpler is believed where it leaves hardly more: the same without a cut, or a turn of a right
-    // angle.
+    // Prefer a simpler explanation if its residual is hardly larger: no clipping, or a multiple of 90
+    // degrees.
     constexpr double hardly = 1.25, noise = 0.01;
     const auto isAsGood = [&](const SkyMeaning& one) {
         return one.residual < hardly * best.residual + noise;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How an environment was meant, told from what white faces take of its light.
+// Infers a renderer's interpretation of an environment from its light on white faces.
 #pragma once
 
 #include "shared/image/image.h"
@@ -16,19 +16,18 @@ struct TiltedFace {
 };
 
 struct SkyMeaning {
-    bool mirrored = false;  // left for right, before it is turned
-    double turned = 0;  // degrees about +Y, counter-clockwise seen from above; a multiple of 5, -175 to 180
-    bool cut_off = false;  // its radiance ends at 1
-    double factor = 1;     // on its radiance
-    double residual = 0;   // of what the faces show, root mean square, a share
+    bool mirrored = false;  // left to right, before rotation
+    double turned = 0;      // degrees about +Y, counterclockwise from above; multiple of 5, -175 to 180
+    bool cut_off = false;   // radiance is clipped at 1
+    double factor = 1;      // on radiance
+    double residual = 0;    // RMS over the faces, relative
 };
 
-// `sky`: a lat-long picture (shared/scene/model/scene.h). Every turn by 5 degrees, mirrored or not, cut off
-// or not is tried, each with the factor that suits it; a deviation is believed where it leaves less than half
-// of what no deviation leaves.
+// `sky`: a lat-long image (shared/scene/model/scene.h). Tries rotations by 5 degrees, mirrored or not,
+// clipped or not, each with its best factor. Reports a deviation only if it more than halves the residual.
 SkyMeaning skyMeaning(const Image& sky, std::span<const TiltedFace> faces);
 
-// What a white face of that normal shows, W/(sr m^2).
+// Radiance of a white face with this normal, W/(sr m^2).
 glm::dvec3 lightFrom(const Image& sky, const glm::dvec3& normal, bool cut_off);
 
 }  // namespace diptych::external

@@ -8,7 +8,7 @@ namespace diptych {
 
 std::string base64(std::string_view bytes);  // RFC 4648, section 4
 
-// "data:image/png;base64,...", of a PNG's bytes.
+// "data:image/png;base64,..." for the bytes of a PNG.
 std::string dataUri(std::string_view png);
 
 }  // namespace diptych

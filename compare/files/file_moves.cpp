@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* begunName = ".diptych.put";  // the folder whose files are being moved out
-constexpr const char* listName = ".plan.json";     // inside it: the list of moves
+constexpr const char* begunName = ".diptych.put";  // folder of files being moved out
+constexpr const char* listName = ".plan.json";     // inside it: list of moves
 constexpr const char* oldName = ".old";            // inside it: replaced files, until all moves are done
 
-// The list of moves of a report of a hundred thousand files, of 200 bytes a name, fits twice.
+// Twice the list of a report with 100,000 files of 200 bytes per name.
 constexpr std::size_t mostOfList = std::size_t{64} << 20;
 
-// Moves files, and can move them back.
+// Moves files, and can undo the moves.
 class UndoableMoves {
 public:
     void make(const OpenFolder& from, const OpenFolder& to, const std::string& name) {
@@ -38,8 +38,8 @@ public:
         throw std::runtime_error(writingFailed(to.path() / name, error));
     }
 
-    // Moves `from` to `to` and keeps the file that is there in `kept`. Where the file system has hard links,
-    // `to` exists at every moment.
+    // Moves `from` to `to`, and the replaced file to `kept`. If the file system has hard links, `to`
+    // exists at all times.
     void replace(const OpenFolder& from, const OpenFolder& to, const OpenFolder& kept,
                  const std::string& name) {
         makeFolders(kept, name);
@@ -78,7 +78,7 @@ private:
             if (error == 0) continue;
             folders_.pop_back();
             if (error != EEXIST) throw std::runtime_error(writingFailed(place.path() / folder, error));
-            place.in(folder);  // throws where it is a link, or a file
+            place.in(folder);  // throws for a link or a file
         }
     }
 
@@ -93,7 +93,7 @@ std::vector<std::string> removedBy(const FileMoves& moves) {
     return names;
 }
 
-// Removes folders that are now empty, such as "1" after "1/lit.png" was removed.
+// Removes folders that became empty, such as "1" after "1/lit.png".
 void removeEmptied(const OpenFolder& place, const FileMoves& moves) {
     for (const std::string& name : removedBy(moves))
         for (const fs::path& inner : foldersOf(name)) place.removeFolder(inner);
@@ -121,10 +121,10 @@ FileMoves readMoves(const OpenFolder& begun) {
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 
-// Cleans up when everything new is in place. The list of moves is removed last: if the program is killed in
-// between, finishMoves() can repeat the clean-up.
+// Cleans up after all moves. Removes the list last, so that finishMoves() can repeat the clean-up after a
+// kill.
 void removeBegun(const OpenFolder& place, const OpenFolder& begun) {
-    // Replaced files, and the folders that files were moved out of.
+    // Replaced files, and emptied source folders.
     for (const std::string& name : begun.names())
         if (!begun.hasFile(name)) begun.removeAll(name);
     begun.removeFile(listName);
@@ -154,7 +154,7 @@ void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) 
         for (const std::string& name : removedBy(moves))
             if (place.hasFile(name)) done.make(place, old, name);
     } catch (...) {
-        // If undoing fails as well, the list of moves stays, and the next program finishes the moves.
+        // If undo fails too, the list remains, and the next program finishes the moves.
         if (done.undo()) place.move(begunName, place, temporary);
         throw;
     }

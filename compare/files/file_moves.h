@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moves a report's files one by one into a folder that also holds other files: either all of them or none.
+// Moves a report's files into a folder that also has other files, all or none.
 #pragma once
 
 #include "shared/image/temporary.h"
@@ -11,19 +11,19 @@
 namespace diptych {
 
 struct FileMoves {
-    std::vector<std::string> files;    // to be moved into place
-    std::vector<std::string> earlier;  // to be removed where they are not among `files`
+    std::vector<std::string> files;    // files to move into place
+    std::vector<std::string> earlier;  // files to remove unless in `files`
 };
 
 // Writes the list of moves into `made`, a folder inside `folder`, and renames it to the name that
-// finishMoves() looks for; from then on the new files count. Then moves the files, and undoes all moves if
-// one fails. Throws std::runtime_error naming the file.
+// finishMoves() expects. From then on the new files count. Then moves the files; undoes all moves if one
+// fails. Throws std::runtime_error naming the file.
 void moveFiles(const std::filesystem::path& folder, Temporary& made, const FileMoves& moves);
 
-// Whether a program was killed during moveFiles(), or is in it now.
+// Whether moveFiles() is in progress or was killed.
 bool isMoveBegun(const std::filesystem::path& folder);
 
-// Finishes moves that were begun and neither finished nor undone. Throws std::runtime_error naming the file.
+// Finishes interrupted moves. Throws std::runtime_error naming the file.
 void finishMoves(const std::filesystem::path& folder);
 
 }  // namespace diptych

@@ -18,7 +18,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     constexpr std::chrono::seconds patience{30};
     constexpr std::chrono::milliseconds pause{5};
     file_ = ::open(folder.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // The parent folder may be writable without being readable.
+    // The parent folder may be writable but not readable.
     if (file_ < 0) file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file_ < 0) return;
     const Clock::time_point end = Clock::now() + patience;

@@ -5,13 +5,13 @@
 
 namespace diptych {
 
-// While this object lives, no other diptych program moves files into the folder or beside it. It is a lock on
-// the parent folder, which leaves no file behind and is released however the program ends. Programs wait for
-// each other; moving takes milliseconds.
+// Excludes other diptych programs from moving files into the folder or beside it. Locks the parent folder,
+// which leaves no file behind and ends with the process. Programs wait for each other; moving takes
+// milliseconds.
 class FolderLock {
 public:
-    // Throws std::runtime_error naming the folder if another program holds the lock for half a minute. On a
-    // file system without locks nothing is locked.
+    // Throws std::runtime_error naming the folder if another program holds the lock for 30 s. Has no
+    // effect on a file system without locks.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

@@ -32,7 +32,7 @@ std::string valueOr(const Attributes& attributes, const char* key, const char* f
     return found == attributes.end() ? fallback : oneLine(found->second);
 }
 
-// What our own files say of themselves.
+// Metadata of our own files.
 void readOrigin(const PictureFile& file, Frame& frame) {
     const Attributes& a = file.attributes;
     frame.scene = valueOr(a, "scene", "?");
@@ -48,7 +48,7 @@ bool isOurs(const PictureFile& file) {
     return valueOr(file.attributes, "software") == softwareName && file.attributes.contains("settings");
 }
 
-// Of a reference that was sampled: what the Frame had when it was written.
+// Uncertainty of a sampled reference, as written.
 void readUncertainty(PictureFile& file, Frame& frame) {
     frame.uncertainty = takeUncertainty(file);
     if (frame.uncertainty.empty()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Frame as an OpenEXR file.
+// Reads and writes a Frame as OpenEXR.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -8,14 +8,14 @@
 
 namespace diptych {
 
-// Every channel of the Frame that was asked for as float32 layers named after the debug modes, and beside lit
-// its uncertainty where there is one; scene, camera, settings and device as attributes.
+// Writes each requested channel as a float32 layer named after its debug mode, and lit's uncertainty if
+// present. Scene, camera, Settings and device become attributes.
 void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device);
 
-// The channels that are called as ours; what else the file holds is named in the Frame's notes. Its Settings,
-// scene, camera, device, driver and commit where the file is ours, and of a reference how far its lit is
-// known; of another renderer's the path is Path::reference, which has no tolerance of its own. Throws
-// std::runtime_error, one line naming the file, where it cannot be read or holds none of our channels.
+// Reads channels with our names; the Frame's notes name the others. Our own files also provide Settings,
+// scene, camera, device, driver, commit, and the uncertainty of a reference. Other files get
+// Path::reference, which has no derived tolerance. Throws std::runtime_error, one line naming the file, if
+// it is unreadable or has none of our channels.
 Frame frameFromExr(const std::filesystem::path& file);
 
 }  // namespace diptych

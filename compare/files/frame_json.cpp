@@ -46,7 +46,7 @@ FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json) {
 Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    // Nothing is known about how another renderer drew its picture.
+    // Settings of another program's file are unknown.
     const bool isUnknown =
         !frame.origin.file.empty() && frame.origin.device.empty() && !frame.origin.external;
     Json noise = Json::object();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Frame in JSON, as all our files hold it.
+// A Frame as JSON, in all our files.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -9,14 +9,14 @@
 
 namespace diptych {
 
-// Everything but the pixels, as in the "frames" of a report.
+// Everything except pixels, as in "frames" of a report.
 nlohmann::ordered_json jsonOf(const Frame& frame);
 nlohmann::ordered_json jsonOf(const FrameCamera& camera);
-// Without "far" the camera has no far plane. Throws std::runtime_error naming the place where a vector is
-// missing or too short.
+// A missing "far" means no far plane. Throws std::runtime_error naming the place of a missing or short
+// vector.
 FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json);
 
-// JSON has no infinity and no NaN: null stands for both.
+// Null for infinity and NaN, which JSON lacks.
 nlohmann::ordered_json finiteOrNull(double value);
 
 }  // namespace diptych

@@ -29,12 +29,12 @@ std::string base64(std::span<const std::byte> bytes) {
     return out;
 }
 
-// Four bytes, the lowest first.
+// Little-endian, 4 bytes.
 void addWord(std::string& to, std::size_t value) {
     for (unsigned i = 0; i < 4; ++i) to += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-// A chunk of a .glb file (glTF 2.0, 4.4.3); `fill`: what makes its length a multiple of 4.
+// A chunk of a .glb file (glTF 2.0, 4.4.3). `fill` pads its length to a multiple of 4.
 void addChunk(std::string& to, const char* type, std::string data, char fill) {
     data.append((4 - data.size() % 4) % 4, fill);
     addWord(to, data.size());
@@ -60,7 +60,7 @@ std::size_t GltfFile::addPositions(const std::vector<glm::vec3>& positions) {
 }
 
 std::size_t GltfFile::addBytes(std::span<const std::byte> bytes) {
-    bytes_.resize((bytes_.size() + 3) / 4 * 4);  // as accessors of floats must be aligned
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);  // alignment of float accessors
     json["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0 as it is written: a document and its buffer, in one file.
+// Writes glTF 2.0: a document and its buffer in one file.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -21,19 +21,19 @@ class GltfFile {
 public:
     explicit GltfFile(const std::string& generator);
 
-    nlohmann::ordered_json json;  // the document; this class adds its accessors, views and buffer
+    nlohmann::ordered_json json;  // the document; this class adds accessors, views and buffer
 
-    // An accessor's number. `type`: "VEC3"; `component`: 5126 float, 5125 unsigned int.
+    // Returns the accessor's index. `type`: "VEC3"; `component`: 5126 float, 5125 unsigned int.
     template <class T>
     std::size_t add(const std::vector<T>& values, const char* type, int component) {
         return addAccessor(addBytes(std::as_bytes(std::span(values))), values.size(), type, component);
     }
-    // The same of positions, with their bounds, which glTF asks for.
+    // The same for positions, with the bounds that glTF requires.
     std::size_t addPositions(const std::vector<glm::vec3>& positions);
-    // A buffer view's number.
+    // Returns the buffer view's index.
     std::size_t addBytes(std::span<const std::byte> bytes);
 
-    // All in one file: as text with the buffer inside, and as .glb.
+    // The complete file: as JSON with an embedded buffer, and as .glb.
     std::string text() const;
     std::string binary() const;
 
@@ -43,17 +43,17 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// The factors of a material, by glTF's names; without its textures.
+// A material's factors in glTF terms, without textures.
 nlohmann::ordered_json gltfMaterial(const Material& material);
-// The extensions that gltfMaterial() may use.
+// Extensions that gltfMaterial() may use.
 std::vector<std::string> gltfMaterialExtensions();
 
-// A camera of a picture so many times as wide as high; an orthographic one without a far plane, which glTF
-// does not know, ends at 1e6 times half its height.
+// A camera; `aspect`: width over height. An infinite orthographic far plane becomes 1e6 times half the
+// height, because glTF requires a finite one.
 nlohmann::ordered_json gltfCamera(const Camera& camera, double aspect);
 
-// Lists of numbers.
+// JSON arrays.
 nlohmann::ordered_json listOf(const glm::dvec3& vector);
-nlohmann::ordered_json listOf(const glm::dmat4& matrix);  // column by column
+nlohmann::ordered_json listOf(const glm::dmat4& matrix);  // column-major
 
 }  // namespace diptych

@@ -30,14 +30,14 @@ Json readJson(const fs::path& file) {
     try {
         Json json = orderedJsonIn(file);
         return json.is_object() ? json : Json();
-    } catch (const std::runtime_error&) {  // none, or cut short
+    } catch (const std::runtime_error&) {  // missing or incomplete
         return {};
     }
 }
 
 OpenFolder made(const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);  // of a link as well, which OpenFolder refuses
+    fs::create_directories(folder, error);  // also through a link, which OpenFolder rejects
     if (error) throw std::runtime_error(writingFailed(folder, error.value()));
     return OpenFolder(folder);
 }
@@ -49,7 +49,7 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
     if (!folder_.lock())
         throw std::runtime_error(fmt::format(
             "{}: another diptych writes to the same -o; wait for it, or choose another -o", path().string()));
-    folder_.removeLinks();  // nobody writes parts through what was planted, nor reads them
+    folder_.removeLinks();  // planted links cannot redirect reads and writes
     const Json there = readJson(path() / keyFile);
     if (there == key) return;
     const bool holdsOthers = std::ranges::any_of(
@@ -61,7 +61,7 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
     writeFile(path() / keyFile, pageOfJson(key));
 }
 
-// The key is removed last: it marks the other files as ours.
+// Removes the key last: it marks the other files as ours.
 void KeptFolder::clear() {
     for (const std::string& name : folder_.names())
         if (name != keyFile) folder_.removeAll(name);

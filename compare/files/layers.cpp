@@ -23,8 +23,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// The component of a channel: what stands behind the last dot, of colours in any case and as a word R, G, B
-// or A.
+// Component name after the last dot. Colour letters and words in any case become R, G, B or A.
 std::string suffix(const std::string& channel) {
     const std::size_t dot = channel.rfind('.');
     const std::string component = dot == channel.npos ? channel : channel.substr(dot + 1);
@@ -37,7 +36,7 @@ std::string suffix(const std::string& channel) {
     return component;
 }
 
-// Several components of an image, side by side.
+// Selected components of an image.
 Image picked(const Image& image, const std::vector<std::size_t>& components) {
     Image result(image.width, image.height, static_cast<int>(components.size()));
     for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -68,13 +67,14 @@ ChannelKind kindOf(const std::string& name, const Names& channels, const std::st
     return type == "uint" ? ChannelKind::id : ChannelKind::scalar;
 }
 
-// Another program's primaries mean something for colours alone: normals are written as R, G, B as well.
+// Converts colours from the layer's primaries. Other channels, such as normals written as R, G, B, do not
+// change.
 void convert(PictureChannel& channel, const PictureLayer& layer) {
     if (layer.to_rec709 && channel.kind == ChannelKind::color && channel.image.components == 3)
         convertColors(channel.image, *layer.to_rec709);
 }
 
-// Splits a layer into channels that each have one meaning.
+// Splits a layer into channels with one meaning each.
 class Splitter {
 public:
     Splitter(PictureLayer layer, std::vector<PictureChannel>& out) : layer_(std::move(layer)), out_(out) {
@@ -97,8 +97,7 @@ private:
     std::vector<PictureChannel>& out_;
     std::vector<bool> left_;
 
-    // The Y of a grey picture, with alpha or without, becomes red, green and blue, so that it can be compared
-    // with colours and by FLIP.
+    // Grey Y becomes R, G, B, so that it can be compared with colours and by FLIP.
     void takeGrey() {
         for (std::size_t i = 0; i < layer_.channels.size(); ++i)
             if (left_[i] && layer_.channels[i] == "Y") {
@@ -121,7 +120,7 @@ private:
 
     std::string nameAlone(const std::string& channel, bool alone) const {
         if (channel == "Z") return "depth";
-        // "roughness.Y" is the whole of roughness.
+        // "roughness.Y" is all of roughness.
         if (alone && !layer_.name.empty()) return layer_.name;
         if (suffix(channel) != "A") return channel;
         return layer_.name.empty() ? "A" : layer_.name + ".A";
@@ -156,7 +155,7 @@ private:
     }
 };
 
-// "albedo=diffuse.R,diffuse.G,diffuse.B"
+// "albedo=diffuse.R,diffuse.G,diffuse.B".
 struct Renaming {
     std::string name;
     Names channels;
@@ -178,7 +177,7 @@ std::string alphaOf(const std::string& color) {
     return color == "lit" ? "A" : color + ".A";
 }
 
-// Where a renaming names a layer with colours alone, "lit=ViewLayer.Combined": their renaming and that of its
+// If the renaming names a whole colour layer, as in "lit=ViewLayer.Combined": renamings of its colour and
 // alpha.
 std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renaming) {
     for (const PictureLayer& layer : file.layers) {
@@ -197,7 +196,7 @@ std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renami
     return {renaming};
 }
 
-// The channels of a renaming as one channel; empty unless the file has them all.
+// Channels of a renaming as one channel; empty unless the file has all of them.
 std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renaming) {
     struct Place {
         PictureLayer* layer;
@@ -243,8 +242,8 @@ std::string list(const std::vector<PictureChannel>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Two different integers that float32 rounds to the same value are moved apart to neighbouring floats, so
-// that the difference is seen, though not its exact size.
+// Moves distinct integers that round to the same float32 to neighbouring floats. The difference then
+// shows, though not its exact size.
 void tellApart(const PictureChannel& a, PictureChannel& b) {
     if (a.exact.empty() && b.exact.empty()) return;
     const auto valueAt = [](const PictureChannel& c, std::size_t i) {
@@ -255,8 +254,8 @@ void tellApart(const PictureChannel& a, PictureChannel& b) {
             b.image.data[i] = std::nextafter(b.image.data[i], 0.0f);
 }
 
-// A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR: a missing A reads as 1). Adds an alpha
-// of 1 to `lacks` for each colour that has one in `has` alone, and returns their names.
+// A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR: a missing A reads as 1). If only
+// `has` has a colour's alpha, adds an alpha of 1 to `lacks`. Returns the names of added channels.
 Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChannel>& lacks) {
     const auto find = [](const std::vector<PictureChannel>& channels, const std::string& name) {
         return std::ranges::find(channels, name, &PictureChannel::name);
@@ -279,8 +278,8 @@ Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChann
     return added;
 }
 
-// The colours of pictures that share none by name, of each its only one: nullptr where there is another
-// number, or where both have a meaning here.
+// The only colours of two images with different colour names. Null if either image has not exactly one, or
+// if both names are debug modes.
 std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChannel>& a,
                                                         std::vector<PictureChannel>& b) {
     const auto only = [](std::vector<PictureChannel>& channels) -> PictureChannel* {
@@ -295,7 +294,7 @@ std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChann
     return {first, second};
 }
 
-// Gives the test's only colour, and its alpha, the names of the reference's. Returns a note, or nothing.
+// Renames the test's only colour, and its alpha, like the reference's. Returns a note, or an empty string.
 std::string pairColours(std::vector<PictureChannel>& reference, std::vector<PictureChannel>& test) {
     const auto [a, b] = onlyColours(reference, test);
     if (!a) return {};
@@ -310,7 +309,7 @@ std::string pairColours(std::vector<PictureChannel>& reference, std::vector<Pict
     return note;
 }
 
-// The --map that gives two channels of one width one name.
+// A --map option that gives two channels of equal width one name.
 std::string mapText(const std::vector<PictureChannel>& reference, const std::vector<PictureChannel>& test) {
     for (const PictureChannel& a : reference)
         for (const PictureChannel& b : test)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Matches the layers of two picture files by name.
+// Matches layers of two image files by name.
 #pragma once
 
 #include "shared/frame/debug_modes.h"
@@ -12,18 +12,18 @@
 
 namespace diptych {
 
-// One channel of a picture file as it is compared. R, G, B without a layer's name are "lit", Z is "depth",
-// layers that are called like a debug mode and are as wide are that mode; alpha and whatever else a layer
-// holds stands alone: "albedo.A", "A".
+// A channel of an image file, as compared. R, G, B without a layer name are "lit", Z is "depth". Layers
+// with the name and width of a debug mode are that mode. Alpha and other components are separate:
+// "albedo.A", "A".
 struct PictureChannel {
     std::string name;
-    std::vector<std::string> channels;  // in the file: "albedo.R", ...
+    std::vector<std::string> channels;  // names in the file: "albedo.R", ...
     std::string type;                   // "half", "8 bit", ...
     ChannelKind kind = ChannelKind::scalar;
     Image image;
-    // Of a single channel: the exact integers, where float32 rounds them; else empty.
+    // Exact integers of a single channel if float32 would round them; else empty.
     std::vector<std::uint32_t> exact{};
-    Image8 coded{};  // in place of `image`: 8 bits a component, of a grey colour one
+    Image8 coded{};  // replaces `image`: 8 bits per component, one component for grey
 
     int components() const {
         const bool grey = kind == ChannelKind::color && channels.size() == 1;
@@ -31,33 +31,31 @@ struct PictureChannel {
     }
 };
 
-// `names`: renames another renderer's channels, e.g. "albedo=diffuse.R,diffuse.G,diffuse.B" (not of layers
-// that are kept in 8 bits). Used
-// channels are taken out of the layers they were in. Of our own files the uncertainty is left out. Throws
-// std::runtime_error where such words are wrong.
+// `names`: renames channels, for example "albedo=diffuse.R,diffuse.G,diffuse.B"; not for 8-bit layers.
+// Renamed channels leave their layers. Omits the uncertainty of our own files. Throws std::runtime_error
+// for malformed names.
 std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
 
-// Throws std::runtime_error where the channels of one of `names` are not together in either file.
+// Throws std::runtime_error if neither file has all channels of one of `names`.
 void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names);
 
-// The channel in which a reference's EXR says how far its lit is known (Frame::uncertainty). In a file that
-// diptych wrote it is no channel of the picture, and nothing compares it; --map can give it a name that is
-// compared.
+// Channel of a reference's EXR with Frame::uncertainty. In files of diptych it is not part of the image
+// and is not compared; --map can rename it to compare it.
 inline constexpr const char* uncertainty_channel = "uncertainty.Y";
 
-// Takes it out of such a file: W x H x 1, empty where there is none.
+// Removes the uncertainty from one of our files: W x H x 1, empty if absent.
 Image takeUncertainty(PictureFile& file);
 
 struct MatchedChannel {
     std::string name;
     ChannelKind kind = ChannelKind::scalar;
-    Metric metric = Metric::absolute;  // of the debug mode of that name where it is angular or exact
+    Metric metric = Metric::absolute;  // from the debug mode if angular or exact
     std::string reference_type, test_type;
-    std::vector<std::string> channels;  // in the reference
+    std::vector<std::string> channels;  // names in the reference
     StoredPicture reference, test;
 };
 
-// A channel that only one of two pictures has.
+// A channel of only one image.
 struct OneSidedChannel {
     std::string name;
     std::string owner;  // "the reference"
@@ -65,13 +63,13 @@ struct OneSidedChannel {
 
 struct MatchedChannels {
     std::vector<MatchedChannel> channels;  // in the reference's order
-    std::vector<std::string> notes;        // channels that have two types
+    std::vector<std::string> notes;        // renamed colours, added alpha, differing types
     std::vector<OneSidedChannel> one_sided;
 };
 
-// `wanted`: patterns of names (* and ?), empty: all. Where one picture alone has the alpha of a colour that
-// both have, the other's is 1. Throws std::runtime_error where a pattern names nothing that both have, where
-// one name is of different widths, or where nothing is in both.
+// `wanted`: name patterns (* and ?); empty: all. If only one image has the alpha of a common colour, the
+// other's is 1. Throws std::runtime_error if a pattern matches no common channel, if widths differ, or if
+// there is no common channel.
 MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
                               const std::vector<std::string>& wanted);
 

@@ -13,14 +13,14 @@ namespace diptych {
 
 namespace {
 
-// The files of an earlier folder, where that may be replaced.
+// Files of an earlier folder. Throws if it must not be replaced.
 std::vector<std::string> replaceable(const std::filesystem::path& path, const std::string& manifest,
                                      bool force) {
     checkReplaceable({OutputKind::folder, path}, manifest, force);
     return manifestFiles(path, manifest);
 }
 
-// Before anything is made.
+// Checks before anything is created.
 const std::filesystem::path& checked(const std::filesystem::path& path, const std::string& manifest,
                                      bool force) {
     replaceable(path, manifest, force);

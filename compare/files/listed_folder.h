@@ -11,23 +11,24 @@
 
 namespace diptych {
 
-// A command's output folder whose manifest, a JSON file, lists what is in it: an OutputFolder that replaces
-// an earlier one of the same manifest and removes what that one listed.
+// An output folder with a manifest, a JSON file that lists its contents. Replaces a folder with the same
+// manifest and removes the files listed there.
 class ListedFolder {
 public:
-    // Throws std::runtime_error naming -o where something else is there and `force` is not given.
+    // Throws std::runtime_error naming -o if the folder has other contents and `force` is false.
     ListedFolder(const std::filesystem::path& folder, std::string manifest, bool force);
 
-    // Writes a file of the folder.
+    // Writes a file in the folder.
     void put(const std::string& name, const std::string& text);
-    // Lists a file that is written by other means, at operator/.
+    // Lists a file that the caller writes to operator/.
     void list(const std::string& name);
     std::filesystem::path operator/(const std::string& file) const { return folder_ / file; }
-    // So far, with the manifest; sorted.
+    // All files so far, with the manifest; sorted.
     std::vector<std::string> files() const;
-    // Writes the manifest, with "software" and "files", and puts the folder in its place. Returns its text.
+    // Writes the manifest, adding "software" and "files", and puts the folder in place. Returns the
+    // manifest's text.
     std::string finish(nlohmann::ordered_json manifest);
-    // The same of a manifest that has both already.
+    // The same for a complete manifest.
     void finish(const std::string& manifest);
 
 private:

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder may be writable without being readable: then it can be used, and neither listed nor locked.
+// Falls back to O_PATH for folders without read permission, which then cannot be listed or locked.
 int openedIn(int folder, const char* name) {
     constexpr int how = O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
     const int file = ::openat(folder, name, O_RDONLY | how);
@@ -135,7 +135,7 @@ std::string OpenFolder::read(const fs::path& name, std::size_t most) const {
         throw std::runtime_error(fmt::format("{}: {}", (path_ / name).string(), why));
     };
     const OpenFolder parent = parentOf(name);
-    // O_NONBLOCK: a pipe in its place is not waited for.
+    // O_NONBLOCK: do not block on a pipe.
     const int file =
         ::openat(parent.file_, name.filename().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     struct stat status {};

@@ -9,12 +9,11 @@
 
 namespace diptych {
 
-// A folder that is held open, so that all of this happens in one folder, whoever renames it meanwhile. A name
-// ("lit.png", "1/lit.png") is reached folder by folder, and no link is followed: neither at the folder itself
-// nor below it.
+// An open folder: operations stay in it even if it is renamed. Names ("lit.png", "1/lit.png") are resolved
+// one folder at a time without following links, neither at the folder itself nor below it.
 class OpenFolder {
 public:
-    // Throws std::runtime_error naming the folder, where it is a link as well.
+    // Throws std::runtime_error naming the folder, also if it is a link.
     explicit OpenFolder(const std::filesystem::path& folder);
     ~OpenFolder();
     OpenFolder(OpenFolder&& other) noexcept
@@ -23,21 +22,21 @@ public:
     OpenFolder& operator=(const OpenFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }  // for messages
-    bool lock() const;  // false where another program holds the lock; without locks nothing is locked
+    bool lock() const;  // false if another program has the lock; true without lock support
 
-    OpenFolder in(const std::filesystem::path& name) const;  // throws as the constructor does
-    bool has(const std::filesystem::path& name) const;       // whatever it is
-    bool hasFile(const std::filesystem::path& name) const;   // a regular file
+    OpenFolder in(const std::filesystem::path& name) const;  // throws like the constructor
+    bool has(const std::filesystem::path& name) const;       // of any type
+    bool hasFile(const std::filesystem::path& name) const;   // regular files only
     std::vector<std::string> names() const;
-    // A regular file; throws std::runtime_error where it cannot be read or is larger than `most` bytes.
+    // Reads a regular file. Throws std::runtime_error if it is unreadable or larger than `most` bytes.
     std::string read(const std::filesystem::path& name, std::size_t most) const;
 
     // These return 0 or an errno.
-    int makeFolder(const std::filesystem::path& name) const;  // in a folder that is there
+    int makeFolder(const std::filesystem::path& name) const;  // the parent must exist
     int removeFile(const std::filesystem::path& name) const;
-    int removeFolder(const std::filesystem::path& name) const;  // an empty one
-    void removeAll(const std::filesystem::path& name) const;    // as much as is possible
-    // Whatever below it is neither a folder nor a regular file.
+    int removeFolder(const std::filesystem::path& name) const;  // must be empty
+    void removeAll(const std::filesystem::path& name) const;    // as far as possible
+    // Removes everything below the folder except folders and regular files.
     void removeLinks() const;
     int move(const std::filesystem::path& name, const OpenFolder& to, const std::filesystem::path& as,
              unsigned flags = 0) const;  // renameat2()
@@ -45,7 +44,7 @@ public:
 
 private:
     OpenFolder(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
-    OpenFolder parentOf(const std::filesystem::path& name) const;  // closed, with errno, where there is none
+    OpenFolder parentOf(const std::filesystem::path& name) const;  // invalid, with errno set, if absent
 
     std::filesystem::path path_;
     int file_ = -1;

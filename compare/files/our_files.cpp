@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What marks the file as ours, and what it lists; null if it was not written by diptych.
+// The marks and the file list of our file; null if diptych did not write it.
 nlohmann::json ourJson(const fs::path& file) {
     try {
         nlohmann::json json = jsonIn(file, [](int depth, const std::string& key) {
@@ -27,12 +27,12 @@ nlohmann::json ourJson(const fs::path& file) {
             return json.contains(key) && json[key] == value;
         };
         if (json.is_object() && says("software", softwareName) && says("schema", 1)) return json;
-    } catch (const std::runtime_error&) {  // whatever it is
+    } catch (const std::runtime_error&) {  // unreadable or malformed
     }
     return {};
 }
 
-// Ours are far shorter; a file system takes no longer ones.
+// Limits of file systems; our names are much shorter.
 constexpr std::size_t longest_name = 255, longest_path = 1024;  // bytes
 
 bool isPlainFile(const fs::path& name) {
@@ -47,7 +47,7 @@ bool isPlainFile(const fs::path& name) {
            std::ranges::none_of(name.native(), [](unsigned char c) { return std::iscntrl(c); });
 }
 
-// As nameOfFolder() in compare/report makes them, and "1" of several Frames.
+// Names of nameOfFolder() in compare/report, and "1" for several Frames.
 bool isPlainFolder(const fs::path& name) {
     return !name.empty() && name.native().size() <= longest_name &&
            std::ranges::all_of(name.native(),
@@ -56,8 +56,8 @@ bool isPlainFolder(const fs::path& name) {
 
 }  // namespace
 
-// Both formats name the software before the pixels: the EXR attribute (name, type, size, value) and the PNG
-// chunk (size, type, keyword, text), byte for byte as they are written.
+// Both formats name the software before the pixels. Compares the EXR attribute (name, type, size, value)
+// and the PNG chunk (size, type, keyword, text) byte for byte.
 bool isOurPicture(const fs::path& file) {
     using namespace std::string_literals;
     std::string head;

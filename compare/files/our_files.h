@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How diptych recognises files that it wrote.
+// Recognizes files written by diptych.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +8,28 @@
 
 namespace diptych {
 
-// The name of the software that every JSON, EXR and PNG of ours carries.
+// Software name in our JSON, EXR and PNG files.
 inline constexpr const char* softwareName = "diptych";
 
 // Whether the file is a manifest: JSON with "software": "diptych" and "schema": 1. A manifest marks its
-// folder as written by diptych.
+// folder as ours.
 bool isOurManifest(const std::filesystem::path& file);
 
-// The names that a manifest lists under "files". Only those that isOurName() are returned, so that an edited
-// list can name neither files outside the folder nor files that diptych never writes. Empty if the file is no
-// manifest.
+// Names in a manifest's "files", filtered by isOurName(). An edited list thus cannot name files outside
+// the folder or files that diptych never writes. Empty if the file is not a manifest.
 std::vector<std::string> listedIn(const std::filesystem::path& manifest);
 
-// A file's name as diptych gives them in a folder that it writes, with an ending of its own: "lit.png", or
-// "Box-1c9f03/top/lit.png", where folders are called by letters, digits, hyphens and underscores.
+// Whether diptych may write a file of this relative name: known extension, and folders of letters, digits,
+// hyphens and underscores. For example "lit.png" or "Box-1c9f03/top/lit.png".
 bool isOurName(const std::filesystem::path& name);
 
-// The folders of a file's name, the innermost first: of "a/b/lit.png" "a/b" and "a".
+// Parent folders of a name, innermost first: "a/b", "a" for "a/b/lit.png".
 std::vector<std::filesystem::path> foldersOf(const std::filesystem::path& name);
 
-// The files that the folder's manifest lists, and the manifest itself. Empty if there is no manifest.
+// Files in the folder's manifest, and the manifest itself. Empty without a manifest.
 std::vector<std::string> manifestFiles(const std::filesystem::path& folder, const std::string& manifest);
 
-// An EXR or PNG that names diptych as its software.
+// Whether an EXR or PNG names diptych as its software.
 bool isOurPicture(const std::filesystem::path& file);
 
 }  // namespace diptych

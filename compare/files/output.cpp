@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Temporary files that are being written there now, by this program or another, do not count.
+// Ignores temporary files of running programs.
 bool isEmpty(const fs::path& folder) {
     const fs::path name = fs::canonical(folder);
     return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {

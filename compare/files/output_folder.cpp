@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The folder's absolute name: "out/" and "out/." become "out", and a symbolic link its target.
+// Absolute name: "out/" and "out/." become "out", a symbolic link its target.
 fs::path nameOf(const fs::path& folder) {
     fs::path path = fs::absolute(folder).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
@@ -41,7 +41,7 @@ void copy(InputFile& from, const fs::path& to) {
     const int file = ::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) throw std::runtime_error(writingFailed(finalName(to), errno));
     std::uint64_t left = from.size();
-    // Shares blocks where the file system can.
+    // Shares blocks if the file system supports it.
     for (ssize_t copied = 0; left > 0; left -= static_cast<std::uint64_t>(copied))
         if (copied = ::copy_file_range(from.descriptor(), nullptr, file, nullptr, left, 0); copied <= 0)
             break;
@@ -51,7 +51,7 @@ void copy(InputFile& from, const fs::path& to) {
         const std::span<std::byte> bytes(piece.data(), std::min<std::uint64_t>(left, piece.size()));
         try {
             from.read(bytes);
-        } catch (...) {  // cut short meanwhile
+        } catch (...) {  // the file became shorter
             ::close(file);
             throw;
         }
@@ -66,7 +66,7 @@ void copy(InputFile& from, const fs::path& to) {
     if (error != 0) throw std::runtime_error(writingFailed(finalName(to), error));
 }
 
-// Whether the folder holds nothing but the regular files `ours`, the folders that they need, and `aside`.
+// Whether the folder contains only the regular files `ours`, their folders, and `aside`.
 bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, const fs::path& aside) {
     const std::set<std::string> names(ours.begin(), ours.end());
     std::set<std::string> folders;
@@ -90,8 +90,8 @@ bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, con
     return !error;
 }
 
-// Whether the folder has extended attributes such as access lists, which a new folder would lack. Those that
-// SELinux sets on every folder do not count.
+// Whether the folder has extended attributes, such as access lists, that a new folder would lack. Ignores
+// those that SELinux sets on every folder.
 bool hasAttributes(const fs::path& folder) {
     char names[4096];
     const ssize_t size = ::llistxattr(folder.c_str(), names, sizeof names);
@@ -104,8 +104,8 @@ bool hasAttributes(const fs::path& folder) {
     return false;
 }
 
-// Makes the new folder like the old one in owner, group and mode. False if that is not possible, if the old
-// one is a link, or if it is our working directory.
+// Gives the new folder the mode of the old one. False if owner or group differ, or if the old one is a
+// link or our working directory.
 bool likeNew(const fs::path& folder, const fs::path& fresh) {
     struct stat old {
     }, made{};
@@ -120,7 +120,7 @@ bool isReadOnly(const fs::path& folder) {
     return ::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0;
 }
 
-// Moves files that another program created in the old folder during the exchange into the new one.
+// Moves files that other programs created in the old folder during the exchange.
 void rescue(const OpenFolder& from, const OpenFolder& to, const std::vector<std::string>& ours) {
     for (const std::string& name : ours) from.removeFile(name);
     for (const std::string& name : ours)
@@ -135,13 +135,13 @@ OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
     fs::create_directories(folder_.parent_path(), error);
     if (error) throw std::runtime_error(writingFailed(folder, error.value()));
     const FolderLock lock(folder_);
-    // Making a Temporary removes what killed programs left there: first beside the folder, then inside it.
+    // Each Temporary removes leftovers of killed programs: first beside the folder, then inside it.
     temporary_ = std::make_unique<Temporary>(folder_.parent_path(), folder_);
     if (fs::exists(folder_)) temporary_ = std::make_unique<Temporary>(folder_, folder_);
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
-// Not while an interruption removes the folder: it would make it anew.
+// Blocks interruptions, which would remove the temporary folder meanwhile.
 void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
     const auto held = holdTemporaries();
     for (const std::string& name : files) {
@@ -152,7 +152,7 @@ void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
     }
 }
 
-// Replaces the whole folder at once. If that is not possible, changes nothing and returns false.
+// Replaces the folder in one step. Changes nothing and returns false if that is impossible.
 bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
     if (isReadOnly(folder_) || !holdsOnly(folder_, earlier, temporary_->path()) ||
         !likeNew(folder_, temporary_->path()))
@@ -184,9 +184,9 @@ void OutputFolder::put(const std::vector<std::string>& files,
 
 void linkOrCopy(const fs::path& root, const std::string& name, const fs::path& to) {
     named((root / name).string(), [&] {
-        const auto held = holdTemporaries();  // or an interruption could not remove the folder
+        const auto held = holdTemporaries();  // an interruption must not remove the folder meanwhile
         InputFile from(root, name);
-        // By what was opened: nothing else can have taken its place.
+        // By file descriptor: the file cannot be swapped meanwhile.
         const std::string opened = fmt::format("/proc/self/fd/{}", from.descriptor());
         if (::linkat(AT_FDCWD, opened.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) != 0) copy(from, to);
     });

@@ -11,28 +11,25 @@
 
 namespace diptych {
 
-// A folder's new contents, written to a temporary folder and put in place when they are complete: at every
-// moment the folder holds all of the old or all of the new contents, however the program ends and however
-// many programs write to it. Without put() nothing is left behind. Throws std::runtime_error naming the
-// folder or file and a remedy.
+// Atomically replaces the contents of a folder: writes to a temporary folder and puts it in place when
+// complete. This holds however the program ends and for concurrent writers. Without put() nothing remains.
+// Throws std::runtime_error naming the folder or file and a remedy.
 class OutputFolder {
 public:
-    // The temporary folder is made inside `folder`, or beside it if it does not exist yet.
+    // Creates the temporary folder inside `folder`, or beside it if `folder` does not exist.
     explicit OutputFolder(const std::filesystem::path& folder);
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    const std::filesystem::path& path() const { return temporary_->path(); }  // where to write
+    const std::filesystem::path& path() const { return temporary_->path(); }  // write here
     std::filesystem::path operator/(const std::string& file) const { return path() / file; }
-    void makeFolders(const std::vector<std::string>& files) const;  // those that `files` stand in
+    void makeFolders(const std::vector<std::string>& files) const;  // parent folders of `files`
 
-    // Puts `files` (names such as "lit.png" or "1/lit.png") in place and removes the files of `earlier` that
-    // they do not replace; all other files stay. `earlier` is called while no other program can put files
-    // there, and throws if they must not be replaced. A folder that holds nothing else is exchanged for the
-    // new one as a whole; a shell whose working directory it was then stands in the removed folder. If an
-    // exchange is impossible (files of others, a mount, a link, another owner, this program's own working
-    // directory), files are moved one by one; if this program is killed meanwhile, the next one finishes the
-    // moves.
+    // Puts `files` ("lit.png", "1/lit.png") in place. Removes files of `earlier` that they do not replace;
+    // other files stay. `earlier` runs under the lock and throws if the files must not be replaced. A
+    // folder with no other contents is exchanged as a whole; a shell inside it then has a removed working
+    // directory. Files move one by one if an exchange is impossible: foreign files, a mount, a link,
+    // another owner, our working directory. After a kill the next program finishes the moves.
     void put(const std::vector<std::string>& files, const std::function<std::vector<std::string>()>& earlier);
 
 private:
@@ -42,14 +39,14 @@ private:
     std::unique_ptr<Temporary> temporary_;
 };
 
-// Gives the finished file `name` below `root` a second name, which shares its bytes where the file system has
-// hard links, else copies it. No link below `root` is followed. Throws std::runtime_error naming the file.
+// Links the finished file `name` below `root` to `to`, or copies it on a file system without hard links.
+// Follows no link below `root`. Throws std::runtime_error naming the file.
 void linkOrCopy(const std::filesystem::path& root, const std::string& name, const std::filesystem::path& to);
 
-// The same with bytes of its own: of a file that is somebody else's, who may write to it later.
+// The same, but always copies: for files whose owner may change them later.
 void copyBelow(const std::filesystem::path& root, const std::string& name, const std::filesystem::path& to);
 
-// Finishes the moves of a program that was killed in put(), if there are any.
+// Finishes moves of a program that was killed in put().
 void finishOutput(const std::filesystem::path& folder);
 
 }  // namespace diptych

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A list of half a million scenes.
+// About half a million scenes.
 constexpr std::uint64_t most_list_bytes = std::uint64_t(64) << 20;
-constexpr std::size_t longest_line = 4096;  // as a path, PATH_MAX
+constexpr std::size_t longest_line = 4096;  // PATH_MAX
 
 bool isSceneFile(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -63,7 +63,7 @@ bool hasWildcard(const std::string& text) {
     return text.find_first_of("*?[") != text.npos;
 }
 
-// What is in a folder, sorted; of one that cannot be read nothing, as a shell has it.
+// Sorted names in a folder; empty if it is unreadable, as in a shell.
 std::vector<std::string> namesIn(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code error;
@@ -74,7 +74,7 @@ std::vector<std::string> namesIn(const fs::path& folder) {
     return names;
 }
 
-// Adds what matches parts[at...] below `folder`.
+// Adds paths that match parts[at...] below `folder`.
 void match(const fs::path& folder, const std::vector<std::string>& parts, std::size_t at,
            std::vector<fs::path>& found) {
     std::error_code ignored;
@@ -108,7 +108,7 @@ std::vector<std::string> matchesOf(const std::string& pattern) {
         else if (isSceneFile(path))
             files.push_back(path.generic_string());
     }
-    std::ranges::sort(files);  // "a/**" comes by several ways to one file
+    std::ranges::sort(files);  // "a/**" reaches a file in several ways
     return files;
 }
 
@@ -145,7 +145,7 @@ private:
         for (const std::string& file : files) addOne(file);
     }
 
-    // A line of a list as the command line would have it.
+    // Converts a line of a list to a command-line word.
     static std::string wordOf(std::string line, const fs::path& folder) {
         for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
             if (at == 0 || std::isspace(static_cast<unsigned char>(line[at - 1])) != 0) line.resize(at);

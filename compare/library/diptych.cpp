@@ -66,7 +66,7 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
         const auto measured = result.figures.find(limit.figure);
         if (measured == result.figures.end())
             throw std::runtime_error(fmt::format("{}: is not defined for colours", limit.figure));
-        // The same rule as a tolerance file's.
+        // The same rule as in a tolerance file.
         Rule rule;
         rule.fail = {Condition::Kind::bound, {limit.figure, 0}, limit.value, {}};
         const bool holds = decide(rule, measurement).level != Level::fail;

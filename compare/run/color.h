@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours and columns of a terminal.
+// Terminal colours and columns.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace diptych {
 
 enum class ColorChoice { automatic, on, off };
 
-// Automatic: only a terminal that can show them, and not where NO_COLOR is set to anything (no-color.org).
+// Automatic: only on terminals that support colour, unless NO_COLOR is set and not empty (no-color.org).
 bool hasColor(ColorChoice choice, std::FILE* stream);
 
-// How many columns the terminal has that `stream` writes to; 0: it is none.
+// Columns of the terminal behind `stream`; 0: not a terminal.
 std::size_t terminalColumns(std::FILE* stream);
 
-// The text with SGR codes (ECMA-48, 8.3.117) around its verdicts: FAIL and ERROR red, pass green, warning
-// yellow, where they begin or end a line.
+// Adds SGR codes (ECMA-48, 8.3.117) around verdicts at the start or end of a line: FAIL and ERROR red,
+// pass green, warning yellow.
 std::string colored(std::string_view text);
 
 }  // namespace diptych

@@ -39,16 +39,14 @@ std::vector<std::string> commandWords(const std::string& command, const std::str
         else
             words.insert(words.end(), {option, value});
     }
-    if (scene.starts_with('-'))
-        words.emplace_back("--");  // so that the name of a file is not taken for an option
+    if (scene.starts_with('-')) words.emplace_back("--");  // a file name may look like an option
     words.push_back(scene);
     return words;
 }
 
 std::vector<std::string> withOption(std::vector<std::string> words, const std::string& option,
                                     const std::string& value) {
-    words.insert(words.begin() + 1,
-                 {option, value});  // after the command, because "--" may end the options before the scene
+    words.insert(words.begin() + 1, {option, value});  // after the command: "--" may end the options
     return words;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns Settings back into the words of the command line that asks for them.
+// Converts Settings to the command line that selects them.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -9,24 +9,23 @@
 
 namespace diptych {
 
-// The words from which parseCommandLine() reads `command` of `scene` with these Settings, without the
-// program's name. Settings with their default value are left out, and so is the path of compare, which draws
-// both.
+// Words that parseCommandLine() reads as `command` on `scene` with these Settings, without the program's
+// name. Skips default values, and the path for compare, which renders both.
 std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
                                       const Settings& settings);
 
-// `words` with one option and its value added.
+// Adds one option and its value to `words`.
 std::vector<std::string> withOption(std::vector<std::string> words, const std::string& option,
                                     const std::string& value);
 
-// `words` with several words added: options and their values.
+// Adds several words to `words`: options and their values.
 std::vector<std::string> withWords(std::vector<std::string> words, const std::vector<std::string>& more);
 
-// Puts a word in single quotes if the shell would interpret any character of it. A single quote cannot stand
-// inside single quotes, so it is escaped outside of them.
+// Puts a word in single quotes if the shell would interpret any of its characters. Single quotes are
+// escaped outside of the quotes, because they cannot occur inside.
 std::string shellWord(const std::string& word);
 
-// "diptych" and the words, quoted so that a POSIX shell reads them back.
+// "diptych" and the words, quoted for a POSIX shell.
 std::string shellLine(const std::vector<std::string>& words);
 
 // shellLine(commandWords(...)).

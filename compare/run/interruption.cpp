@@ -22,12 +22,12 @@ std::mutex lastWordsMutex;
 std::string lastWords;
 
 std::mutex supervisedMutex;
-std::map<int, int> lifelines;  // by the supervisor's process number
+std::map<int, int> lifelines;  // key: process ID of the supervisor
 
 void endAllSupervised() {
     const std::lock_guard lock(supervisedMutex);
     for (const auto& [supervisor, lifeline] : lifelines) endSupervised(lifeline);
-    siginfo_t ended{};  // it stays to be waited for by its parent's other thread
+    siginfo_t ended{};  // WNOWAIT: another thread reaps it
     for (const auto& [supervisor, lifeline] : lifelines)
         ::waitid(P_PID, static_cast<id_t>(supervisor), &ended, WEXITED | WNOWAIT);
 }
@@ -40,7 +40,7 @@ void sayWhenInterrupted(const std::string& line) {
 }
 
 void endSupervised(int lifeline) {
-    ::send(lifeline, "", 1, MSG_NOSIGNAL);  // fails where it has ended by itself
+    ::send(lifeline, "", 1, MSG_NOSIGNAL);  // fails if it has ended
 }
 
 EndedWhenInterrupted::EndedWhenInterrupted(int lifeline, int supervisor) : supervisor_(supervisor) {
@@ -60,7 +60,7 @@ void dieOf(int signal) {
     sigaddset(&one, signal);
     pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
     ::raise(signal);
-    ::_exit(128 + signal);  // as shells number it
+    ::_exit(128 + signal);  // exit code as a shell reports it
 }
 
 void watchInterruption() {

@@ -5,23 +5,22 @@
 
 namespace diptych {
 
-// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program at once, even during a long submission to
-// the device; signals that are already ignored (as under nohup) stay ignored. Unfinished temporary files are
-// removed, the progress line is wiped, and the program dies of the signal, as its shell expects. Call this
-// before any thread is started: threads inherit the blocked signals.
+// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program at once, even during a long submission
+// to the device. Signals that are ignored already, as under nohup, stay ignored. Removes temporary files,
+// wipes the progress line, and dies by the signal, as the shell expects. Call before any thread starts:
+// threads inherit the signal mask.
 void watchInterruption();
 
-// Sets the line that an interruption prints on stderr before the program ends; empty: none. May be called
-// from any thread.
+// Sets the line that an interruption prints on stderr; empty: none. Thread-safe.
 void sayWhenInterrupted(const std::string& line);
 
-// While there is one, an interruption first ends what a child of this process supervises, so that nobody
-// writes into folders that are then removed. The child ends when its end of the socket `lifeline` has a byte
-// or is closed.
+// While an object exists, an interruption first ends the processes under `supervisor`, a child of this
+// process. Otherwise they could write into folders that are being removed. The supervisor ends when its
+// end of the socket `lifeline` receives a byte or is closed.
 class EndedWhenInterrupted {
 public:
     EndedWhenInterrupted(int lifeline, int supervisor);
-    ~EndedWhenInterrupted();  // once the supervisor has been waited for
+    ~EndedWhenInterrupted();  // after waiting for the supervisor
     EndedWhenInterrupted(const EndedWhenInterrupted&) = delete;
     EndedWhenInterrupted& operator=(const EndedWhenInterrupted&) = delete;
 
@@ -30,7 +29,7 @@ private:
 };
 void endSupervised(int lifeline);
 
-// The program ends as if `signal` had never been caught.
+// Ends the program by `signal` with its default action.
 [[noreturn]] void dieOf(int signal);
 
 }  // namespace diptych

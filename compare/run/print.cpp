@@ -24,7 +24,7 @@ void printFile(InputFile& file) {
         piece.resize(std::min<std::uint64_t>(left, piece.size()));
         file.read(std::as_writable_bytes(std::span(piece)));
         lines += piece;
-        const std::size_t end = lines.rfind('\n') + 1;  // no character is cut in two
+        const std::size_t end = lines.rfind('\n') + 1;  // whole lines: no character is split
         printText(lines.substr(0, end));
         lines.erase(0, end);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one place where the program writes to stdout and stderr. What it says holds text from outside, so that
-// everything passes shownText() or messageLine(), JSON too. Only colours and the line of progress, which are
-// our own, are put around the text afterwards.
+// The only place that writes to stdout and stderr. Output contains untrusted text, so all of it, including
+// JSON, passes shownText() or messageLine(). Only our own colours and progress line bypass them.
 #pragma once
 
 #include "compare/run/color.h"
@@ -15,10 +14,10 @@ namespace diptych {
 
 class InputFile;
 
-// On stdout; lines end where the text says so.
+// Prints on stdout; adds no newline.
 void printText(std::string_view text, ColorChoice color = ColorChoice::off);
 
-// The whole of a file, in pieces of about 64 KiB.
+// Prints a whole file, in pieces of about 64 KiB.
 void printFile(InputFile& file);
 
 template <typename... Values>
@@ -26,7 +25,7 @@ void printOut(fmt::format_string<Values...> format, Values&&... values) {
     printText(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// On stderr, in one write: "diptych: ", the message, the end of the line.
+// Prints on stderr, in one write: "diptych: ", the message, a newline.
 void printMessage(std::string_view message);
 
 }  // namespace diptych

@@ -20,13 +20,11 @@ constexpr std::chrono::milliseconds patience{1000}, pause{50};
 constexpr std::chrono::seconds logPause{10};
 constexpr const char* wipeLine = "\r\x1b[K";  // ECMA-48: erase to the end of the line
 
-// The Progress that draws on standard error, if any. The thread that handles signals may use it while the
-// program ends.
+// The Progress that writes to stderr, if any. The thread that handles signals also uses it.
 std::timed_mutex drawingMutex;
 Progress* drawing = nullptr;
 
-// How long to wait for a thread that is drawing: it may be blocked by a stopped terminal. Then the line
-// stays.
+// Maximum wait for a writing thread, which a stopped terminal may block. The line then remains.
 constexpr std::chrono::milliseconds wipePatience{100};
 
 std::size_t progressColumns() {
@@ -79,7 +77,7 @@ void Progress::at(const std::string& what, double fraction, const std::string& s
             messageLine(fmt::format("diptych: {}: {:.0f} % {}", what, std::floor(furthest_ * 100), words)) +
             "\n");
     shown_ = true;
-    // One column stays free: a full line would wrap.
+    // Leaves one column free: a full line would wrap.
     const std::size_t columns = output_->columns() - 1;
     output_->write(wipeLine + oneLine(progressLine(what, furthest_, words, columns), columns));
 }
@@ -121,7 +119,7 @@ std::string clockText(double seconds) {
 
 std::string timeLeft(std::chrono::duration<double> elapsed, double fraction) {
     constexpr double soonest = 2, least = 0.02;
-    // Beyond a hundred hours the figure would be the estimate's noise, not a time.
+    // Longer estimates are noise.
     constexpr double longest = 100.0 * 3600;
     if (!(elapsed.count() >= soonest) || !(fraction >= least)) return "";
     const double seconds = std::ceil(elapsed.count() * (1 - std::min(fraction, 1.0)) / fraction);
@@ -136,7 +134,7 @@ std::string progressLine(const std::string& what, double fraction, const std::st
     const std::string numbers = fmt::format(" {:3.0f} % {}", std::floor(part * 100), step);
     if (columns < numbers.size()) return numbers.substr(0, columns);
     std::size_t space = columns - numbers.size();
-    // The bar gets its columns first; then as much of the end of the name as fits.
+    // The bar has priority; the name is truncated at its start.
     const std::size_t bar = space >= 12 ? std::min(widest, space / 2) : 0;
     std::string line;
     if (bar > 2) {

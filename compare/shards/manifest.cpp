@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// This program: a hash of all of it.
+// Size limit of the program file, which is hashed whole.
 constexpr std::uint64_t most_program_bytes = std::uint64_t(4) << 30;
 
-// Where a scene's files stand: "" or folders as diptych names them.
+// Folder of a scene's files: "" or a name that diptych gives.
 std::string folderFrom(const JsonAt<Json>& json) {
     const std::string& folder = json.text();
     if (!folder.empty() && (!folder.ends_with('/') || !isOurName(folder + "part.json")))

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a shard's report says of itself, so that it can be joined with the others of its command and with no
-// other.
+// Manifest of a shard's report, which identifies its command for merging.
 #pragma once
 
 #include "compare/shards/partition.h"
@@ -14,34 +13,34 @@
 
 namespace diptych::shards {
 
-// A scene of the whole command.
+// A scene of the command.
 struct Item {
     std::string scene;
-    std::string folder;  // of its files, in every report: sceneFolders()
-    int shard = 1;       // which has it
+    std::string folder;  // of its files, in all reports: sceneFolders()
+    int shard = 1;       // shard that has it
 };
 
 // A shard's manifest, shard.json.
 struct Manifest {
     std::string build;            // buildName() of the program
     std::string command;          // "compare"
-    nlohmann::ordered_json plan;  // everything that the result depends on, but the files' contents
+    nlohmann::ordered_json plan;  // inputs of the result except the files' contents
     Shard shard;
-    std::vector<Item> items;         // all of the command
-    std::vector<SceneError> errors;  // of the shard's own
+    std::vector<Item> items;         // of the whole command
+    std::vector<SceneError> errors;  // of this shard
 };
 
-// "0.1.0, commit 0123456789ab"; where the program was built outside a repository, a hash of the program.
+// "0.1.0, commit 0123456789ab"; a hash of the program if built outside a repository.
 std::string buildName();
-// Differs between any two programs that were built one after the other.
+// Differs between any two builds of the program.
 std::string programStamp();
 
-// 16 hexadecimal digits of the text (FNV-1a); of a plan's JSON.
+// FNV-1a of the text, and of a plan's JSON, as 16 hexadecimal digits.
 std::string hashOf(const std::string& text);
 std::string planHash(const nlohmann::ordered_json& plan);
 
 std::string textOf(const Manifest& manifest);
-// Throws std::runtime_error naming the folder where it holds none.
+// Throws std::runtime_error naming the folder if it has no valid manifest.
 Manifest readManifest(const std::filesystem::path& folder, const char* file);
 
 }  // namespace diptych::shards

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Found {
     fs::path folder;
     Manifest manifest;
-    std::string identity;  // of its command: build and plan
+    std::string identity;  // of the command: build and plan
 };
 
 std::string shortened(std::string text) {
@@ -30,7 +30,7 @@ std::string shortened(std::string text) {
     return text.size() <= most ? text : text.substr(0, most) + "...";
 }
 
-// What makes one manifest's command another than the other's, in words.
+// Describes how another manifest's command differs from ours.
 std::string differenceOf(const Manifest& other, const Manifest& ours) {
     if (other.build != ours.build)
         return fmt::format("is from another build ({}; the others are from {})", other.build, ours.build);
@@ -51,7 +51,7 @@ std::string differenceOf(const Manifest& other, const Manifest& ours) {
                 if (!theirs.contains(scene)) return fmt::format("lacks the scene {}", scene);
             return "has scene files of other sizes";
         }
-        // Of Settings the first that differs.
+        // For Settings: the first that differs.
         if (value.is_object() && there.is_object())
             for (const auto& [name, setting] : value.items())
                 if (!there.contains(name) || there[name] != setting)
@@ -64,7 +64,7 @@ std::string differenceOf(const Manifest& other, const Manifest& ours) {
     return "is from another command";
 }
 
-// Of the identities that there are the one that most folders are of; of as many, that of the first.
+// The most common identity; ties go to the first folder.
 std::string chosenOf(const std::vector<Found>& all) {
     std::map<std::string, std::size_t> counts;
     for (const Found& found : all) ++counts[found.identity];
@@ -93,7 +93,7 @@ Chosen choose(const std::vector<fs::path>& folders, const char* file) {
         try {
             found.manifest = readManifest(folder, file);
         } catch (const std::runtime_error& error) {
-            chosen.problems.emplace_back(error.what());  // its scenes may be missing, which is said as well
+            chosen.problems.emplace_back(error.what());  // its scenes may be reported as missing too
             continue;
         }
         found.identity =
@@ -101,7 +101,7 @@ Chosen choose(const std::vector<fs::path>& folders, const char* file) {
         all.push_back(std::move(found));
     }
     if (all.empty()) throw std::runtime_error(chosen.problems.front());
-    // The result does not depend on the order of the command line.
+    // Makes the result independent of the command line's order.
     std::ranges::stable_sort(all, {}, &Found::folder);
     const std::string identity = chosenOf(all);
     for (const Found& found : all) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports of shards, joined to the one that a single program would have written.
+// Merges reports of shards into the report of a single run.
 #pragma once
 
 #include "compare/report/parts.h"
@@ -13,30 +13,30 @@
 
 namespace diptych::shards {
 
-// Of folders that shards wrote, those of one command.
+// Folders of shards that belong to one command.
 struct Chosen {
     Manifest manifest;                             // of the command; without errors
-    std::map<int, std::filesystem::path> folders;  // by shard
+    std::map<int, std::filesystem::path> folders;  // key: shard
     std::map<int, std::vector<SceneError>> errors;
-    std::vector<std::string> problems;  // as of Joined
+    std::vector<std::string> problems;  // see Joined::problems
 
-    // Why there is nothing of the scene: its shard is missing, or could not do it.
+    // Why the scene has no result: its shard is missing or failed.
     std::optional<SceneError> errorOf(const Item& item) const;
 };
-// By the manifest that is called `file`. As join().
+// Reads the manifests named `file`; otherwise like join().
 Chosen choose(const std::vector<std::filesystem::path>& folders, const char* file);
 
 struct Joined {
-    Manifest manifest;  // of the command: that of the shards that were joined
+    Manifest manifest;  // of the merged shards' command
     WholeReport report;
-    // Why it is not all of the command: a line for each shard that is missing, there twice or of another
-    // command, and for each that is incomplete. Empty: it is.
+    // Why the report is incomplete: a line per shard that is missing, duplicate, of another command, or
+    // incomplete itself. Empty if it is complete.
     std::vector<std::string> problems;
 };
 
-// Joins the reports in `folders`, in any order. Of different commands those are joined that most folders are
-// of (of as many, that of the first by name); what is missing of it becomes an error of each of its scenes.
-// Throws std::runtime_error where no folder is the report of a shard.
+// Merges the reports in `folders`, in any order. With several commands, takes that of most folders; ties
+// go to the first by name. Scenes of missing shards become errors. Throws std::runtime_error if no folder
+// has a shard's report.
 Joined join(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace diptych::shards

@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where timings are missing: loading so many bytes takes about as long as drawing a small scene does
-// (lavapipe, 640x360, 2 cores).
+// Without timings: bytes whose loading takes as long as rendering a small scene (lavapipe, 640x360, 2
+// cores).
 constexpr double bytesOfDrawing = 4 << 20;
 
 std::optional<int> numberIn(std::string_view text) {
@@ -34,7 +34,7 @@ std::optional<int> numberIn(std::string_view text) {
     return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-// What Slurm tells a task of its array.
+// Variables of a Slurm array task.
 struct ArrayTask {
     int id = 0, first = 0, step = 0, last = 0;
     std::optional<int> count;
@@ -70,7 +70,7 @@ Shard shardOfArray(const std::string& word, const Variables& environment) {
     return {(task.id - task.first) / task.step + 1, count};
 }
 
-// The buffers and images of a .gltf's JSON, or of a .glb's first chunk; null where there is none.
+// Buffers and images in the JSON of a .gltf, or in the first chunk of a .glb. Null on failure.
 nlohmann::json gltfJson(const fs::path& path) {
     try {
         InputFile file(path, gltf::MAX_FILE_BYTES);
@@ -91,7 +91,7 @@ nlohmann::json gltfJson(const fs::path& path) {
         return parseJson(text, [](int depth, const std::string& key) {
             return depth > 1 ? key == "uri" : key == "buffers" || key == "images";
         });
-    } catch (const std::runtime_error&) {  // loading says what is wrong
+    } catch (const std::runtime_error&) {  // loadScene() reports the reason
         return {};
     }
 }

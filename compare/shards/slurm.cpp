@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A path in a line of #SBATCH: Slurm reads quotes there, and % begins a pattern.
+// A path in an #SBATCH line: Slurm interprets quotes, and % begins a pattern.
 std::string directivePath(const fs::path& path) {
     const std::string name = path.string();
     if (name.find_first_of("\"\\") != name.npos || oneLine(name, name.size()) != name)
@@ -70,7 +70,7 @@ Ran run(std::vector<std::string> words) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-    // This program has blocked signals of its own, which would last in what it starts.
+    // The child must not inherit our blocked signals.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;
@@ -100,10 +100,10 @@ Ran run(std::vector<std::string> words) {
     return ran;
 }
 
-// "123" or "123;cluster"
+// "123" or "123;cluster".
 std::string jobNumber(const std::vector<std::string>& words) {
     const Ran ran = run(words);
-    // sbatch may say something before; the number is what it says last.
+    // The number is the last line; sbatch may print messages before it.
     const std::size_t line = ran.out.rfind('\n');
     std::string number = line == ran.out.npos ? ran.out : ran.out.substr(line + 1);
     number = number.substr(0, number.find(';'));
@@ -123,7 +123,7 @@ fs::path slurmFolder(const fs::path& out) {
 std::string arrayScript(const SlurmJob& job) {
     std::vector<std::string> words = job.words;
     words.insert(words.begin() + 1, {"--shard", fmt::format("slurm/{}", job.shards), "-o"});
-    // The shard's own folder is known when it runs; what follows -o stands behind it.
+    // The shard's folder name ends in the task ID, so the script's text is split after -o.
     const std::string before = commandLine(job, {words.begin(), words.begin() + 4});
     std::string after;
     for (const std::string& word : std::vector<std::string>(words.begin() + 4, words.end()))
@@ -153,7 +153,7 @@ Submitted submit(const SlurmJob& job) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
-    const OpenFolder unlinked(folder);  // throws where it is a link, whose folder would get the scripts
+    const OpenFolder unlinked(folder);  // throws for a link, which would redirect the scripts
     const fs::path array = folder / "array.sh", merge = folder / "merge.sh";
     writeFile(array, arrayScript(job));
     writeFile(merge, mergeScript(job));
@@ -162,7 +162,7 @@ Submitted submit(const SlurmJob& job) {
     words.insert(words.end(), job.options.begin(), job.options.end());
     words.push_back(array.string());
     submitted.array = jobNumber(words);
-    // Whether or not they ended well: the report has what there is, and names what is missing.
+    // afterany: merge even if tasks failed; the report names what is missing.
     submitted.merge =
         jobNumber({"sbatch", "--parsable", "--dependency=afterany:" + submitted.array, merge.string()});
     return submitted;

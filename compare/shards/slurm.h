@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A command over many scenes as jobs of Slurm: an array of shards, and a job that joins their reports.
+// Runs a command over many scenes as Slurm jobs: an array of shards, and a merge job.
 #pragma once
 
 #include <filesystem>
@@ -9,26 +9,25 @@
 namespace diptych::shards {
 
 struct SlurmJob {
-    std::string program;             // to run, absolute
-    std::filesystem::path working;   // the folder that the command was given in, absolute
-    std::vector<std::string> words;  // of the command, without -o and --shard: "compare", "scenes/"
-    std::filesystem::path out;       // the report; shards, scripts and logs stand in OUT.slurm
+    std::string program;             // absolute path
+    std::filesystem::path working;   // folder where the command was given, absolute
+    std::vector<std::string> words;  // without -o and --shard: "compare", "scenes/"
+    std::filesystem::path out;       // the report; shards, scripts and logs are in OUT.slurm
     int shards = 1;
-    int at_once = 0;                   // how many of them may run at a time; 0: as many as Slurm lets
+    int at_once = 0;                   // tasks at a time; 0: Slurm's limit
     std::vector<std::string> options;  // of sbatch, for the array: "--partition=long"
 };
 
-// The folder beside the report.
+// OUT.slurm beside the report.
 std::filesystem::path slurmFolder(const std::filesystem::path& out);
 
-// A batch script for /bin/sh: shard N of the command, which goes on behind what it left when its node was
-// lost, as Slurm puts such a task into the queue again. And the one that joins what there is once all have
-// ended.
+// Batch scripts for /bin/sh. arrayScript() runs shard N; a requeued task resumes after its lost node.
+// mergeScript() merges what exists once all tasks have ended.
 std::string arrayScript(const SlurmJob& job);
 std::string mergeScript(const SlurmJob& job);
 
-// Writes both scripts and submits them, the second behind the first. Returns the two jobs' numbers. Throws
-// std::runtime_error, one line, with what sbatch says.
+// Writes and submits both scripts; the merge waits for the array. Returns both job numbers. Throws
+// std::runtime_error, one line with sbatch's message.
 struct Submitted {
     std::string array, merge;
 };

@@ -12,12 +12,12 @@ namespace {
 
 using page::csvLine;
 
-// All digits; what is infinite is "inf".
+// All digits; infinity is "inf".
 std::string digits(double value) {
     return fmt::format("{}", value);
 }
 
-// All options that may be swept except the path, which has a column of its own.
+// Options that a sweep can vary. The path has its own column.
 std::vector<std::string> optionColumns() {
     std::vector<std::string> options;
     for (const Field& field : settingFields())

@@ -13,16 +13,15 @@
 namespace diptych::tradeoff {
 namespace {
 
-// Why the scene cannot feel Settings, by their options.
+// Key: option; value: why the scene is not sensitive to it.
 using Reasons = std::map<std::string_view, std::string_view>;
 
 bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
-// What a scene's surfaces reflect by, whether it has an environment, whether its harmonics are windowed,
-// whether joints or targets move vertices, whether a material lets light through, and whether one reads a
-// texture.
+// Properties of a scene: diffuse or specular surfaces, an environment, windowed spherical harmonics,
+// skinned or morphed vertices, blended materials, textured materials.
 struct Reflectors {
     bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true,
          textured = true;
@@ -38,7 +37,7 @@ Reflectors reflectorsOf(const Scene* scene) {
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
-            // glTF's default material is a metal.
+            // Index -1 is glTF's default material, which is fully metallic.
             const Material material = primitive.material < 0
                                           ? Material{}
                                           : scene->materials[static_cast<std::size_t>(primitive.material)];
@@ -53,7 +52,7 @@ Reflectors reflectorsOf(const Scene* scene) {
     return found;
 }
 
-// Sets what a row cannot feel to one value and says why, so that rows of one picture become equal.
+// Resets Settings that do not affect the image and records why. Rows with equal images become equal.
 class Unfelt {
 public:
     Unfelt(Settings row, std::span<const Light> lights, const Reflectors& surfaces) : row_(std::move(row)) {
@@ -100,7 +99,7 @@ private:
             for (const std::string_view option :
                  {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"})
                 reset(option, dull);
-        // Between facets irradiance is reflected too.
+        // fdez also reflects irradiance between microfacets.
         if (!surfaces.base && row_.multiscatter != Multiscatter::fdez)
             reset("ibl-diffuse", "every surface is a metal, without diffuse reflection");
         if (!surfaces.windowed && row_.ibl_diffuse == IblDiffuse::sh_windowed) {
@@ -143,7 +142,7 @@ private:
 SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights, const Scene* scene) {
     const Reflectors surfaces = reflectorsOf(scene);
     SweepRows result{{}, sweep.skips};
-    std::vector<Settings> drawn;  // the rows of the result without what is not felt
+    std::vector<Settings> drawn;  // result.rows with insensitive Settings reset
     for (const Settings& row : sweep.rows) {
         const Unfelt unfelt(row, lights, surfaces);
         const auto same = std::ranges::find(drawn, unfelt.row());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings that a scene cannot feel: whatever their value, it draws the same picture.
+// Settings to which a scene is not sensitive: their values do not change the image.
 #pragma once
 
 #include "compare/tradeoff/sweep.h"
@@ -9,9 +9,9 @@
 
 namespace diptych::tradeoff {
 
-// The sweep without rows that differ from an earlier one only in Settings that mean nothing to a scene with
-// these lights (the scene's own and those that were added). Their values become skips, which say why.
-// `scene`: whose materials, environment and meshes they are; nullptr: any.
+// Removes rows that differ from an earlier row only in Settings to which the scene is not sensitive. Their
+// values become skips with reasons. `lights`: the scene's own and added ones. `scene`: source of
+// materials, environment and meshes; nullptr: assume any.
 SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights,
                           const Scene* scene = nullptr);
 

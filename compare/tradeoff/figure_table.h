@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A table of some rows of a sweep by figures of their own, below the one of all rows.
+// A table of selected rows of a sweep with their own metrics, below the main table.
 #pragma once
 
 #include "compare/tradeoff/tradeoff.h"
@@ -17,22 +17,22 @@ struct FigureColumn {
 
 struct FigureRow {
     std::size_t row = 0;         // index in the sweep
-    std::string settings;        // in words
-    std::vector<double> values;  // one a column
-    std::string last{};          // of FigureTable::last_title
+    std::string settings;        // as text
+    std::vector<double> values;  // one per column
+    std::string last{};          // cell of FigureTable::last_title
 };
 
 struct FigureTable {
-    std::string title, explanation;  // a sentence or two, for the page
+    std::string title, explanation;  // one or two sentences, for the page
     std::vector<FigureColumn> columns;
     std::vector<FigureRow> rows;
-    std::string last_title{};  // of a column of words; empty: there is none
+    std::string last_title{};  // title of a text column; empty: no such column
 };
 
-// The Settings of a row in words, with `option` even where it has the value that the sweep was given.
+// A row's Settings as text. Always includes `option`, even at its given value.
 std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::string_view option);
 
-// On a terminal, and on the page: with each row's time and memory. Empty without rows.
+// For a terminal, and for the page. Includes each row's time and memory. Empty without rows.
 std::string inText(const Tradeoff& tradeoff, const FigureTable& table);
 std::string inHtml(const Tradeoff& tradeoff, const FigureTable& table);
 

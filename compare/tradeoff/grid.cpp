@@ -21,7 +21,7 @@ std::string quotedLine(const Json& json) {
     return oneLine(jsonText(json, -1));
 }
 
-// The option of a Setting that may be swept.
+// The option for a JSON key. Throws std::runtime_error if a sweep cannot vary it.
 std::string optionOf(const std::string& key) {
     std::string option, all, key_ = key;
     std::ranges::replace(key_, '_', '-');
@@ -39,7 +39,7 @@ std::string optionOf(const std::string& key) {
     return option;
 }
 
-// The value in words, from a word of the command line or from JSON as reports print it.
+// The value in the words of Settings::set(). `json`: such a word, or a value as in reports.
 std::string valueFrom(const std::string& key, const std::string& option, const Json& json,
                       const Settings& given) {
     Settings settings = given;

@@ -8,10 +8,10 @@
 
 namespace diptych::tradeoff {
 
-// Reads --grid, a file or the JSON itself (it begins with { or [): { "settings": { "gbuffer": ["compact",
-// "full"], "size": ["1/2", "320x180"] } } is every combination of these values; a list holds several such
-// grids. A single value needs no brackets. Throws std::runtime_error, one line that names the file and what
-// in it is wrong.
+// Reads --grid, a file or JSON text that begins with { or [. A grid is the product of its values:
+//   { "settings": { "gbuffer": ["compact", "full"], "size": ["1/2", "320x180"] } }
+// A list holds several grids. A single value needs no brackets. Throws std::runtime_error, one line naming
+// the file and the problem.
 std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
 
 }  // namespace diptych::tradeoff

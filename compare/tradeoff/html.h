@@ -7,7 +7,7 @@
 
 namespace diptych::tradeoff {
 
-// index.html of a sweep: one page without external resources, readable from file://.
+// index.html of a sweep: one page without external resources, works from file://.
 std::string tradeoffHtml(const Tradeoff& tradeoff);
 
 }  // namespace diptych::tradeoff

@@ -16,7 +16,7 @@ Json jsonOf(const std::vector<Choice>& choices) {
     return json;
 }
 
-// Row numbers count from 1, as in the table and the page.
+// Row numbers start at 1, as in the table and on the page.
 Json numbersOf(const std::vector<std::size_t>& rows) {
     Json json = Json::array();
     for (const std::size_t row : rows) json.push_back(row + 1);

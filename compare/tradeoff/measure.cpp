@@ -22,19 +22,19 @@ using page::cameraTitle;
 namespace {
 
 constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gpu::DEBUG_material_id);
-// By which shadows are judged.
+// Channels that evaluate shadows.
 constexpr auto SEEN = static_cast<int>(gpu::DEBUG_shadow_visibility),
                DEPTH = static_cast<int>(gpu::DEBUG_depth), LEVEL = static_cast<int>(gpu::DEBUG_cascade),
                COARSER = static_cast<int>(gpu::DEBUG_page_residency);
 constexpr auto SHADED = static_cast<int>(gpu::DEBUG_shaded_samples);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int widestThumbnail = 480;  // pixels: a card of the page
+constexpr int widestThumbnail = 480;  // pixels; width of a card on the page
 
 double knownOrInfinite(double value) {
     return std::isfinite(value) ? value : infinity;
 }
 
-// Draws lit, and material_id, by which background is recognised; `shadows`: and by what shadows are judged.
+// Renders lit, and material_id to detect the background. `shadows`: also channels that evaluate shadows.
 RenderOptions drawingOptions(const RenderOptions& options, bool shadows) {
     RenderOptions drawing = options;
     drawing.channels = {LIT, IDS};
@@ -45,7 +45,8 @@ RenderOptions drawingOptions(const RenderOptions& options, bool shadows) {
     return drawing;
 }
 
-// What the row's choice of samples is; `options`: of its Frame, which has been drawn.
+// Compares the row with --msaa-edges exact; empty without a choice of samples. `options`: used to render
+// `frame`.
 std::optional<SampleShares> choiceOfSamples(Renderer& renderer, const Frame& frame, RenderOptions options) {
     const std::optional<Settings> exact = exactEdges(frame.settings);
     if (!exact) return {};
@@ -118,7 +119,7 @@ HdrFlipOptions flipOver(const Coverage& coverage) {
 }  // namespace
 
 ErrorsAgainst::ErrorsAgainst(const Frame& reference)
-    : coverage_(coverage(reference, reference)),  // the same pixels for every row
+    : coverage_(coverage(reference, reference)),  // the same pixels for all rows
       reference_(reference.channels.at(LIT)),
       covered_(covered(reference_)),
       relative_(debugMode(LIT).metric, debugMode(LIT).kind, reference_, coverage_) {}
@@ -157,7 +158,7 @@ FrameErrors ErrorsAgainst::operator()(const Image& lit) const {
 
 FrameErrors ErrorsAgainst::forFigure(std::size_t figure, const Image& lit) const {
     FrameErrors result;
-    constexpr std::size_t flipFigure = 0;  // the others are of the pixels' relative errors
+    constexpr std::size_t flipFigure = 0;  // other metrics use the pixels' relative errors
     if (figure != flipFigure) {
         result.pixels = pixelsOf(lit);
         return result;

@@ -16,17 +16,16 @@
 
 namespace diptych::tradeoff {
 
-// Errors of a Frame that is as large as its reference; `pixels` gets each covered pixel's relative error.
+// Errors of a Frame of the reference's size. `pixels`: relative error of each covered pixel.
 struct FrameErrors {
     Errors errors{};
     std::vector<double> pixels;
-    Image flip;  // of every pixel
+    Image flip;  // all pixels
     double flip_sum = 0;
     std::uint64_t flip_pixels = 0;
 };
 
-// Errors of lit from one camera against its reference's. What is of the reference alone is made once; not
-// for several threads at a time.
+// Errors of lit from one camera. Caches data of the reference. Not thread-safe.
 class ErrorsAgainst {
 public:
     explicit ErrorsAgainst(const Frame& reference);
@@ -34,48 +33,48 @@ public:
     ErrorsAgainst& operator=(const ErrorsAgainst&) = delete;
 
     FrameErrors operator()(const Image& lit) const;
-    // What one of errorFigures needs of several cameras' errors: either flip_sum and flip_pixels or `pixels`.
+    // Inputs of one metric of errorFigures for ErrorsOfCameras: flip_sum and flip_pixels, or `pixels`.
     FrameErrors forFigure(std::size_t figure, const Image& lit) const;
-    // Lets go of what FLIP keeps of the reference, some 256 MiB at most; it is made anew where it is needed.
+    // Frees FLIP's data of the reference, about 256 MiB at most. It is recomputed on demand.
     void release() const { flip_.reset(); }
 
 private:
     std::vector<double> pixelsOf(const Image& lit) const;
-    // Without what is not covered, which FLIP's filters would read beside what is.
+    // Replaces uncovered pixels by NaN, so that FLIP's filters ignore them.
     Image covered(const Image& lit) const;
     const HdrFlipAgainst& flip() const;
 
     const Coverage coverage_;
-    const Image reference_;  // of every pixel
+    const Image reference_;  // all pixels
     const Image covered_;
     const PixelError relative_;
     mutable std::optional<HdrFlipAgainst> flip_;
 };
 
-// The reference frames with which all rows of a sweep are compared.
+// The reference frames of a sweep.
 struct ReferenceFrames {
     std::vector<Frame> frames;                                 // one per camera
-    std::vector<std::shared_ptr<const ErrorsAgainst>> errors;  // of each
-    Exposure exposure;                                         // of every picture
+    std::vector<std::shared_ptr<const ErrorsAgainst>> errors;  // one per camera
+    Exposure exposure;                                         // for all images
 };
 
-// `shadows`: what shadows are judged by is drawn, too, where they cast.
+// `shadows`: also renders channels that evaluate shadows, if shadows are on.
 ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
                                     const std::vector<std::string>& cameras, const PictureChoice& choice,
                                     const RenderOptions& options, bool shadows = true);
 
-// RMSE and 99th percentile (nearest rank) of the pixels' relative errors.
+// RMSE and 99th percentile (nearest rank) of relative errors.
 struct RelativeErrors {
     double rmse = 0, p99 = 0;
 };
 RelativeErrors relativeErrors(std::vector<double> errors);
 
-// Adds what the reference frames say and what of the scene's light the rows' paths leave out, which is part
-// of their errors; a line that is among `notes` is not said again.
+// Adds the reference frames' notes, and light that the rows' paths do not support. The latter is part of
+// their errors. Skips lines that `notes` has already.
 void addNotes(std::vector<std::string>& notes, const ReferenceFrames& references,
               std::span<const Settings> rows, const Requirements& needs);
 
-// Errors over several cameras, all of whose pixels count alike.
+// Errors over several cameras; all pixels have equal weight.
 class ErrorsOfCameras {
 public:
     void add(const FrameErrors& camera);
@@ -90,20 +89,20 @@ struct MeasuredRow {
     TradeoffRow row;
     Image8 picture, errors;  // of the first camera
 };
-// Draws and times the Settings from every camera of the reference frames: a first visit. `options`: runs,
-// on_step, progress.
+// Renders and times the Settings from every camera of the reference frames: the first timing block. Reads
+// `options`: runs, on_step, progress.
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options);
 
-// The same of another renderer's pictures, one for each of the reference frames, whose background they show.
-// Their time is that in which each was made.
+// The same for another renderer's images, one per reference frame; their background becomes the
+// reference's. Its time is that of its whole command.
 MeasuredRow measuredRow(std::vector<Frame> frames, const ReferenceFrames& references);
 
-// Times `options.runs` more frames of the rows from every camera, the rows in turn: one more visit of each.
+// Adds a timing block of `options.runs` frames per camera to each row, with the rows interleaved.
 void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows, const ReferenceFrames& references,
                const RenderOptions& options);
 
-// The picture of lit as the page shows it, at most as wide as a card.
+// lit as an 8-bit image, at most as wide as a card of the page.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);
 
 }  // namespace diptych::tradeoff

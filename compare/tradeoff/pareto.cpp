@@ -12,7 +12,7 @@ std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (std::isfinite(points[i].time) && std::isfinite(points[i].error)) order.push_back(i);
-    // By error, so that those that may keep a point from the front come before it, and are known to be on it.
+    // By error: a point can only be dominated by earlier ones, which are decided by then.
     std::ranges::sort(order, {},
                       [&](std::size_t i) { return std::tuple(points[i].error, points[i].time, i); });
     std::vector<std::size_t> front;

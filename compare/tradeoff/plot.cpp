@@ -17,11 +17,11 @@ using page::number;
 
 namespace {
 
-// Of the drawing, in its own units.
+// SVG user units.
 constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bottom = 56;
 constexpr double digitWidth = 11.5,
-                 digitHeight = 17;  // of a row's number, where the style makes text largest
-constexpr double farLabel = 40;     // from its point to the middle of its number
+                 digitHeight = 17;  // of row numbers, at the style's largest text size
+constexpr double farLabel = 40;     // from the point to its label's centre
 constexpr PlotBox axesBox{left, top, width - right, height - bottom};
 
 class Plot {
@@ -40,7 +40,7 @@ public:
             fmt::format("{} over time, {}{}", errorFigures[figure_].title, tradeoff_.scene,
                         path_ ? ", " + std::string(nameOf(*path_)) : "");
         std::string out = axes_.axes(std::string(errorFigures[figure_].title)) + frontLine();
-        for (const bool front : {false, true})  // the front on top
+        for (const bool front : {false, true})  // front on top
             for (const std::size_t row : rows_)
                 if ((std::ranges::count(front_, row) > 0) == front) out += point(row, front, file);
         out += rowNumbers();
@@ -102,8 +102,8 @@ private:
                            svgNumber(py));
     }
 
-    // The number of each row on the front, above all points; a line leads to one that had to go far, or
-    // that stands nearer to another point than to its own.
+    // Numbers of the rows on the front, above all points. A line connects a label with its point if it is
+    // far away or closer to another point.
     std::string rowNumbers() const {
         std::vector<Label> labels;
         std::vector<PlotBox> marks;

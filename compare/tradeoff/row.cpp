@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Place = JsonAt<Json>;
 
-// Largest count of bytes or pixels in a row: sums of several rows stay exact.
+// Upper limit of bytes and pixels in a row, so that sums of rows stay exact.
 constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 template <class Value>
@@ -25,7 +25,7 @@ double mean(const TradeoffRow& row, Value&& value) {
     return row.cameras.empty() ? 0 : sum / static_cast<double>(row.cameras.size());
 }
 
-// `figures`: errorFigures, shadowFigures or sampleFigures; what is infinite is null.
+// `figures`: errorFigures, shadowFigures or sampleFigures. Infinity becomes null.
 template <class Figures, class Values>
 Json jsonOf(const Figures& figures, const Values& values) {
     Json json = Json::object();
@@ -56,7 +56,7 @@ std::optional<std::array<double, std::tuple_size_v<Figures>>> figuresIfAny(const
     return figuresFrom(figures, json);
 }
 
-// The mean over the cameras; nothing where one of them has none.
+// Mean over the cameras; empty if a camera has no value.
 template <class Values>
 std::optional<Values> meanOf(const TradeoffRow& row, std::optional<Values> CameraRow::*figures) {
     const auto known = [&](const CameraRow& camera) { return (camera.*figures).has_value(); };

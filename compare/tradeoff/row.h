@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The measurements of one row of a sweep: one Settings.
+// Measurements of one row of a sweep: one Settings.
 #pragma once
 
 #include "compare/tradeoff/sample_shares.h"
@@ -16,7 +16,7 @@
 
 namespace diptych::tradeoff {
 
-// Of lit against the reference, over the pixels that show a surface there: the same for every row.
+// Error metrics of lit over pixels with a surface in the reference: the same pixels for every row.
 struct ErrorFigure {
     std::string_view name, title, means;
 };
@@ -28,52 +28,52 @@ inline constexpr std::array errorFigures{
 using Errors = std::array<double, errorFigures.size()>;
 
 struct CameraRow {
-    std::string camera;             // its title: "default view"
-    std::vector<FrameTime> visits;  // one entry per series of timed frames
+    std::string camera;             // title: "default view"
+    std::vector<FrameTime> visits;  // one per timing block
     std::vector<PassTime> passes;
     FrameBytes bytes;
     Errors errors{};
-    std::uint64_t pixels = 0;  // that the errors are over
+    std::uint64_t pixels = 0;  // number of compared pixels
     std::optional<ShadowErrors> shadow{};
     std::optional<SampleShares> samples{};
 };
 
 struct TradeoffRow {
-    Settings settings;  // its camera is the first one
+    Settings settings;  // camera: the first one
     std::vector<CameraRow> cameras;
-    Errors errors{};           // of all cameras' pixels together
-    double drawing_ms = 0;     // wall clock of drawing and timing
-    std::string picture{};     // its file
-    std::string errors_map{};  // file of the picture of FLIP
+    Errors errors{};           // over all cameras' pixels
+    double drawing_ms = 0;     // wall-clock time of rendering and timing
+    std::string picture{};     // file name
+    std::string errors_map{};  // file name of the FLIP image
     std::vector<std::string> warnings{};
-    // Of another renderer its name and its file; such a row's time is its whole command's, so that it stands
-    // on no front and in no plot.
+    // External renderer: name and file. Its time is that of its whole command, so fronts and plots skip
+    // such rows.
     std::string renderer{}, renderer_file{};
 };
 
-// Over all visits: the mean of their medians, so that each visit counts equally; the least and greatest time;
-// the number of all frames.
+// Over all timing blocks: the mean of their medians, so that blocks weigh equally; the least and greatest
+// time; the total number of frames.
 FrameTime timeOf(const CameraRow& camera);
 
 struct Spread {
     double value = 0, low = 0, high = 0;
 };
-// The mean over cameras of the medians, of the least and of the greatest times, ms.
+// Means over the cameras of median, least and greatest time, ms.
 Spread timeOf(const TradeoffRow& row);
-// The error over all cameras together, and the least and greatest of a single camera.
+// The error over all cameras' pixels, and the least and greatest of a single camera.
 Spread errorOf(const TradeoffRow& row, std::size_t figure);
-// The mean over cameras, ms; names in the first camera's order.
+// Means over the cameras, ms; in the first camera's order.
 std::vector<PassTime> passesOf(const TradeoffRow& row);
-// The bytes of the camera that takes most, and the sum of its images and buffers.
+// The bytes of the camera that needs most, and their sum of images and buffers.
 FrameBytes bytesOf(const TradeoffRow& row);
 std::uint64_t memoryOf(const TradeoffRow& row);
-// The mean over the cameras; nothing where one of them has none.
+// Means over the cameras; empty if a camera has no value.
 std::optional<ShadowErrors> shadowOf(const TradeoffRow& row);
 std::optional<SampleShares> samplesOf(const TradeoffRow& row);
 
-// Every number with all its digits; an error that is infinite is null.
+// Numbers with all digits; an infinite error is null.
 nlohmann::ordered_json jsonOf(const TradeoffRow& row);
-// Reads what jsonOf() wrote; throws std::runtime_error that names the place if it is anything else.
+// Reads the output of jsonOf(). Throws std::runtime_error naming the place of an error.
 TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
 
 }  // namespace diptych::tradeoff

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// With several samples a pixel: how many of them deferred lighting shades, and what its choice of them
-// changes.
+// Multisampling: how many samples deferred lighting shades, and how their choice changes the image.
 #pragma once
 
 #include "compare/tradeoff/figure_table.h"
@@ -10,13 +9,13 @@
 
 namespace diptych::tradeoff {
 
-// What a Frame is held against: the same Settings with --msaa-edges exact, which shades whatever differs.
-std::optional<Settings> exactEdges(const Settings& settings);  // nothing where samples are not chosen
+// The Settings to compare with: --msaa-edges exact shades all samples that differ.
+std::optional<Settings> exactEdges(const Settings& settings);  // empty if samples are not chosen
 
-// Nothing where a Frame lacks shaded_samples or lit.
+// Empty if a Frame lacks shaded_samples or lit.
 std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame);
 
-// The rows of a sweep that choose samples. Empty where there are none.
+// Rows with a choice of samples; may be empty.
 FigureTable sampleTable(const Tradeoff& tradeoff);
 
 }  // namespace diptych::tradeoff

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figures of rows whose deferred lighting chooses which of a pixel's samples it shades.
+// Metrics of rows in which deferred lighting chooses the samples to shade.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace diptych::tradeoff {
 struct SampleFigure {
     std::string_view name, title, means;
 };
-// Shares are of the pixels that show a surface. Exact: the same Settings with --msaa-edges exact.
+// Fractions are of pixels with a surface. Exact: the same Settings with --msaa-edges exact.
 inline constexpr std::array sampleFigures{
     SampleFigure{"shaded", "shaded",
                  "mean number of shaded sample groups per pixel: at most 1 + 3 f with 4 samples"},

@@ -19,7 +19,7 @@ double share(std::size_t part, std::size_t all) {
     return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-// By nearest rank.
+// Nearest rank.
 double p99(std::vector<double> values) {
     if (values.empty()) return 0;
     const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(values.size())));

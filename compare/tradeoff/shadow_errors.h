@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How wrong a path's shadow of the sun is, held against the rays of the reference.
+// Errors of a path's sun shadow, compared with traced rays of the reference.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -13,9 +13,9 @@ namespace diptych::tradeoff {
 struct ShadowFigure {
     std::string_view name, title, means;
 };
-// Shares are of the pixels that show a surface in the reference and are farther from the traced edge of a
-// shadow than the path's filter reaches and one texel: nearer, anything between light and shadow is right.
-// V: how much of the sun a pixel sees in the path; R: in the reference, 0 or 1; E: the irradiance that the
+// Fractions are of pixels with a surface in the reference. Pixels within the filter radius plus one texel
+// of a traced shadow boundary do not count as false: any value is valid there. V: sun visibility in the
+// path; R: in the reference, 0 or 1; E: irradiance of the unshadowed sun.
 // sun would give unshadowed.
 inline constexpr std::array shadowFigures{
     ShadowFigure{"error", "error", "sum of |V - R| E divided by the sum of R E; ranks the paths"},
@@ -30,9 +30,9 @@ inline constexpr std::array shadowFigures{
 };
 using ShadowErrors = std::array<double, shadowFigures.size()>;
 
-// Nothing where the reference traced no sun that casts, or the Frame is of another size or lacks a channel
-// that this needs (shadow_visibility and depth). A Frame without shadow maps shows the sun everywhere; its
-// gap is infinite, as are error and leak where nothing should be lit.
+// Empty if the reference traced no shadow-casting sun, or if the Frame has another size or lacks
+// shadow_visibility or depth. A Frame without shadow maps sees the sun everywhere, so its gap is infinite.
+// Error and leak are infinite if nothing should be lit.
 std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& frame);
 
 }  // namespace diptych::tradeoff

@@ -13,7 +13,7 @@ namespace diptych::tradeoff {
 
 namespace {
 
-// Which rows are not on the front of error and of what `cost` gives.
+// Marks rows that are not on the Pareto front of error and cost.
 template <class Cost>
 void markBeaten(std::vector<ShadowRow>& rows, const Cost& cost, bool ShadowRow::*beaten) {
     std::vector<TimeError> points;

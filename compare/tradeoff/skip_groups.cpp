@@ -9,10 +9,10 @@
 namespace diptych::tradeoff {
 namespace {
 
-// A reason that names a value tried, and what to use instead, without both: the same for all values.
-// "--assign tiled is not built yet; use every" is of assign tiled: "is not built yet".
+// A skip's reason without the tried value and the suggestion, so that it is equal for all values.
+// "--assign tiled is not built yet; use every" becomes "is not built yet".
 struct Cause {
-    std::string reason, option, value;  // no option: of the whole combination
+    std::string reason, option, value;  // no option: the whole combination
 };
 
 Cause causeOf(const SweepSkip& skip) {
@@ -36,7 +36,7 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips) {
     for (const Cause& cause : causes) {
         if (std::ranges::count(groups, cause.reason, &SkipGroup::reason) > 0) continue;
         SkipGroup group{cause.reason, {}};
-        std::vector<std::pair<std::string, std::vector<std::string>>> values;  // by option
+        std::vector<std::pair<std::string, std::vector<std::string>>> values;  // key: option
         for (const Cause& other : causes) {
             if (other.reason != cause.reason) continue;
             auto known = std::ranges::find(values, other.option, [](const auto& v) { return v.first; });

@@ -25,7 +25,7 @@ std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std
     return {std::string(option), sweptValues(given, option)};
 }
 
-// Adds a start for every combination of the Settings that sweepPairs pairs with each other one; the other
+// Adds a start for every combination of the Settings that sweepPairs() crosses with all others. The other
 // Settings are varied from every start.
 void addStarts(const Settings& given, std::vector<Settings>& starts) {
     starts.push_back(given);
@@ -48,7 +48,7 @@ bool isCrossedWithEach(std::string_view option) {
                                [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
 }
 
-// What specular anti-aliasing is told.
+// Inputs of specular anti-aliasing.
 auto filterOf(const Settings& s) {
     return std::tuple(s.spec_aa, s.spec_aa_variance, s.spec_aa_limit, s.spec_aa_normals, s.spec_aa_kernel);
 }
@@ -66,10 +66,10 @@ public:
         for (const auto& [option, value] : tried)
             if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
                 skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
-        // Light between microfacets is another model than the others are held against.
+        // Without multiple scattering the reference uses another model.
         if (given_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
             return skip(tried, "needs a reference with multiple scattering: add --multiscatter energy");
-        // Against the surfaces that one sample a pixel shows, what is filtered is an error and nothing else.
+        // A reference with one sample per pixel cannot show a benefit of filtering.
         if (given_.reference_mode == ReferenceMode::surface && filterOf(requested) != filterOf(given_))
             return skip(tried,
                         "needs a reference that samples the scene: add --reference-mode scene and --spp");
@@ -94,7 +94,7 @@ private:
         }
         return choices;
     }
-    // A skip is not listed again for combinations that add more choices to those that caused it.
+    // Omits skips whose combination extends one with the same reason.
     void skip(const std::vector<Choice>& tried, const std::string& reason) {
         const auto covers = [&](const SweepSkip& skip) {
             return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Choice& choice) {
@@ -108,7 +108,7 @@ private:
     SweepRows sweep_;
 };
 
-// Adds every combination of the grid, the last Setting changing fastest.
+// Adds the product of the grid; the last Setting varies fastest.
 void addProduct(const Grid& grid, SweepBuilder& builder) {
     std::vector<std::size_t> at(grid.size(), 0);
     for (std::size_t digit = 1; digit > 0;) {
@@ -126,7 +126,7 @@ void addProduct(const Grid& grid, SweepBuilder& builder) {
 std::vector<Grid> usualGrids(const Settings& given) {
     std::vector<Settings> starts;
     addStarts(given, starts);
-    // A grid that holds the values of the start.
+    // A grid with the start's values.
     const auto from = [&](const Settings& start) {
         Grid grid;
         for (const SweepPair& pair : sweepPairs())
@@ -215,7 +215,7 @@ Settings truthFor(const Settings& given, const std::vector<Settings>& rows) {
         truth.shadows = row->shadows;
     if (std::ranges::any_of(rows, [](const Settings& row) { return row.multiscatter != Multiscatter::off; }))
         truth.multiscatter = Multiscatter::walk;
-    // Two heights and a sun that the air dims: one height and one sun stand for them.
+    // Ray marching has two scale heights and attenuates the sun; the closed form simplifies both.
     const auto marched = [](const Settings& row) { return row.haze_march_steps > 0; };
     if (const auto row = std::ranges::find_if(rows, marched); row != rows.end())
         truth.haze_march_steps = row->haze_march_steps;

@@ -21,7 +21,7 @@ constexpr const char* folderName = "sweep";
 std::string nameOf(const Settings& settings) {
     return fingerprint(toJson(settings, -1));
 }
-// Renderers of others are told the same Settings.
+// External renderers have the same Settings: add the name.
 std::string nameOf(const TradeoffRow& row) {
     return row.renderer.empty() ? nameOf(row.settings) : fingerprint(toJson(row.settings, -1) + row.renderer);
 }
@@ -68,7 +68,7 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
                            row.picture == pictureOf(settings) && row.errors_map == errorsOf(settings) &&
                            fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
-    } catch (const std::runtime_error&) {  // a damaged row is measured again
+    } catch (const std::runtime_error&) {  // measure a damaged row again
         return {};
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sweep on a terminal.
+// Terminal text of a sweep.
 #include "compare/page/text.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/shadow_rows.h"
@@ -19,8 +19,8 @@ using page::number;
 
 namespace {
 
-// A number of a row: its title, which is as wide as it gets, and when it is left out for want of room, the
-// largest first.
+// A numeric column: title, width, and priority. Columns with the largest `left_out` are dropped first if
+// the terminal is narrow; 0 is never dropped.
 struct Number {
     std::string_view title;
     std::size_t width;
@@ -47,7 +47,7 @@ TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Setting
         words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
     std::size_t width = 0;
     for (const Number& one : numbers) width += one.width + gap;
-    int left_out = 6;  // whatever is left out from this one on
+    int left_out = 6;  // columns from this value on are dropped
     while (columns > 0 && left_out > 1 && width + std::min(words_, fewestWords) > columns) {
         --left_out;
         for (const Number& one : numbers)

@@ -11,7 +11,7 @@
 namespace diptych::tradeoff {
 namespace {
 
-// Adds every camera of a sweep that has several.
+// Adds all cameras if there are several.
 std::vector<std::string> withCameras(std::vector<std::string> words, const Tradeoff& tradeoff) {
     if (tradeoff.cameras.size() < 2) return words;
     std::vector<std::string> cameras;
@@ -21,12 +21,12 @@ std::vector<std::string> withCameras(std::vector<std::string> words, const Trade
     return withWords(std::move(words), cameras);
 }
 
-// Settings for a command whose reference equals the sweep's: choices of the row that would change the
-// reference are moved into the grid.
+// Settings for a command with the sweep's reference. Choices of the row that would change the reference go
+// into the grid instead.
 struct AgainstReference {
     Settings settings;
     std::string grid;
-    bool sameReference = true;  // the row changes nothing that the reference depends on, so the grid is empty
+    bool sameReference = true;  // the grid is empty
 };
 
 AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& row) {
@@ -67,8 +67,8 @@ std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, s
     std::vector<TimeError> points;
     for (const std::size_t i : rows) {
         const Spread time = timeOf(tradeoff.rows[i]);
-        // What disturbs a frame makes it slower: the distance of the median from the least says by how much,
-        // and no single frame decides it, as the greatest would.
+        // Disturbances only slow frames down. Median minus least estimates the noise without depending on
+        // one outlier, as the greatest time would.
         points.push_back({time.value, tradeoff.rows[i].errors[figure], time.value - time.low});
     }
     std::vector<std::size_t> front;
@@ -102,7 +102,7 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
 
 namespace {
 
-// Of another renderer.
+// For an external renderer.
 std::string commandOfRenderer(const char* command, const Tradeoff& tradeoff, const TradeoffRow& row,
                               const char* option, const char* value) {
     const std::vector<std::string> words = withOption(
@@ -126,7 +126,7 @@ std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     if (!row.renderer.empty()) return commandOfRenderer("compare", tradeoff, row, "--baseline", "reference");
     const AgainstReference against = againstReference(tradeoff, row);
     if (!against.sameReference) return {};
-    // compare draws both paths, and one of them may not support these Settings.
+    // compare renders both paths: both must support these Settings.
     for (const Path path : drawn_paths) {
         Settings other = row.settings;
         other.path = path;

@@ -14,16 +14,16 @@
 namespace diptych::tradeoff {
 namespace {
 
-// The position of a new pixel's centre between two centres of the old picture, along one axis.
+// A new pixel centre between two old pixel centres, on one axis.
 struct Between {
     int low = 0, high = 0, nearest = 0;
-    double part = 0;  // of the way from low to high
+    double part = 0;  // fraction of the way from low to high
 };
 
 std::vector<Between> betweenCentres(int from, int to) {
     std::vector<Between> all(static_cast<std::size_t>(to));
     for (int i = 0; i < to; ++i) {
-        const double edge = (i + 0.5) * from / to;  // in old pixels, from the first one's edge
+        const double edge = (i + 0.5) * from / to;  // in old pixels, from the image's edge
         const double centre = std::clamp(edge - 0.5, 0.0, from - 1.0);
         Between& b = all[static_cast<std::size_t>(i)];
         b.low = static_cast<int>(centre);
@@ -42,13 +42,13 @@ const Image& channelOf(const Frame& frame, gpu::uint mode) {
     return found->second;
 }
 
-// Of an old picture, to be read where a new pixel's centre is.
+// Samples an image at new pixel centres.
 class Enlarger {
 public:
-    // `shown`: the pixels that show a surface or something blended.
+    // `shown`: pixels with a surface or something blended.
     Enlarger(const Image& image, const Coverage& shown) : image_(image), shown_(shown) {}
 
-    // Where nothing is shown the picture stays 0, as every channel does.
+    // The background stays 0, as in every channel.
     void put(const Between& x, const Between& y, float* to) const {
         if (!shows(x.nearest, y.nearest)) return;
         std::array<double, 3> sum{};

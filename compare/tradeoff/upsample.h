@@ -5,12 +5,11 @@
 
 namespace diptych::tradeoff {
 
-// The Frame's lit, before and after blending, and material_id as a viewer of another size sees them, between
-// pixel centres: lit bilinearly from the nearest 2x2 pixels that show a surface or something blended,
-// background where the nearest pixel is background. So silhouettes stay in place and are not darkened by the
-// black background.
-// material_id of the nearest pixel. Of the same size: as it is. Throws std::runtime_error where one of the
-// channels is missing.
+// Resamples lit, before and after blending, and material_id at the pixel centres of another size.
+// lit: bilinear over the 2x2 nearest pixels, without background pixels. Background if the nearest pixel is
+// background. Silhouettes stay in place, and the black background does not darken them.
+// material_id: nearest pixel.
+// Returns the Frame unchanged if the size is equal. Throws std::runtime_error if a channel is missing.
 Frame upsampled(Frame frame, const Size& size);
 
 }  // namespace diptych::tradeoff

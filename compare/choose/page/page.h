@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style and the script in this folder, which the page of a choice contains; embedded at build time.
+// Style and script of the choice page, embedded at build time from this folder.
 #pragma once
 
 namespace diptych::choose {

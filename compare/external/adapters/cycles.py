@@ -1,9 +1,9 @@
-# SPDX-License-Identifier: MIT. For Blender Cycles, named by cycles.json. Not matched: Lambert's diffuse light (it has
-# Burley's), GGX without light between microfacets, ranges of lights, the curve of a cone's edge; discs and tubes.
+# SPDX-License-Identifier: MIT. Adapter for Blender Cycles, used by cycles.json. Cannot match: Lambertian diffuse
+# (Cycles has Burley's), GGX without multiple scattering, light ranges, falloff at a spot's edge, discs and tubes.
 import bpy, json, math, numpy, sys
 from mathutils import Matrix, Vector
-numpy.bool, job = bool, json.load(open(sys.argv[-2]))  # Debian 12's importer asks for numpy.bool, which is no more
-turned = Matrix.Rotation(math.pi / 2, 4, 'X')  # Blender has Z up
+numpy.bool, job = bool, json.load(open(sys.argv[-2]))  # Debian 12's importer needs numpy.bool, which NumPy removed
+turned = Matrix.Rotation(math.pi / 2, 4, 'X')  # Blender is Z-up
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=job['scene']['file'])
 scene, told, sky = bpy.context.scene, job['camera'], job['environment']
@@ -21,7 +21,7 @@ scene.camera = place(lens, Matrix([told['view_from_world'][row::4] for row in ra
 kinds = {'directional': 'SUN', 'point': 'POINT', 'spot': 'SPOT', 'rect': 'AREA'}
 for light in [one for one in job['lights'] if one['type'] in kinds or print('left out: a', one['type'], 'light', file=sys.stderr)]:
     lamp, spot = bpy.data.lights.new('light', kinds[light['type']]), light.get('spot')
-    watts = {'SUN': 1, 'AREA': 4 * math.prod(light.get('size', [0]))}.get(lamp.type, 4 * math.pi)  # as Cycles divides
+    watts = {'SUN': 1, 'AREA': 4 * math.prod(light.get('size', [0]))}.get(lamp.type, 4 * math.pi)  # Cycles divides by it
     lamp.color, lamp.energy, back = light['color'], light['intensity'] * watts, -Vector(light.get('direction', (0, 0, -1)))
     lamp.cycles.cast_shadow = job['settings']['shadows'] != 'off' and (lamp.type == 'SUN' or light.get('shadow', False))
     if lamp.type == 'AREA': lamp.shape, (lamp.size, lamp.size_y) = 'RECTANGLE', light['size']
@@ -44,6 +44,6 @@ render, cycles, file = scene.render, scene.cycles, scene.render.image_settings
 render.engine, render.film_transparent, render.use_file_extension = 'CYCLES', True, False
 (render.resolution_x, render.resolution_y), render.resolution_percentage = job['size'], 100
 cycles.samples, cycles.max_bounces, cycles.use_denoising, cycles.use_adaptive_sampling = 64, 0, False, False
-cycles.pixel_filter_type, cycles.filter_width = 'BOX', 0.01 if job['samples'] == 1 else 1  # pixels' middles alone
+cycles.pixel_filter_type, cycles.filter_width = 'BOX', 0.01 if job['samples'] == 1 else 1  # pixel centres only
 file.file_format, file.color_depth, file.color_mode, render.filepath = 'OPEN_EXR', '32', 'RGB', job['output']['file']
 bpy.ops.render.render(write_still=True)

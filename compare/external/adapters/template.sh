@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# A template for a renderer with a command line: template.json names this file. As it stands the renderer is
-# diptych itself ($DIPTYCH says where it is), so that it can be tried before anything is changed:
+# Template for a renderer with a command line, used by template.json. It runs diptych itself ($DIPTYCH: path
+# of the program), so that you can try it unchanged:
 #     diptych compare --renderer mine=compare/external/adapters/template.json
-# $1 is the job's file and $2 its text (job.schema.json describes it). Whatever goes to stderr stands in the
-# report; an exit code that is not 0 says that there is no picture.
+# $1 is the job's file, $2 its text (format: job.schema.json). The report shows stderr. A nonzero exit code
+# means that there is no image.
 set -eu
 job=$1
 
-# A member of the job: field camera eye 0 is job.camera.eye[0]. Nothing where it is null.
+# Prints a member of the job: "field camera eye 0" is job.camera.eye[0]. Prints nothing for null.
 field() {
     python3 -c '
 import json, sys
@@ -17,7 +17,7 @@ for key in sys.argv[2:]: at = at[int(key) if isinstance(at, list) else key]
 sys.stdout.write("" if at is None else json.dumps(at) if isinstance(at, dict) else str(at))' "$job" "$@"
 }
 
-scene=$(field scene file; echo x)      # the x keeps line ends at the end of a name
+scene=$(field scene file; echo x)      # the x preserves trailing newlines of a name
 picture=$(field output file; echo x)
 camera="eye=$(field camera eye 0),$(field camera eye 1),$(field camera eye 2)"
 camera="$camera target=$(field camera target 0),$(field camera target 1),$(field camera target 2)"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a job with three.js in headless Chromium: serves three.html, three.js and the job's files to it, and
-// writes the picture that it posts. three.json names this file; README.md says how to install both.
+// Renders a job with three.js in headless Chromium, used by three.json. Serves three.html, three.js and the
+// job's files, and writes the image that the page posts. README.md: how to install both.
 import { spawn } from 'node:child_process';
 import { randomUUID } from 'node:crypto';
 import { createReadStream, readFileSync, writeFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ import { fileURLToPath } from 'node:url';
 const file = process.argv.at(-2), job = JSON.parse(readFileSync(file));
 const three = join(process.env.DIPTYCH_THREE ?? '.', 'node_modules/three'), chromium = process.env.DIPTYCH_CHROMIUM ?? 'chromium';
 const types = { '.html': 'text/html', '.js': 'text/javascript' };
-const key = `/${randomUUID()}/`;  // whoever does not know it is served nothing
+const key = `/${randomUUID()}/`;  // secret: other requests get 404
 const placeOf = path => path === '' ? fileURLToPath(new URL('three.html', import.meta.url)) : path === 'job' ? file
   : path.startsWith('three/') ? join(three, path.slice(6)) : path.startsWith('file/') ? path.slice(4) : '';
 let browser;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two pictures in memory, their figures, and a verdict: the exit code is 0 where all limits hold.
+// Compares two images in memory. The exit code is 0 if all limits hold.
 #include <diptych/diptych.h>
 
 #include <cmath>

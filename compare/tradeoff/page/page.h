@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style and the script in this folder, which the page of a sweep contains; embedded at build time.
+// Style and script of a sweep's page, embedded at build time from this folder.
 #pragma once
 
 namespace diptych::tradeoff {
