@@ -195,7 +195,8 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
     const auto isOfLights = [&](const std::string& name, LightChange how) {
         if (!stages_.empty() && stages_.back().name == name) stages_.back().lights = how;
     };
-    // Direct light that changes with the visibility of lights, and where other lights are evaluated.
+    // Splits off direct light that changes with the visibility of lights, or where other lights are
+    // evaluated.
     const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
         const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
         if (!a || !b || a->pixels() != lit.pixels() || b->pixels() != lit.pixels()) return;

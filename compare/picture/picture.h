@@ -24,7 +24,7 @@ struct PictureChoice {
 struct Exposure {
     double factor = 1;
     bool tonemap = true;
-    std::string because;  // "automatic, 0.18 / log-average luminance 1.3"
+    std::string because;  // "exposure 1.3, automatic: 0.18 / log-average luminance 0.14; ..."
 };
 
 // The exposure of `choice`, or an automatic one: 0.18 over the log-average luminance of the covered pixels

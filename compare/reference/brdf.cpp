@@ -79,7 +79,7 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double lobe = distribution(alpha_, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
     const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
     const glm::dvec3 metal = fresnel(albedo_, 1, weight);
-    // A dielectric's Lambertian base receives what its specular layer does not reflect.
+    // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
     const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =
         layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;

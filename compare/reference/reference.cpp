@@ -537,7 +537,7 @@ private:
     const double scene_radius_;         // m, of a sphere around all geometry
 };
 
-// ---- the picture -------------------------------------------------------------------------------------
+// ---- the image ---------------------------------------------------------------------------------------
 
 // Side of the square tiles that are rendered and saved as units, in pixels.
 constexpr int tileSide = 16;

@@ -27,7 +27,7 @@ public:
 private:
     Resolve resolve_;
     double share_;
-    Pixel sum_;                                   // of light times weight times share
+    Pixel sum_;                                   // light times weight times share
     double weights_ = 0, unblended_weights_ = 0;  // times share
     Shading errors_, blended_errors_;             // propagated sample errors, if tonemapped
 };
