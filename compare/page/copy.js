@@ -12,7 +12,7 @@ async function copy(button) {
   }
 }
 
-// Copies the command that writes rules for a scene's differences; without access to the clipboard, shows it.
+// Copies the command that writes rules for a scene's differences; without clipboard access, shows it.
 async function accept(button) {
   const quoted = text => /^[\w+=:,./@%-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const report = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, '') : 'diptych-report';

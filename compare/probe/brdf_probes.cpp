@@ -110,8 +110,8 @@ void makeLobeRow(Random& random, double lowest, float* in) {
         const Vec<double> mirrored = h * (2 * dot(v, h)) - v;
         if (mirrored.z > lowest) l = unit(mirrored);
     }
-    // For opposite v and l, |l + v| is only rounding: the shader returns 0 below 1e-6 and is accurate above
-    // 1e-4.
+    // For opposite v and l, |l + v| is only rounding: the shader returns 0 below 1e-6 and is
+    // accurate above 1e-4.
     const Vec<double> sum = v + l;
     if (length(sum) < 1e-3) l = v;
     put(n, in + 1);

@@ -64,7 +64,7 @@ void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
              const glm::dvec3& n) {
     const glm::dvec3 axis = light.axis;
     const double radius = light.radius, length = light.length;
-    const double along = -glm::dot(centre, axis);  // position of the origin along the axis, from the centre
+    const double along = -glm::dot(centre, axis);  // origin's position along the axis, from the centre
     for (const double end : {-1.0, 1.0})
         if (end * along > length / 2)
             addDisc(patches, centre + axis * (end * length / 2), axis * end, radius, n);

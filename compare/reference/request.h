@@ -56,7 +56,7 @@ struct Request {
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                                 // per pixel; mode scene only
     Resolve resolve = Resolve::linear;               // how the samples are combined; mode scene only
-    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()
+    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: the surfaceChannels()
     // Called once, with the image's key and the number of floats in a tile; returns the Checkpoint for
     // finished tiles. The caller owns it and removes it once the image has been written. Empty: nothing is
     // saved. `program` is this program's version; tiles saved by another version are not used.

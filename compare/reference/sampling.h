@@ -39,7 +39,7 @@ class Rounds {
 public:
     void add(const Reflected& estimate);
     Reflected mean() const { return mean_; }
-    double halfWidth() const;  // half the interval of mean().size(), W/(sr m^2); infinite below two estimates
+    double halfWidth() const;  // of mean().size(), W/(sr m^2); infinite below two estimates
 
 private:
     std::uint32_t count_ = 0;
