@@ -27,7 +27,7 @@ Color colorAt(const Image& image, std::size_t pixel) {
     return {double{p[0]}, double{p[1]}, double{p[2]}};
 }
 
-// One block: what is left of the change, and how much each light has of it.
+// One block: the remaining change, and each light's part of it.
 class LightBlock {
 public:
     LightBlock(const Image& change, std::span<const Image> terms, LightChange how, int x, int y)
@@ -58,14 +58,14 @@ public:
     }
 
 private:
-    // The squares of what is left of the change.
+    // The sum of squares of the remaining change.
     double squares() const {
         double sum = 0;
         for (const Color& c : left_) sum += dot(c, c);
         return sum;
     }
 
-    // Takes lights as long as each accounts for enough. How much each has at each pixel.
+    // Subtracts lights as long as each accounts for enough. Returns each light's magnitude at each pixel.
     std::vector<std::vector<double>> taken(double all) {
         std::vector<std::vector<double>> sizes(terms_.size(), std::vector<double>(pixels_.size()));
         for (std::size_t count = 0; all > 0 && count < mostLightsOfBlock; ++count) {
@@ -81,8 +81,8 @@ private:
         return sizes;
     }
 
-    // What of the change is the light's, as multiples of its term: of each colour one for the block, or of
-    // all colours one a pixel.
+    // A light's part of the change as multiples of its term: one factor for the block (grey, or per
+    // colour), or one per pixel.
     std::vector<Color> factors(std::size_t light) const {
         Color along{}, size{};
         std::vector<Color> of(pixels_.size());
@@ -106,20 +106,20 @@ private:
         }
         const double sign = std::copysign(1.0, along[0] + along[1] + along[2]);
         if (how_ == LightChange::whole)
-            // Where it is there on both sides nothing has changed.
+            // A light present on both sides changes nothing.
             for (std::size_t i = 0; i < pixels_.size(); ++i)
                 if (reduction(light, i, {sign, sign, sign}) > 0) of[i].fill(sign);
         return of;
     }
 
-    // What a light has of a pixel's change.
+    // A light's part of a pixel's change.
     Color part(std::size_t light, std::size_t i, const Color& factor) const {
         Color of = colorAt(terms_[light], pixels_[i]);
         for (std::size_t c = 0; c < 3; ++c) of.at(c) *= factor.at(c);
         return of;
     }
 
-    // By how much the squared change at a pixel is less without that.
+    // The decrease of the squared change at a pixel by subtracting that part.
     double reduction(std::size_t light, std::size_t i, const Color& factor) const {
         const Color of = part(light, i, factor);
         return 2 * dot(left_[i], of) - dot(of, of);
@@ -153,7 +153,7 @@ private:
 
     std::span<const Image> terms_;
     LightChange how_;
-    bool each_color_ = false;  // a factor of each colour
+    bool each_color_ = false;  // one factor per colour
     std::vector<std::size_t> pixels_;
     std::vector<Color> left_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights a change of direct light is of, told by what each light adds to the picture.
+// Attributes a change of direct light to lights, by each light's contribution to the image.
 #pragma once
 
 #include "shared/image/image.h"
@@ -10,20 +10,19 @@
 
 namespace diptych {
 
-// What may have become of a light: it shines otherwise, by any factor; it is there in
-// one picture and not in the other; or more or less of it is seen, anywhere from none to all, at each pixel
-// for itself.
+// How a light may have changed. factor: its intensity is scaled; whole: it exists in one image only; seen:
+// its visibility changes, at each pixel independently.
 enum class LightChange { factor, whole, seen };
 
-// Each light's share of `change` at each pixel: for each light, in order, one value a pixel; they add up to
-// 1, or are 0 where no light accounts for the change. `terms`: what each light adds alone, W x H x 3 as
-// `change`.
+// Each light's fraction of `change` at each pixel, indexed like `terms`, one value per pixel. The
+// fractions sum to 1, or are all 0 where no light accounts for the change. `terms`: each light's own
+// contribution, W x H x 3 like `change`.
 //
-// In blocks of 8x8 pixels the light that accounts for most of the squared change is taken, then that which
-// accounts for most of what is left, up to three and as long as each accounts for a twentieth. Lights that
-// account for as much to within a fiftieth cannot be told apart: they share what they account for as they add
-// to the picture. Factors are of light of all colours alike; where that leaves over a tenth, of each by
-// itself.
+// Works on blocks of 8x8 pixels. The light that accounts for most of the squared change is subtracted
+// first, then the next, up to three, as long as each accounts for at least a twentieth. Lights whose
+// accounts differ by less than a fiftieth are indistinguishable and share the result in proportion to
+// their contributions. Factors are grey; if more than a tenth of the squared change remains, each colour
+// gets its own factor.
 std::vector<std::vector<float>> lightsOfChange(const Image& change, std::span<const Image> terms,
                                                LightChange how);
 

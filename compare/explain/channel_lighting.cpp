@@ -40,8 +40,8 @@ ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Frame
 }
 
 ChannelShading& ChannelLighting::under(const Settings& given) {
-    // As far as they light surfaces: what is in channels is the baseline's, so that two pictures that differ
-    // in that alone are lit by one frame.
+    // Uses the baseline's values for Settings that are already in the channels, so that images which
+    // differ only in these share a frame.
     Settings settings = given;
     for (const std::string_view option : carried) settings.set(option, frames_[0]->settings.valueOf(option));
     if (!shading_ || !(*settings_ == settings)) {

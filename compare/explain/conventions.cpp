@@ -20,7 +20,7 @@ constexpr std::array knownConventions{
     Convention{"multiscatter", "energy", "multiple scattering between microfacets, as a gain of the lobe"},
     Convention{"multiscatter", "fdez", "multiple scattering between microfacets, as a separate lobe"},
 };
-// The same as of other Settings that are not said (unsaid_settings.h).
+// The same threshold as for other undeclared Settings (unsaid_settings.cpp).
 constexpr double worthHaving = 0.5;
 
 bool hasTwice(const std::vector<Convention>& some) {
@@ -63,7 +63,7 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         best = std::move(some);
         nearest = std::move(picture);
     }
-    // Beside all others each must be worth what it changes; where one is not, all are asked anew without it.
+    // Each must be worth its change beside all others; after a removal, all are tested again.
     for (std::size_t i = 0; i < best.size();) {
         std::vector<Convention> others = best;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));

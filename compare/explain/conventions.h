@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conventions of shading that another program may have: what glTF leaves open or has otherwise
-// (shared/material/README.md). Which of them its picture shows is sought by trying.
+// Shading conventions that another renderer may use: choices that glTF leaves open or makes otherwise
+// (shared/material/README.md). The image's conventions are found by trial.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -15,24 +15,24 @@ namespace diptych {
 
 struct Convention {
     std::string_view option, value;
-    std::string_view shows;  // what a cause of it shows
+    std::string_view shows;  // description of the cause
 };
 
-// Whether a picture is another program's: its Settings are what it was asked for, and not what it does.
+// Whether an image is from another renderer: its Settings are the request, not necessarily what it does.
 bool isForeign(const Frame& frame);
 
-// What another program's picture is held against.
+// Renders and compares trials with another renderer's image.
 struct ConventionTrial {
-    std::function<Image(const Settings&)> draw;      // lit under some Settings, W x H x 3
-    std::function<double(const Image&)> distance{};  // of such a picture from theirs, a mean over pixels
+    std::function<Image(const Settings&)> draw;      // lit under Settings, W x H x 3
+    std::function<double(const Image&)> distance{};  // from its image to theirs, a mean over pixels
 };
 
-// The conventions, beside those that `said` has, with which ours is nearest to theirs: the best of all
-// subsets of those that change the picture, since two may cancel in it, without those that bring it nearer by
-// less than half of what they change. Each option once.
+// The conventions, beside those in `said`, that bring our image nearest to theirs. Tries all subsets of
+// the conventions that change the image, because two may cancel. Removes those that bring it nearer by
+// less than half of their change. Each option occurs once.
 std::vector<Convention> nearestConventions(const Settings& said, const ConventionTrial& trial);
 
-// `said` with these.
+// `said` with these conventions.
 Settings withConventions(Settings said, const std::vector<Convention>& conventions);
 
 }  // namespace diptych

@@ -32,7 +32,7 @@ Part partOf(const std::string& cause, bool textured) {
     return rounding;
 }
 
-// The measured precision of both devices' textures, in words; empty: not measured.
+// The measured precision of both devices' textures, as text; empty: not measured.
 std::string measured(const AcrossDevices& across) {
     const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
     if (!a || !b) return {};

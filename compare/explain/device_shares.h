@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes the difference of two devices to edges, textures, vertices, shadow maps, light lists and
+// Attributes the difference between two devices to edges, textures, vertices, shadow maps, light lists and
 // rounding.
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace diptych {
 
-// The channels by which they are told apart, beside explainedChannels().
+// The channels needed beside explainedChannels().
 std::vector<int> deviceShareChannels();
 
-// Sums the maps of an explanation's causes; together they are its distance. Descending. `baseline`, `test`:
-// the Frames that it is of.
+// Sums the maps of an explanation's causes; the results sum to its distance. Descending. `baseline`,
+// `test`: the explained Frames.
 std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Frame& baseline,
                                       const Frame& test, const AcrossDevices& across);
 

@@ -28,10 +28,11 @@ namespace diptych {
 
 namespace {
 
-constexpr int sampledOrderCount = 40;  // beyond mostExactCauses; each of as many subsets as there are causes
+// Beyond mostExactCauses; each evaluates as many subsets as there are causes.
+constexpr int sampledOrderCount = 40;
 constexpr double namedPair = 0.05;
 
-// Throws where two Frames are not of one view or lack a channel.
+// Throws if two Frames have different views or lack a channel.
 void checkExplained(const Frame& baseline, const Frame& test) {
     const Image& lit = channelOf(baseline, gpu::DEBUG_lit);
     channelOf(test, gpu::DEBUG_lit);
@@ -52,7 +53,7 @@ void checkExplained(const Frame& baseline, const Frame& test) {
                             option, baseline.settings.valueOf(option), test.settings.valueOf(option)));
 }
 
-// Pixels where either image is not finite.
+// The number of pixels where either image is not finite.
 std::size_t nonfinitePixels(const Image& a, const Image& b) {
     std::size_t count = 0;
     for (std::size_t p = 0; p < a.pixels(); ++p) {
@@ -65,7 +66,7 @@ std::size_t nonfinitePixels(const Image& a, const Image& b) {
     return count;
 }
 
-// Of a value a pixel, as many as `like` has.
+// An image with one value per pixel, of the size of `like`.
 Image imageOf(const std::vector<double>& values, const Image& like) {
     Image image(like.width, like.height, 1);
     std::ranges::transform(values, image.data.begin(),
@@ -73,7 +74,7 @@ Image imageOf(const std::vector<double>& values, const Image& like) {
     return image;
 }
 
-// Each material's part of a cause's share, by the channel material_id. `map`: the cause's.
+// Each material's part of a cause's share, by channel material_id. `map`: the cause's.
 std::vector<MaterialShare> byMaterial(const std::vector<double>& map, const Image& ids, const Scene& scene) {
     std::map<int, double> sums;
     for (std::size_t p = 0; p < map.size(); ++p)
@@ -85,7 +86,7 @@ std::vector<MaterialShare> byMaterial(const std::vector<double>& map, const Imag
     return shares;
 }
 
-// Shares of materials or lights, those first that have most in the direction of the cause's own.
+// Sorts shares of materials or lights, the largest in the sign of the cause's share first.
 template <class Share>
 std::vector<Share> descending(std::vector<Share> shares, double sign) {
     std::ranges::stable_sort(
@@ -93,15 +94,15 @@ std::vector<Share> descending(std::vector<Share> shares, double sign) {
     return shares;
 }
 
-// What swapping shows of the causes.
+// The results of swapping the causes.
 struct SwapResults {
     Shares shares;
-    std::vector<std::vector<double>> maps;  // of each cause, as Cause::map: a value a pixel
+    std::vector<std::vector<double>> maps;  // of each cause, as Cause::map: one value per pixel
     std::vector<double> flip;               // of each cause, as Cause::flip
 };
 
-// Swaps every subset of the causes, or those of some orders. `lit`: the baseline's. Says in `found` what is
-// unexplained, and how far the pictures are apart by FLIP.
+// Swaps every subset of the causes, or those of sampled orders. `lit`: the baseline's. Stores the
+// unexplained remainder and FLIP in `found`.
 SwapResults swapCauses(Swaps& swaps, const Image& lit, const Stage& progress, Explanation& found) {
     const int count = static_cast<int>(swaps.causes().size());
     const bool exact = count <= mostExactCauses;
@@ -143,7 +144,7 @@ Cause sharedCause(const Swap& swap, const SwapResults& results, std::size_t i, c
     const Shares& shares = results.shares;
     const std::vector<double>& map = results.maps[i];
     const Image& lit = sides.lit(0);
-    // Of a cause that makes up for others, where it does most.
+    // For a negative share, the pixel where it is most negative.
     const double sign = shares.share[i] < 0 ? -1 : 1;
     const auto worst = static_cast<std::size_t>(
         std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
@@ -164,7 +165,7 @@ Cause sharedCause(const Swap& swap, const SwapResults& results, std::size_t i, c
             imageOf(map, lit)};
 }
 
-// Pairs of causes that interact. `order`: the causes that are felt, descending by share.
+// Pairs of causes that interact. `order`: the causes with an effect, descending by share.
 std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size_t>& order, double distance) {
     std::vector<CausePair> pairs;
     if (shares.interaction.empty()) return pairs;
@@ -184,7 +185,7 @@ std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size
     return pairs;
 }
 
-// Says in `found` which causes there are, which of them counts most at each pixel, and which interact.
+// Stores the causes, the dominant one at each pixel, and interacting pairs in `found`.
 void rank(const SwapResults& results, const Swaps& swaps, const Scene& scene, const ExplainedSides& sides,
           LightShares& lights, Explanation& found) {
     const Shares& shares = results.shares;
@@ -192,7 +193,7 @@ void rank(const SwapResults& results, const Swaps& swaps, const Scene& scene, co
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order,
                              [&](std::size_t a, std::size_t b) { return shares.share[a] > shares.share[b]; });
-    // A Setting that nothing here can feel.
+    // Removes Settings without effect.
     std::erase_if(order, [&](std::size_t i) {
         const bool felt = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
         if (!felt) found.inert.push_back(swaps.causes()[i].title());

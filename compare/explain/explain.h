@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Why lit of two Frames differs. The experiment is to swap: a channel of the surface, a Setting, or what the
-// lighting of a Frame's own channels leaves of its lit (the rest: edges of several samples a pixel; nothing
-// where pixels have one) is taken from the baseline, all else from the test, the picture is shaded again, and
-// what counts is how much nearer lit has come to the baseline's. Shares are Shapley values (shapley.h) of
-// that, over the whole picture and at each pixel.
+// Explains a difference of lit between two Frames by ablation. A surface channel, a Setting or the
+// residual is taken from the baseline, all else from the test, and the image is relit. The residual is the
+// part of lit that relighting a Frame's own channels does not reproduce, such as MSAA edges. Each cause is
+// credited with how much nearer lit comes to the baseline's. Shares are Shapley values (shapley.h) over
+// the whole image and at each pixel.
 #pragma once
 
 #include "compare/explain/explanation.h"
@@ -16,11 +16,11 @@
 
 namespace diptych {
 
-// Channels that explain() needs of a Frame.
+// Channels of a Frame that explain() needs.
 std::vector<int> explainedChannels();
 
 // `baseline`, `test`: of one view of the renderer's scene, with these channels. Throws std::runtime_error,
-// one line, where they are not.
+// one line, otherwise.
 Explanation explain(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
                     const Frame& test, const Stage& progress = {});
 

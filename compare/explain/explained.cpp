@@ -17,7 +17,7 @@ Explained explainedOf(const Explanation& explanation, const ExplainedPictures& o
     explained.words = inShort(explanation);
     explained.json = jsonText(toJson(explanation, of), -1);
     if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
-    // Without the maps of the single causes, which the report does not show.
+    // Without the maps of single causes, which the report does not show.
     const auto kept = std::make_shared<Explanation>(explanation);
     for (Cause& cause : kept->causes) cause.map = Image();
     kept->unexplained_map = Image();

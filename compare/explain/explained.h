@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report shows of an explanation.
+// The part of an explanation that a report shows.
 #pragma once
 
 #include "compare/explain/explanation.h"
@@ -11,10 +11,10 @@
 
 namespace diptych {
 
-// `shown`: a picture of the scene, of the same size, behind the map of causes.
+// `shown`: an image of the scene, of the same size, as background of the map of causes.
 Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown);
 
-// Of what cannot be explained: why, in one line.
+// The reason why there is no explanation, in one line.
 Explained notExplained(const std::string& because);
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two sides of an explanation, the baseline (0) and the test (1): as much of what they say as is
-// believed, and the rest, what our lighting of a side's own channels leaves of its lit.
+// The two sides of an explanation, baseline (0) and test (1): their Settings, exposure, and residual after
+// relighting their own channels.
 #pragma once
 
 #include "compare/explain/channel_lighting.h"
@@ -17,39 +17,39 @@ namespace diptych {
 // The Frames must outlive it.
 class ExplainedSides {
 public:
-    // Lights each side's own channels under its own Settings.
+    // Relights each side's channels under its own Settings.
     ExplainedSides(const Frame& baseline, const Frame& test, ChannelLighting& lighting);
 
     const Frame& frame(std::size_t side) const { return *frames_.at(side); }
-    // A side's Settings; the test's with those that believe() was told.
+    // A side's Settings; the test's include those of believe().
     const Settings& settings(std::size_t side) const { return settings_.at(side); }
-    // lit, W x H x 3; the test's without exposure().
+    // lit, W x H x 3; the test's is divided by exposure().
     const Image& lit(std::size_t side) const;
-    // What lit has beyond our lighting of its own channels, W x H x 3; 0 where that is not finite.
+    // lit minus our lighting of the side's channels, W x H x 3; 0 where not finite.
     const Image& rest(std::size_t side) const { return rest_.at(side); }
     bool restsDiffer() const;
-    // What the rest is where it is known what makes it; empty: it is what no cause explains.
+    // Name of the residual if its source is known; empty: unexplained.
     std::string restName() const;
-    // How large a side's rest is, as Explanation::reproduction.
+    // Relative size of a side's residual, as Explanation::reproduction.
     double reproduction(std::size_t side) const { return reproduction_.at(side); }
-    // Whether both say the terms of their lit.
+    // Whether both Frames have the terms of lit.
     bool haveTerms() const;
 
     // A factor on all of the test's lit; 1: none.
     float exposure() const { return exposure_; }
-    // Looks for one: beyond the sum of its terms, or else beyond our lighting of its channels, or else beyond
-    // the baseline's lit.
+    // Estimates exposure(): relative to the sum of the terms, else to our lighting of the channels, else
+    // to the baseline's lit.
     void findExposure();
-    // That the test has these Settings, whatever it says: lights it anew.
+    // Relights the test under these Settings instead of its declared ones.
     void believe(const Settings& settings, ChannelLighting& lighting);
 
 private:
     const std::array<const Frame*, 2> frames_;
     std::array<Settings, 2> settings_;
-    std::array<Image, 2> own_, rest_;  // our lighting of a side's own channels, and what it leaves
+    std::array<Image, 2> own_, rest_;  // our lighting of each side's channels, and the residual
     std::array<double, 2> reproduction_{};
     float exposure_ = 1;
-    Image unexposed_;  // the test's lit without exposure; empty where there is none
+    Image unexposed_;  // the test's lit without exposure; empty if there is none
 };
 
 }  // namespace diptych

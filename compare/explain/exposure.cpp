@@ -11,7 +11,7 @@ namespace diptych {
 namespace {
 
 constexpr double sameFactor = 1e-3;
-constexpr double darkest = 1e-3;  // of the mean
+constexpr double darkest = 1e-3;  // fraction of the mean
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether lit of one Frame is another's times a factor: exposure, which no channel of the surface says.
+// Detects a common factor between two lit images: exposure, which no surface channel contains.
 #pragma once
 
 #include "shared/image/image.h"
@@ -8,14 +8,13 @@
 
 namespace diptych {
 
-// What `lit` is of `expected`, W x H x 3 both: the median ratio of their components, where at least half of
-// them have it to within 0.1 %, as much as a file of half floats rounds by twice; nothing otherwise, and
-// where nothing is bright enough to tell. Components of `expected` under a thousandth of its mean do not
-// count.
+// The median ratio of `lit` to `expected`, both W x H x 3, if at least half of the components have it to
+// within 0.1 %, twice the rounding of a half-float file. Components of `expected` under a thousandth of
+// its mean are ignored. Empty without such a factor or without bright components.
 std::optional<double> commonFactor(const Image& lit, const Image& expected);
 
-// `test` is so many times brighter than `baseline`, both held against what is expected of each; nothing where
-// either has no common factor or both the same one.
+// How many times brighter `test` is than `baseline`, from their common factors. Empty if a factor is
+// missing or both are equal.
 std::optional<double> exposureBetween(std::optional<double> baseline, std::optional<double> test);
 
 }  // namespace diptych

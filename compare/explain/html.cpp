@@ -19,7 +19,7 @@ using page::number;
 
 namespace {
 
-constexpr double shownPart = 0.05;  // of a cause's share: materials, lights
+constexpr double shownPart = 0.05;  // of a cause's share: minimum for materials, lights
 constexpr std::size_t shownParts = 5;
 
 std::string percentOf(const Explanation& e, double share) {
@@ -30,7 +30,7 @@ std::string swatch(std::size_t place) {
     return fmt::format("<i class=\"swatch\" style=\"background:{}\"></i>", cssColor(causeColor(place)));
 }
 
-// Of a share, as long as it is of the largest one.
+// A bar for a share, relative to the largest one.
 std::string bar(const Explanation& e, double share, const std::string& color) {
     double largest = e.unexplained;
     for (const Cause& cause : e.causes) largest = std::max(largest, std::abs(cause.share));

@@ -13,10 +13,10 @@ namespace diptych {
 
 namespace {
 
-// Lights that are drawn alone: so many, and no more than a gigabyte of what two pictures of each hold.
+// Limits of lights rendered alone: their number, and the bytes of two images of each.
 constexpr std::size_t mostLightsDrawn = 32, mostLightBytes = std::size_t{1} << 30;
 
-// Settings of shadows and of what single lights send.
+// Settings of shadows and of the light from single lights.
 bool isOfLights(std::string_view option) {
     return option.starts_with("shadow") || option.starts_with("evsm") || option.starts_with("clipmap") ||
            option == "light-cutoff" || option == "area-lights";
@@ -40,7 +40,7 @@ const char* kindName(LightKind kind) {
     return "light";
 }
 
-// Of each light, by how much of all their differences its own is, at each pixel.
+// Each light's fraction of the sum of all lights' differences, at each pixel.
 std::vector<std::vector<float>> partsOfDifference(const std::vector<Image>& a, const std::vector<Image>& b) {
     std::vector<std::vector<float>> parts(a.size(), std::vector<float>(a.front().pixels()));
     std::vector<double> sums(parts.front().size());
@@ -77,7 +77,7 @@ std::vector<LightShare> LightShares::of(const Swap& cause, const std::vector<dou
         Settings without = test;
         without.set(cause.name, sides_.settings(0).valueOf(cause.name));
         const std::vector<Image> swapped = lightsAlone(without, places, nullptr);
-        // Last, so that its frame is there for the next cause.
+        // Last, so that the next cause can use its frame.
         parts = partsOfDifference(lightsAlone(test, places, nullptr), swapped);
     }
     std::vector<LightShare> shares;
@@ -92,8 +92,8 @@ std::vector<LightShare> LightShares::of(const Swap& cause, const std::vector<dou
     return shares;
 }
 
-// The places of the lights that are drawn alone, those first that send most. `of`: of a stage of shadows,
-// those that its channel is of: the suns, or points and spots; of these the ones that cast, if any does.
+// The indices of the lights to render alone, the brightest first. `of`: name of the cause. For shadow
+// channels only suns, or only other lights; of these the shadow-casting ones, if there are any.
 std::vector<std::size_t> LightShares::drawnLights(const std::vector<Light>& lights, std::string_view of,
                                                   std::size_t pixels) {
     const bool suns = of == "shadow_visibility", locals = of == "local_visibility";
@@ -122,7 +122,7 @@ std::vector<std::size_t> LightShares::drawnLights(const std::vector<Light>& ligh
     return places;
 }
 
-// What these lights add alone to the test's surfaces under some Settings.
+// Each light's own contribution on the test's surfaces under some Settings.
 std::vector<Image> LightShares::lightsAlone(const Settings& settings, const std::vector<std::size_t>& places,
                                             const LightingStages::Stage* stage) {
     ChannelShading& shading = lighting_.under(settings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights have a cause's share, where the cause is direct light or shadows.
+// Attributes a cause's share to lights, if the cause is direct light or shadows.
 #pragma once
 
 #include "compare/explain/channel_lighting.h"
@@ -15,17 +15,17 @@
 
 namespace diptych {
 
-// Lights are drawn alone on the test's surfaces. What it is made of must outlive it.
+// Renders lights alone on the test's surfaces. The constructor arguments must outlive it.
 class LightShares {
 public:
     LightShares(const ExplainedSides& sides, ChannelLighting& lighting, const Swaps& swaps)
         : sides_(sides), lighting_(lighting), swaps_(swaps) {}
 
-    // Each light's part of a cause's share, in no order; none where the cause is not of direct light. `map`:
-    // as Cause::map, a value a pixel.
+    // Each light's part of a cause's share, unordered; empty if the cause is not direct light. `map`: as
+    // Cause::map, one value per pixel.
     std::vector<LightShare> of(const Swap& cause, const std::vector<double>& map);
 
-    // The most lights that were drawn alone for a cause, and that were not, as too many.
+    // The largest numbers of lights rendered alone for a cause, and of those omitted as too many.
     std::size_t drawn() const { return drawn_; }
     std::size_t leftOut() const { return left_out_; }
 

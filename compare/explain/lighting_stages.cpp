@@ -39,8 +39,8 @@ const Image* channelIn(const Frame& frame, gpu::uint mode) {
     return found == frame.channels.end() ? nullptr : &found->second;
 }
 
-// What terms add up to, in the order of lit(Radiance) in shaders/lib/radiance.glsl, so that a sum in another
-// order is seen.
+// The sum of terms, in the order of lit(Radiance) in shaders/lib/radiance.glsl, so that another order is
+// detected.
 float sumOf(const std::array<float, 5>& t, float emission) {
     return (((t[diffuseTerm] + t[specularTerm]) + t[ambientTerm]) + emission) * t[transmittanceTerm] +
            t[hazeTerm];
@@ -58,8 +58,8 @@ void forEach(std::size_t count, const auto& what) {
     });
 }
 
-// How much of a direct term's `change` a change of what is seen of a light from `test` to `baseline` makes,
-// where the test has `value`: as much as scaling by both does, never more than all.
+// The part of a direct term's `change` due to a visibility change from `test` to `baseline`, where the
+// test's term is `value`. It scales the term by the ratio, and is never more than the whole change.
 float shadowPart(float change, float value, float baseline, float test) {
     if (baseline == test || change == 0) return 0;
     if (!(test > 0)) return change;
@@ -68,7 +68,7 @@ float shadowPart(float change, float value, float baseline, float test) {
     return std::abs(scaled) < std::abs(change) ? scaled : change;
 }
 
-// Pixels where our lighting of either side blends anything.
+// Pixels where our lighting of either side blends surfaces.
 std::vector<std::uint8_t> blendedIn(const std::array<LitSurfaces, 2>& own) {
     std::vector<std::uint8_t> blended(own[0].lit.pixels());
     for (const LitSurfaces& side : own)
@@ -77,9 +77,9 @@ std::vector<std::uint8_t> blendedIn(const std::array<LitSurfaces, 2>& own) {
     return blended;
 }
 
-// Components where a change beyond the sum of terms is as if emission, or a part of it, were added otherwise:
-// no more of it than is emitted on a side. Empty unless that is 99 % of what changes where nothing is
-// blended: where other surfaces change as well it is not emission that makes it.
+// Components where a change beyond the sum of terms may come from adding emission differently: it is at
+// most a side's emission. Empty unless these are 99 % of the change at pixels without blending; if other
+// surfaces change too, emission is not the cause.
 std::vector<std::uint8_t> changesWithEmission(const Image& change, const std::vector<std::uint8_t>& blended,
                                               const std::array<LitSurfaces, 2>& own,
                                               const std::array<Terms, 2>& terms) {
@@ -141,7 +141,7 @@ Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
     const Terms all = termsOf(terms);
     Image sum(emission.width, emission.height, 3);
     float* const out = sum.data.data();
-    // Without a surface all terms are 0, transmittance too.
+    // Without a surface all terms are 0, including transmittance.
     forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(all, i), emission.data[i]); });
     return sum;
 }
@@ -151,8 +151,8 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
     const auto blank = [&] { return Image(lit.width, lit.height, 3); };
     const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
         ours{termsOf(own[0].terms), termsOf(own[1].terms)};
-    // The rest of each term, and of lit: what stands beyond the sum of a side's terms, less the same of our
-    // lighting, which is what lies behind surfaces and what is blended over them.
+    // The residual of each term, and of lit. The latter is lit minus the sum of a side's terms, minus the
+    // same for our lighting: the background and blended surfaces.
     std::array<std::array<Image, 6>, 2> rest;
     const std::vector<std::uint8_t> blended = blendedIn(own);
     for (std::size_t side = 0; side < 2; ++side) {
@@ -173,7 +173,7 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
             out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
         });
     }
-    // What a term changes by when it is the baseline's.
+    // The change of each term when taken from the baseline.
     std::array<Image, 6> change;
     for (std::size_t t = 0; t < change.size(); ++t) {
         change.at(t) = blank();
@@ -191,11 +191,12 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
         }
         if (!nothing) stages_.push_back({std::move(name), std::move(shows), std::move(adds)});
     };
-    // Of the stage that was added last.
+    // Applies to the last added stage.
     const auto isOfLights = [&](const std::string& name, LightChange how) {
         if (!stages_.empty() && stages_.back().name == name) stages_.back().lights = how;
     };
-    // Direct light that changes as what is seen of lights does, and where other lights are evaluated.
+    // Splits off direct light that changes with the visibility of lights, or where other lights are
+    // evaluated.
     const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
         const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
         if (!a || !b || a->pixels() != lit.pixels() || b->pixels() != lit.pixels()) return;

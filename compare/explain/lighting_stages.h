@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Of what the lighting of a Frame's own channels leaves of its lit, which stage of lighting it lies in: for
-// two Frames that have the terms of lit as channels, as another renderer's files may.
+// Attributes the relighting residual to lighting components, for two Frames that have the terms of lit as
+// channels, as files of external renderers may.
 #pragma once
 
 #include "compare/explain/by_light.h"
@@ -16,18 +16,18 @@
 
 namespace diptych {
 
-// Channels that both must have: lit_diffuse, lit_specular, lit_ambient, lit_haze and transmittance.
+// Channels that both Frames must have: lit_diffuse, lit_specular, lit_ambient, lit_haze and transmittance.
 std::vector<int> termChannels();
 bool haveTerms(const Frame& baseline, const Frame& test);
 // Direct light of both lobes, W x H x 3.
 Image sumOfLobes(const LightChannels& of);
-// What a Frame that has them adds up to where it shows a surface, W x H x 3; 0 elsewhere.
+// The sum of a Frame's terms at surfaces, W x H x 3; 0 elsewhere.
 Image sumOfTerms(const Frame& frame);
-// The same of our terms of surfaces that emit so much.
+// The same for our terms, with the surfaces' emission.
 Image sumOfTerms(const ChannelTerms& terms, const Image& emission);
 
-// What our lighting makes of surfaces: lit; its terms before anything is blended; what they emit; and, where
-// it is asked which stages there are, lit without what is blended.
+// Our lighting of surfaces: lit; its terms before blending; emission; and, if stages are searched for, lit
+// without blended surfaces.
 struct LitSurfaces {
     Image lit;
     ChannelTerms terms;
@@ -35,28 +35,28 @@ struct LitSurfaces {
     Image unblended;
 };
 
-// The stages whose results two Frames differ in beyond what their channels and Settings say. A stage that is
-// taken from the baseline moves the terms that it is of to the baseline's.
+// The components in which two Frames differ beyond their channels and Settings. Taking a component from
+// the baseline changes its terms to the baseline's.
 class LightingStages {
 public:
-    // `lit`: the test's, without what is a factor on all of it. `own`: of each side's own channels under its
-    // own Settings: baseline, test.
+    // `lit`: the test's, without exposure. `own`: each side's channels relit under its own Settings,
+    // baseline and test.
     LightingStages(const Frame& baseline, const Frame& test, const Image& lit,
                    const std::array<LitSurfaces, 2>& own);
 
     struct Stage {
         std::string name, shows;  // "direct diffuse"
-        // What it adds to each term, and to lit, when it is the baseline's: W x H x 3; empty: nothing.
+        // Change of each term, and of lit, when taken from the baseline: W x H x 3; empty: none.
         std::array<Image, 6> adds;
-        std::optional<LightChange> lights{};  // of direct light: what may have become of lights
+        std::optional<LightChange> lights{};  // for direct light: how lights may have changed
     };
-    // What a stage adds to direct light; and of some direct light the lobes that the stage is of, W x H x 3.
+    // Change of direct light by a stage; and the part of direct light in the stage's lobes, W x H x 3.
     static LightChannels change(const Stage& stage);
     static Image directLight(const Stage& stage, const LightChannels& of);
     const std::vector<Stage>& stages() const { return stages_; }
 
-    // lit of surfaces as the test has it beyond our lighting, but for the stages of the baseline. `taken`:
-    // one entry per stage.
+    // lit of the surfaces plus the test's residual, with some stages from the baseline. `taken`: one entry
+    // per stage.
     Image lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const;
 
 private:

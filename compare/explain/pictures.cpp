@@ -19,7 +19,7 @@ constexpr Color8 palette[] = {{0x56, 0xb4, 0xe9}, {0xe6, 0x9f, 0x00}, {0x00, 0x9
 static_assert(std::size(palette) == ownColors);
 constexpr Color8 otherColor{0xd8, 0xd8, 0xd8};
 constexpr Color8 negativeColor{0x30, 0xd0, 0x70};
-constexpr double darkened = 0.3;  // of the picture behind the map of causes
+constexpr double darkened = 0.3;  // brightness of the image behind the map of causes
 
 std::uint8_t byteOf(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
@@ -67,7 +67,7 @@ Image8 dominantPicture(const Explanation& explanation, const Image8& shown) {
             put(picture, p, causeColor(static_cast<std::size_t>(place)));
             continue;
         }
-        // Rec.709's weights, on the encoded values: it is only to be recognised.
+        // Rec. 709 weights on encoded values; the image only has to be recognisable.
         const std::uint8_t* const c = shown.data.data() + components * p;
         const std::uint8_t grey = byteOf(darkened * (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]));
         put(picture, p, {grey, grey, grey});

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of one row: as many digits as it takes to see that they differ, at least 6.
+// Numbers of one row, with enough digits to show that they differ; at least 6.
 class Digits {
 public:
     explicit Digits(std::span<const std::span<const double>> values) {
@@ -46,12 +46,12 @@ private:
     int digits_ = 6;
 };
 
-// Rows of cells in columns; the last cell of a row is as long as it is.
+// Rows of cells in columns; the last cell of a row is not padded.
 class Columns {
 public:
     void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
     std::size_t size() const { return rows_.size(); }
-    // Rows [first, last), as wide as all are.
+    // Rows [first, last), with the column widths of all rows.
     std::string text(std::size_t first, std::size_t last) const {
         std::vector<std::size_t> widths;
         for (const auto& row : rows_) {
@@ -87,7 +87,7 @@ std::vector<std::string> stepRow(const PixelStep& step) {
     std::vector<std::span<const double>> values;
     for (const PixelValue* value : {&step.values[0], &step.values[1], &step.reference})
         values.emplace_back(*value);
-    // Both paths' own digits, where both have it: the reference is in double.
+    // Uses the digits of the paths if both have a value: the reference is in double.
     const std::span all(values);
     const Digits digits(all.first(step.isCompared() ? 2 : 3));
     std::string because = step.tolerance.because;
@@ -167,7 +167,7 @@ std::string lightWords(const PixelStory& story, const PixelTerm& term) {
 std::vector<std::string> termRow(const PixelStory& story, const PixelTerm& term) {
     std::vector<std::span<const double>> values{term.values[0], term.values[1]};
     if (term.reference) values.emplace_back(*term.reference);
-    // The sum and what is left are worked out here: of them no more digits are known.
+    // The residual is computed here, so more digits would be meaningless.
     const bool derived = term.kind == PixelTerm::Kind::residual;
     const Digits digits(derived ? std::span(values).first(1) : std::span(values).first(2));
     std::string words = term.kind == PixelTerm::Kind::light ? lightWords(story, term) : "";
@@ -235,7 +235,7 @@ double worstOf(const std::array<double, 3>& v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
 }
 
-// Why lit is not the sum, of a path (0, 1) or the reference (2).
+// Why lit is not the sum of its terms, for a path (0, 1) or the reference (2).
 std::string residualReason(const PixelStory& story, std::size_t side, const PixelTerm& residual) {
     const double left = worstOf(side < 2 ? residual.values.at(side) : residual.reference.value());
     if (left == 0) return "0";
@@ -336,10 +336,10 @@ std::string firstDifference(const PixelStory& story) {
 std::string inWords(const PixelStory& story) {
     Columns steps;
     steps.add({"step", story.names[0], story.names[1], "reference", "difference", "tolerance", "because"});
-    std::size_t before = 1;  // rows that stand before the lights
+    std::size_t before = 1;  // rows before the lights
     for (const PixelStep& step : story.steps) {
         const int mode = step.mode->number;
-        // Of the background lit alone says anything, and what tells that it is background.
+        // In the background only lit and material_id have meaning.
         if (!story.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id)) continue;
         steps.add(stepRow(step));
         before += !isAfterTerms(mode);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pixel's story in words and as JSON.
+// A pixel breakdown as text and JSON.
 #pragma once
 
 #include "compare/explain/pixel_story.h"
@@ -13,8 +13,8 @@ namespace diptych {
 std::string inWords(const PixelStory& story);
 nlohmann::ordered_json toJson(const PixelStory& story);
 
-// "the first step that differs by more than rounding: roughness (0.301 against 0.298, tolerance 0.002: ...)",
-// or that none does. One line without its end.
+// "the first step that differs by more than rounding: roughness (0.301 against 0.298, 0.003 in its metric,
+// absolute, tolerance 0.002: ...)", or that there is none. One line without a newline.
 std::string firstDifference(const PixelStory& story);
 
 }  // namespace diptych

@@ -27,7 +27,7 @@ double factorial(int n) {
     return std::tgamma(n + 1.0);
 }
 
-// Remembers what it has asked for.
+// Caches evaluated subsets.
 class Asked {
 public:
     explicit Asked(const SubsetValue& value) : value_(value) {}
@@ -52,7 +52,7 @@ std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_
     std::iota(order.begin(), order.end(), 0);
     std::vector<std::vector<int>> all;
     for (int sample = 0; sample < orders / 2; ++sample) {
-        // Fisher and Yates's shuffle; std::shuffle's result is the library's own.
+        // Fisher-Yates shuffle; the result of std::shuffle depends on the library.
         for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
         all.push_back(order);
         all.emplace_back(order.rbegin(), order.rend());
@@ -135,7 +135,7 @@ std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t 
             at(swapped)[placeOfCause(i)] += 1.0 / orders;
         }
     }
-    // Of each cause alone and of all others, which nothing may have asked for.
+    // Each cause alone and all others, which may not have been evaluated yet.
     for (int i = 0; i < causes; ++i) {
         at(Subset{1} << i);
         at(allOf(causes) & ~(Subset{1} << i));
@@ -166,8 +166,8 @@ Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint
         }
     }
     Shares shares;
-    // The 97.5 % point of Student's distribution, within 2 % from 4 degrees of freedom on (its expansion
-    // about the normal one's: Abramowitz and Stegun 26.7.5).
+    // The 97.5 % point of Student's t, accurate to 2 % from 4 degrees of freedom on (expansion about the
+    // normal distribution: Abramowitz and Stegun 26.7.5).
     const double freedom = samples - 1, student = 1.96 + 2.37 / freedom + 2.8 / (freedom * freedom);
     for (std::size_t i = 0; i < one.size(); ++i) {
         const double mean = sum[i] / samples;

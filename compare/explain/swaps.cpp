@@ -50,7 +50,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
     if (sides.exposure() != 1)
         causes_.push_back({Swap::Kind::exposure, 0, "exposure",
                            fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
-    // Last, so that subsets of the same Settings follow each other: they need a frame each.
+    // Last, so that subsets with equal Settings are consecutive: each change needs a frame.
     std::ranges::move(swappedSettings(sides.settings(0), sides.settings(1), unsaid),
                       std::back_inserter(causes_));
     if (causes_.size() > static_cast<std::size_t>(mostCauses))
@@ -59,7 +59,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
                         causes_.size(), mostCauses));
 }
 
-// Roughness that one side widens by its normals is told as that, and so are normals that it turns otherwise.
+// Describes roughness widened by specular anti-aliasing, and normals changed by skinning.
 std::string Swaps::shownBy(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
     if (widened && mode.name == "roughness")
@@ -72,7 +72,7 @@ std::string Swaps::shownBy(const DebugMode& mode) const {
 }
 
 void Swaps::findChannels() {
-    // Those that change no pixel: swapped alone, and when all others are.
+    // Channels that change no pixel, alone or after all others.
     std::vector<std::size_t> inert = lighting_.differing();
     for (const std::size_t side : {1, 0}) {
         const Settings& settings = sides_.settings(side);
@@ -91,12 +91,12 @@ void Swaps::findChannels() {
     }
 }
 
-// Where both say the terms of their lit, in which of them the rest is.
+// Finds the lighting components of the residual, if both sides have terms.
 void Swaps::findStages(const Scene& scene) {
     std::array<LitSurfaces, 2> own;
     for (std::size_t side = 0; side < 2; ++side)
         own.at(side) = lighting_.surfaces(sides_.settings(side), allChannelsOf(side));
-    // Afterwards, because they need a frame of their own.
+    // Afterwards, because they need another frame.
     const bool blended = std::ranges::any_of(scene.materials, blends);
     for (std::size_t side = 0; side < 2; ++side) {
         if (!blended) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The experiment: what the two sides differ in, and lit of the test with any of it taken from the baseline.
+// The ablation experiment: the causes, and lit of the test with any of them taken from the baseline.
 #pragma once
 
 #include "compare/explain/channel_lighting.h"
@@ -19,28 +19,29 @@
 
 namespace diptych {
 
-// A cause, as something that can be taken from either side.
+// A cause: a property that can be taken from either side.
 struct Swap {
     enum class Kind { channel, rest, stage, exposure, setting };
     Kind kind;
-    std::size_t place = 0;    // of a channel, in surfaceChannels()
-    std::string name, shows;  // "normals", of a Setting its option; what it is, in words
+    // Of a channel: index into surfaceChannels(); of a stage: index into LightingStages::stages().
+    std::size_t place = 0;
+    std::string name, shows;  // "normals", or a Setting's option; description
 
     std::string title() const { return (kind == Kind::setting ? "--" : "") + name; }
 };
 
-// What it is made of must outlive it.
+// The constructor arguments must outlive it.
 class Swaps {
 public:
-    // `unsaid`: Settings of the test that it does not say. Throws std::runtime_error, one line, where there
-    // are more causes than shares are known of.
+    // `unsaid`: undeclared Settings of the test. Throws std::runtime_error, one line, if there are more
+    // than mostCauses causes.
     Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
           std::span<const UnsaidSetting> unsaid);
 
     const std::vector<Swap>& causes() const { return causes_; }
-    // Channels that differ and change no pixel, alone and when all others are swapped: they are no cause.
+    // Channels that differ and change no pixel, alone or after all others: not causes.
     const std::vector<std::string>& inert() const { return inert_; }
-    // The stage of lighting that a cause is; nullptr: it is something else.
+    // The lighting component of a cause; nullptr for other causes.
     const LightingStages::Stage* stageOf(const Swap& cause) const;
 
     // lit of the test with a subset of the causes taken from the baseline, W x H x 3.

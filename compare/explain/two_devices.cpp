@@ -17,7 +17,7 @@
 namespace diptych {
 namespace {
 
-// The least distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
+// The distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
 double distanceTo(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
     const glm::dvec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
@@ -34,7 +34,7 @@ double distanceTo(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
     return glm::length(ap - ab * (vb / (va + vb + vc)) - ac * (vc / (va + vb + vc)));
 }
 
-// The posed triangles of each material, which are made when the first place is asked for.
+// The deformed triangles of each material, built at first use.
 class SceneSurfaces {
 public:
     SceneSurfaces(const Scene& scene, const SceneView& view)

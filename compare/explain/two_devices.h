@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prepares the judgement of one path on two devices: probes both, and lights one device's surfaces on the
-// other.
+// Prepares a cross-device comparison of one path: probes both devices, and relights one device's surfaces
+// on the other.
 #pragma once
 
 #include "compare/render/renderer.h"
@@ -14,14 +14,14 @@
 
 namespace diptych {
 
-// Without AcrossDevices::relit and texcoords. `here`: a Frame of forward+ on the first device, of `view`. The
-// scene must outlive it.
+// Without AcrossDevices::relit and texcoords. `here`: a forward+ Frame of `view` on the first device. The
+// scene must outlive the result.
 AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
                             const std::array<DevicePrecision, 2>& devices, const Frame& here);
 
-// AcrossDevices::relit: what `device` makes of the surfaces of `there`, a Frame of another device with one
-// sample a pixel: by every light, since a list is of a cell, and places may lie in its neighbour; and without
-// what is blended. Throws std::runtime_error, one line, where a channel is missing.
+// AcrossDevices::relit: relights the surfaces of `there`, a Frame of another device with one sample per
+// pixel, on `device`. Evaluates every light, because a position may fall into a neighbouring cell's list;
+// omits blended surfaces. Throws std::runtime_error, one line, if a channel is missing.
 std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there);
 
 }  // namespace diptych

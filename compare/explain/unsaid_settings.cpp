@@ -20,10 +20,10 @@ namespace diptych {
 
 namespace {
 
-// Where the test's lit is not as its Settings say, others are tried: an environment turned by so many degrees
-// more, as by an axis that is taken for another; light from all around or haze that is a multiple of what is
-// said, or none. Believed are those that bring it nearer by at least half of what they change, and where no
-// term says so and the multiple is a guess, that leave less than half of the rest; as many as this together.
+// If the test's lit does not match its Settings, others are tried: an environment rotated by further
+// degrees, as by exchanged axes; environment light, ambient light or haze scaled or removed. A Setting is
+// accepted if it brings lit nearer by at least half of its change. A multiple that no term confirms must
+// also leave less than half of the residual. At most mostBelieved are accepted.
 constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
 constexpr double believedRest = 0.5;
 constexpr int mostBelieved = 3;
@@ -46,7 +46,7 @@ public:
             const Image said = comparable(said_, 1);
             for (UnsaidSetting& tried : triedSettings()) {
                 const Image ours = comparable(tried.settings, 1);
-                // Ambient light that is really another is in the air as well.
+                // A true change of ambient light also affects the haze.
                 if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
                 const double changed = meanOf(errorsOf(ours, said));
                 const double rest = meanOf(errorsOf(beyond(ours, 1), beyond_[0]));
@@ -121,8 +121,8 @@ private:
         return all;
     }
 
-    // By how much brighter that light is which these Settings lack: the median of what is missing, as a
-    // multiple of what it adds, and 1.
+    // The factor of the light that is missing under these Settings: 1 plus the median of the residual, as
+    // a multiple of that light's contribution.
     double brightness(const Settings& without) {
         const Image with = comparable(said_, 1), none = comparable(without, 1);
         std::vector<double> adds(with.data.size());
@@ -145,7 +145,7 @@ private:
         return factor < leastBrighter ? 0.0 : factor;
     }
 
-    // What the test's terms are of ours, where they are that alike everywhere.
+    // Ratios of the test's terms to ours, if they are equal everywhere.
     struct TermFactors {
         bool known = false;  // there are terms
         bool no_haze = false;
@@ -160,7 +160,7 @@ private:
         bool hazy = false, dark = true;
         for (std::size_t i = 0; i < depth.data.size(); ++i) {
             const bool surface = ids.pixel(i / 3)[0] >= 0;
-            // Density is what the logarithm of the transmittance is proportional to.
+            // Density is proportional to the logarithm of the transmittance.
             depth.data[i] = surface ? -std::log(depth.data[i]) : 0;
             our_depth.data[i] = surface ? -std::log(our_depth.data[i]) : 0;
             hazy = hazy || depth.data[i] != 0 || theirs(gpu::DEBUG_lit_haze).data[i] != 0;
@@ -172,14 +172,14 @@ private:
                 exposureBetween(1.0, commonFactor(depth, our_depth))};
     }
 
-    // What is compared to tell Settings that are not said: a side's surfaces under some Settings as our terms
-    // add up, where both have terms, so that what is done with them afterwards does not matter; else our lit.
+    // The image for comparing undeclared Settings: the sum of our terms for a side's surfaces if both
+    // sides have terms, so that later operations do not matter; else our lit.
     Image comparable(const Settings& settings, std::size_t side) {
         if (!sides_.haveTerms()) return lighting_.lit(settings, allChannelsOf(side));
         return sumOfTerms(lighting_.under(settings).terms(allChannelsOf(side)),
                           channelOf(sides_.frame(side), gpu::DEBUG_emission));
     }
-    // What a side has beyond that.
+    // A side's residual beyond that image.
     Image beyond(const Image& ours, std::size_t side) const {
         return differenceOf(sides_.haveTerms() ? sumOfTerms(sides_.frame(side)) : sides_.lit(side), ours);
     }
@@ -194,8 +194,8 @@ private:
 
     const ExplainedSides& sides_;
     ChannelLighting& lighting_;
-    Settings said_;                // the test's, with those that are believed
-    std::array<Image, 2> beyond_;  // what tells Settings that are not said: beyond() under a side's
+    Settings said_;                // the test's, with the accepted ones
+    std::array<Image, 2> beyond_;  // beyond() under each side's Settings
     std::vector<UnsaidSetting> found_;
 };
 

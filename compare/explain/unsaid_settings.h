@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings that the test has without saying so: an environment that is turned, other ambient light, other
-// haze; and of another program's picture, other conventions. Each is tried in our lighting of its channels.
+// Finds undeclared Settings of the test: a rotated environment, other ambient light or haze; for another
+// renderer's image, other conventions. Each is tried by relighting the test's channels.
 #pragma once
 
 #include "compare/explain/channel_lighting.h"
@@ -13,15 +13,15 @@
 
 namespace diptych {
 
-// A Setting that the test may have without saying so.
+// A Setting that the test may use without declaring it.
 struct UnsaidSetting {
     std::string_view option;
-    Settings settings;  // the test's with this one, and with those that are believed before it
+    Settings settings;  // the test's with this one and all accepted before it
     std::string shows;
-    bool guessed = false;  // a multiple that no term says
+    bool guessed = false;  // an estimated multiple that no term confirms
 };
 
-// Those that are believed, in the order in which they are found; none where it is known what makes the rest.
+// The accepted Settings, in the order in which they are found; empty if the residual's source is known.
 std::vector<UnsaidSetting> unsaidSettings(const ExplainedSides& sides, ChannelLighting& lighting);
 
 }  // namespace diptych

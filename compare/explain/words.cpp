@@ -15,7 +15,7 @@ namespace diptych {
 
 namespace {
 
-constexpr std::size_t namedParts = 3;  // materials, lights; in words
+constexpr std::size_t namedParts = 3;  // materials, lights; in text
 constexpr double namedPart = 0.01;     // of a cause's share, in JSON
 
 // "78 % on material 12, Lantern glass; 9 % on background".

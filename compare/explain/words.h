@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An explanation in words and as JSON.
+// An explanation as text and JSON.
 #pragma once
 
 #include "compare/explain/explanation.h"
@@ -12,29 +12,29 @@
 
 namespace diptych {
 
-// Whose pictures an explanation is of: "deferred", and in which Settings the test differs, as "--haze on".
+// Names of the explained images: "deferred", and the test's differing Settings, such as "--haze on".
 struct ExplainedPictures {
-    // A line for a shell, and what it does: "Explain it again".
+    // A shell command, and its purpose: "Explain it again".
     struct Command {
         std::string does, line;
     };
 
     std::string scene, baseline, test;
-    std::vector<Command> commands{};  // the first explains them again
+    std::vector<Command> commands{};  // the first repeats the explanation
 };
 
-// Over this share of the distance the words say that what is left unexplained is more than a trifle.
+// Above this fraction of the distance the text calls the unexplained part significant.
 inline constexpr double worthUnexplained = 0.05;
 
 std::string materialName(const MaterialShare& material);
 // "light 3, Lamp".
 std::string lightName(const LightShare& light);
-// How many lights were drawn alone, where some were left out; else empty.
+// The number of lights rendered alone, if some were omitted; else empty.
 std::string lightsLine(const Explanation& explanation);
 std::string pairLine(const Explanation& explanation, const CausePair& pair);
-// How far the lighting of each side's own channels is off its lit; empty where it is not.
+// The relative residual of relighting each side's channels; empty if there is none.
 std::string reproductionLine(const Explanation& explanation, const ExplainedPictures& of);
-// Of the pixels where some cause counts, the share where this one counts most, 0 to 1.
+// The fraction, 0 to 1, of the pixels with any cause where this one is the largest.
 double dominatedShare(const Explanation& explanation, std::size_t cause);
 
 // "lit differs because of albedo 69.1 %, roughness 10.9 %, ...; unexplained 0.0 %".

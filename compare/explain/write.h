@@ -13,12 +13,12 @@ namespace diptych {
 
 inline constexpr const char* explanationManifest = "explain.json";
 
-// Both sides' lit as a picture, on one exposure: channelPicture().
+// Both sides' lit as an image, with one exposure: channelPicture().
 Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice);
 
-// index.html, explain.json and the pictures. The folder is put in place as a whole; an earlier explanation is
-// replaced, anything else only with `force`. `device`: its name. Returns the text of explain.json. Throws
-// std::runtime_error naming folder or file.
+// Writes index.html, explain.json and the images. Replaces an earlier explanation atomically; replaces
+// anything else only with `force`. `device`: its name. Returns the text of explain.json. Throws
+// std::runtime_error naming the folder or file.
 std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
                              const Frame& baseline, const Frame& test, const PictureChoice& choice,
                              const std::string& device, const std::filesystem::path& folder, bool force);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ---- The page's address is what is shown, so that a link leads there: "#c0-lit", "#c0-lit@247,89" (a pixel, enlarged),
-// "#c0-lit@247,89?zoom=8&at=240.5,90&mode=right". at: what is in the middle, in pixels; wipe: percent.
+// ---- The page's address encodes the view, so that a link restores it: "#c0-lit", "#c0-lit@247,89" (a
+// pixel, enlarged), "#c0-lit@247,89?zoom=8&at=240.5,90&mode=right". at: the centre, in pixels; wipe:
+// percent.
 
 const rounded = number => +number.toFixed(2);
 
@@ -17,7 +18,7 @@ function addressOf(card) {
   return '#' + card.element.id + place + (words.length ? '?' + words.join('&') : '');
 }
 
-// Not at once: a drag changes much, and browsers refuse an address that changes too often.
+// Delayed: a drag changes much, and browsers reject frequent changes of the address.
 let remembering;
 function remember(card) {
   if (card !== current) return;

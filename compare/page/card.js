@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-const flickerMs = 250;  // a side: both are seen twice a second, below the three flashes that can harm
+// Per side: each is shown twice a second, below the three flashes a second that can harm.
+const flickerMs = 250;
 
-// ---- A card: both pictures and their difference under one transform.
+// ---- A card: both images and their difference under one transform.
 
 const cards = new WeakMap();
-let current = null;  // the card that keys act on: the last one that was pointed at or opened by a link
+let current = null;  // the card that keys act on: the last one hovered over or opened by a link
 
 function cardOf(node) {
   const element = node && node.closest && node.closest('.card');
-  if (!element || !element.querySelector('.panel')) return null;  // its pictures may not be kept
+  if (!element || !element.querySelector('.panel')) return null;  // its images may be omitted
   if (!cards.has(element)) cards.set(element, new Card(element));
   return cards.get(element);
 }
 
-// A single file holds a picture that both sides share once.
+// In a single-file report both sides may share one image.
 function fillShared(root) {
   for (const image of root.querySelectorAll('img[data-same]')) image.src = image.closest('.pair').querySelector('.left img').src;
 }
@@ -30,16 +31,16 @@ class Card {
     this.width = +image.getAttribute('width');
     this.height = +image.getAttribute('height');
     this.mode = 'side';
-    this.still = 'side';   // the mode that flicker ends in
-    this.at = 50;          // of the wipe, percent
+    this.still = 'side';   // the mode to return to after flicker
+    this.at = 50;          // wipe position, percent
     this.zoom = 1;
-    this.x = this.y = 0;   // where the picture's corner is, of its width and height; 0 or less
-    this.worst = -1;       // which of the worst pixels is shown
-    this.pixel = null;     // that the values are of
-    this.pinned = null;    // the one that was clicked or led to: the address has it
+    this.x = this.y = 0;   // offset of the image's corner, in image widths and heights; at most 0
+    this.worst = -1;       // index of the visible worst pixel
+    this.pixel = null;     // the pixel whose values are shown
+    this.pinned = null;    // the pixel that was clicked or linked to; part of the address
   }
 
-  // left, right, wipe, side or flicker
+  // Modes: left, right, wipe, side, flicker.
   show(mode, at) {
     if (!this.pair) return;
     clearInterval(this.timer);
@@ -65,7 +66,8 @@ class Card {
     this.slider.value = at;
   }
 
-  // Zooms so that what was at (fromX, fromY) of the panel comes to (fx, fy); a pixel grows to 48 of the screen's.
+  // Zooms so that the point at (fromX, fromY) of the panel moves to (fx, fy); at most 48 screen pixels per
+  // image pixel.
   zoomTo(zoom, fx = 0.5, fy = 0.5, fromX = fx, fromY = fy) {
     const u = fromX / this.zoom - this.x, v = fromY / this.zoom - this.y;
     this.zoom = clamp(zoom, 1, this.mostZoom());
@@ -80,17 +82,17 @@ class Card {
     this.panels.forEach(panel => this.sharpen(panel));
     remember(this);
   }
-  // The corner that brings pixel (x, y) to the middle, as far as the picture reaches.
+  // The offset that centres pixel (x, y), clamped to the image.
   corner(x, y) {
     const along = (at, size) => clamp(0.5 / this.zoom - (at + 0.5) / size, 1 / this.zoom - 1, 0);
     return [along(x, this.width), along(y, this.height)];
   }
   centre(x, y) { this.moveTo(...this.corner(x, y)); }
-  // Shows a pixel as a square once it is larger than a pixel of the screen.
+  // Shows pixels as squares once they are larger than a screen pixel.
   sharpen(panel) {
     panel.classList.toggle('enlarged', panel.clientWidth * this.zoom > this.width);
   }
-  // Part of a panel, 0 to 1, and the pixel there.
+  // Position in a panel, 0 to 1.
   place(panel, event) {
     const box = panel.getBoundingClientRect();
     return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
@@ -110,7 +112,7 @@ class Card {
     this.read();
   }
   mostZoom() { return Math.max(1, 48 * this.width / Math.max(this.panels[0].clientWidth, 1)); }
-  // 24 pixels across, with this one in the middle.
+  // The zoom to a pixel shows 24 pixels across.
   lookZoom() { return clamp(this.width / 24, 1, this.mostZoom()); }
   looksAt(x, y) {
     const [left, top] = this.corner(x, y);
@@ -130,7 +132,7 @@ class Card {
     this.look(...links[this.worst].dataset.pixel.split(',').map(Number));
   }
 
-  // ---- The numbers under the cursor
+  // ---- The numbers under the cursor.
   showRows(...rows) {
     this.readout.replaceChildren(...rows.map(([name, text]) => {
       const row = document.createElement('span');

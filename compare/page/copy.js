@@ -2,7 +2,8 @@
 // The button beside a command line.
 async function copy(button) {
   const code = button.parentElement.querySelector('code');
-  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
+  // Without access to the clipboard, the user only has to press Ctrl+C.
+  getSelection().selectAllChildren(code);
   try {
     await navigator.clipboard.writeText(code.textContent);
     button.textContent = 'copied';
@@ -11,7 +12,7 @@ async function copy(button) {
   }
 }
 
-// Copies the command that writes rules for what differs in a scene; without access to the clipboard it shows it.
+// Copies the command that writes rules for a scene's differences; without clipboard access, shows it.
 async function accept(button) {
   const quoted = text => /^[\w+=:,./@%-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const report = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, '') : 'diptych-report';

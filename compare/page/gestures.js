@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ---- Pointers: hover tells, drag wipes or pans, two fingers zoom.
+// ---- Pointers: hover shows values, drag wipes or pans, two fingers zoom.
 
 const panelOf = event => event.target.closest && event.target.closest('.card .panel');
 const pointers = new Map();
@@ -54,7 +54,7 @@ for (const end of ['pointerup', 'pointercancel'])
   });
 addEventListener('dragstart', event => { if (panelOf(event)) event.preventDefault(); });
 
-// The wheel scrolls the page, unless the card has been clicked into or Ctrl is held.
+// The wheel scrolls the page, unless the card has the focus or Ctrl is held.
 addEventListener('wheel', event => {
   const panel = panelOf(event), card = cardOf(panel);
   if (!card || !(event.ctrlKey || card.element.contains(document.activeElement))) return;
@@ -67,7 +67,7 @@ addEventListener('input', event => {
   if (event.target.matches('.pair input')) cardOf(event.target).show('wipe', +event.target.value);
 });
 
-// ---- Buttons and keys: the page's legend names them.
+// ---- Buttons and keys, listed in the page's legend.
 
 const actions = {
   in: card => card.zoomTo(card.zoom * 1.5),
@@ -97,7 +97,7 @@ addEventListener('click', event => {
   else if (button.dataset.do) actions[button.dataset.do](card);
 });
 
-// No animation starts by itself where the user has asked for reduced motion.
+// No animation starts by itself if the user prefers reduced motion.
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const keys = {
   1: card => card.show('left'), 2: card => card.show('right'), w: card => card.show('wipe'),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// ---- Several comparisons: one line each; the section of a comparison is loaded on demand.
+// ---- Several comparisons: one row each; sections are loaded on demand.
 
-const arriving = new Map();  // comparison -> what to do once its section is there
+const arriving = new Map();  // comparison -> function to call once its section is loaded
 
 const escaped = text => text.replace(/[&<>"]/g, c => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
 
-// `which`: a comparison's number; or, of a report that was put together of parts, the file that the section is in,
-// which does not know number and title.
+// `which`: a comparison's index. In a report joined from parts: the section's file, which contains no
+// index and title.
 window.diptychSection = (which, html) => {
   const line = isNaN(which) && document.querySelector(`tr[data-section="${CSS.escape(which)}"]`);
   const index = line ? +line.dataset.comparison : which;
@@ -31,9 +31,9 @@ function fetchSection(index, then) {
 fillShared(document);
 arrive();
 
-// ---- The table of comparisons: what is looked for, and the figures of a channel in a column of their own.
+// ---- The table of comparisons: filters, and the metrics of one channel in a column.
 
-// Of a channel in the page's figures: its verdict, then these.
+// A channel's entry: its verdict, then these.
 const figures = ['of its limit', 'max', 'mean', 'rmse', 'p99', 'p99.9', 'FLIP'];
 const threeDigits = value => value >= 1e300 ? 'inf' : value === 0 || Math.abs(value) >= 1e-4 && Math.abs(value) < 1e4 ? String(+value.toPrecision(3)) : value.toExponential(2).replace(/\.?0+e/, 'e');
 
@@ -57,10 +57,10 @@ class Index {
     if ([...choices.keys()].some(name => name === 'filter' || this.selects[name])) this.narrow();
   }
 
-  // Parsed when it is asked for.
+  // Parsed at first use.
   get all() { return this.figures ??= JSON.parse(document.getElementById('figures').textContent); }
 
-  // What a column of its own shows of the channel; without one, of lit.
+  // The channel in the metric column; lit by default.
   get channel() { return this.selects.channel.value || 'lit'; }
 
   of(line) { return this.all[line.dataset.comparison]?.channels[this.channel]; }
@@ -85,7 +85,7 @@ class Index {
     if (this.heads[this.column].hasAttribute('aria-sort')) this.sorted?.();
   }
 
-  // With a channel, pass and fail are the channel's.
+  // If a channel is chosen, pass and fail are the channel's.
   has(line, verdict) {
     if (!verdict) return true;
     const channel = this.selects.channel.value;

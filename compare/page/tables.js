@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 
-// ---- Tables: decimal points one below the other, and cells that know their column's head, which stands beside them where
-// a narrow page shows a row as a list.
+// ---- Tables: aligns decimal points, and stores the column's head in each cell, for narrow pages that
+// show rows as lists.
 
 const plainNumber = /^-?\d+(\.\d+)?(e[+-]?\d+)?( ?(%|[KMGT]?i?B|\u00b0))?$/;
 const fraction = text => text.length - (text.match(/^-?\d+/)?.[0].length ?? text.length);
@@ -33,18 +33,19 @@ const groups = 'table, .buttons, .worst ol, svg.chart';
 const stops = 'a[href], button, .point[tabindex]';
 const stopsOf = group => [...group.querySelectorAll(stops)];
 
-// Before a table or plot in which arrows move, a link that leads past it; it is seen while it has the focus.
+// Adds a link that skips a table or plot with arrow keys; it is visible while it has the focus.
 function addSkip(group) {
   const whole = group.closest('.scroll') ?? group, after = document.createElement('span'), link = document.createElement('a');
   after.tabIndex = -1;
   after.id = 'after-' + document.querySelectorAll('.skip').length;
   Object.assign(link, { className: 'skip here', href: '#' + after.id, textContent: `Skip the ${group.matches('svg') ? 'plot' : 'table'}` });
-  link.addEventListener('click', event => { event.preventDefault(); after.focus(); });  // the address stays
+  // Keeps the address.
+  link.addEventListener('click', event => { event.preventDefault(); after.focus(); });
   whole.before(link);
   whole.after(after);
 }
 
-// At once, but for tables of thousands of rows: those once the page is seen.
+// At once, except for tables of more than 500 rows, which wait until the page is loaded.
 function soonFor(element, then) {
   if (!(element.rows?.length > 500)) then(element);
   else if (document.readyState === 'complete') setTimeout(then, 0, element);
@@ -74,7 +75,8 @@ const middle = element => {
   return [box.left + box.width / 2, box.top + box.height / 2];
 };
 
-// Left and right: the neighbour in reading order, in a plot the next in time. Up and down: the nearest one above or below.
+// Left and right: the neighbour in reading order, in a plot the next in time. Up and down: the nearest one
+// above or below.
 function neighbour(group, from, key) {
   const seen = stopsOf(group).filter(stop => stop.getBoundingClientRect().height > 0);
   const [x, y] = middle(from), across = { ArrowLeft: -1, ArrowRight: 1 }[key], down = { ArrowUp: -1, ArrowDown: 1 }[key];
@@ -101,7 +103,7 @@ addEventListener('keydown', event => {
   next.focus();
 });
 
-// ---- What is chosen on a page stands in its address, before the "#", so that a link shows the same.
+// ---- The page's choices are stored in its address, before the "#", so that a link restores them.
 
 const choices = new URLSearchParams(location.search);
 let writing;
@@ -109,12 +111,12 @@ function choose(name, value) {
   if ((choices.get(name) ?? '') === value) return;
   if (value) choices.set(name, value);
   else choices.delete(name);
-  clearTimeout(writing);  // not at once: browsers refuse an address that changes too often
+  clearTimeout(writing);  // delayed: browsers reject frequent changes of the address
   writing = setTimeout(() => history.replaceState(null, '', (choices.size ? '?' + choices : location.pathname) + location.hash), 200);
 }
 
-// A table whose heads sort it: by `sort`, the name of a column, "-" before it where the largest comes first.
-// `down`: the largest number comes first when a head is chosen for the first time.
+// Makes a table sortable by its heads. `sort`: name of the first column to sort by, with "-" for
+// descending. `down`: the first click on a head sorts in descending order.
 function sortable(table, down) {
   const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
   const sort = (head, order) => {
@@ -133,7 +135,7 @@ function sortable(table, down) {
   });
   const asked = choices.get('sort') ?? '', head = asked && heads.find(head => head.textContent === asked.replace(/^-/, ''));
   if (head) sort(head, asked.startsWith('-') ? -1 : 1);
-  // Again by the head that it is sorted by, after its values have changed.
+  // Sorts again by the same head after values have changed.
   return () => heads.filter(head => head.hasAttribute('aria-sort')).forEach(head => sort(head, head.getAttribute('aria-sort') === 'ascending' ? 1 : -1));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text and numbers as all our pages and tables show them.
+// Text and numbers in the format of all pages and tables.
 #pragma once
 
 #include "shared/frame/debug_modes.h"
@@ -12,12 +12,11 @@
 
 namespace diptych::page {
 
-// Escapes text for elements and attributes of HTML and XML. Bytes that are not UTF-8, controls (isControl())
-// but for tabs and line breaks, and characters that XML 1.0 does not allow, become U+FFFD.
+// Escapes text for elements and attributes of HTML and XML. Invalid UTF-8, controls (isControl()) except
+// tabs and line breaks, and characters that XML 1.0 does not allow become U+FFFD.
 std::string markup(std::string_view text);
 
-// The same for text from outside within a sentence or a row of a page: letters that are written from right to
-// left stay within it.
+// The same for foreign text in a sentence or row; right-to-left letters do not affect their surroundings.
 std::string isolated(std::string_view text);
 
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
@@ -26,22 +25,21 @@ std::string bytes(std::uint64_t count);  // "1.25 MiB"
 
 const char* unitOf(const DebugMode& mode);  // unit of the channel's errors: a degree sign or empty
 
-// The folders that all of `paths` are in, with a slash at the end; of a single path all of its own. What
-// begins with a word and a colon ("builtin:gallery") is no path and does not count.
+// The common folder of `paths`, ending in a slash; for a single path, its folder. Names that begin with a
+// word and a colon ("builtin:gallery") are ignored.
 std::string commonFolder(const std::vector<std::string>& paths);
 
 // `path` without `folder`: "c/Box.glb" of "/a/b/c/Box.glb" in "/a/b/".
 std::string inFolder(std::string_view path, std::string_view folder);
 
-// A name that may be broken into lines after its underscores, escaped.
+// Escapes a name and allows line breaks after its underscores.
 std::string breakable(std::string_view name);
 
-// A table's cell with a number; `text`: as it is shown. Tables are sorted by the number, what is infinite
-// last.
+// A table cell with a number, shown as `text`. Tables sort by the number; infinity is last.
 std::string numberCell(double value, std::string_view text);
 
-// A line of comma-separated values with its end (RFC 4180): a field is quoted where it holds a comma, a quote
-// or a line break.
+// A line of comma-separated values, terminated (RFC 4180): fields with a comma, a quote or a line break
+// are quoted.
 std::string csvLine(const std::vector<std::string>& fields);
 
 // The camera's name, else --camera as given, else "default view".

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The script of a report's page, in the order tables, values, card, gestures, address, index. It works from file://:
-// whatever it loads is a picture, or a script beside the page.
+// The script of a report's page, in the order tables, values, card, gestures, address, index. It works
+// from file://: it loads only images and scripts beside the page.
 
-// ---- The values behind the pictures: compare/report/values.h says how they are stored.
+// ---- The values behind the images; compare/report/values.h defines the format.
 
-const values = new Map();   // file -> its Values, or null while it is loading
+const values = new Map();  // file -> its Values, or null while it is loading
 const waiting = new Map();  // file -> functions to call once it is loaded
 
 function half(bits) {
@@ -14,7 +14,7 @@ function half(bits) {
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
 }
 
-// Two characters for every 13 bits, and of up to 6 bits at the end one.
+// Two characters for every 13 bits, and one for up to 6 bits at the end.
 function base91Bytes(text) {
   const pairs = text.length >> 1, odd = text.length & 1, bytes = new Uint8Array(pairs * 13 + odd * 6 >> 3);
   const digit = i => text.charCodeAt(i) - 35 - (text.charCodeAt(i) > 92);
@@ -28,14 +28,14 @@ function base91Bytes(text) {
   return bytes;
 }
 
-// An empty text is of zeros alone.
+// An empty text means all zeros.
 async function inflated(text, bytes) {
   if (!text) return new Uint8Array(bytes);
   const stream = new Blob([base91Bytes(text)]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// `smooth`: what is stored are the differences to the left neighbours.
+// `smooth`: the data are differences to the left neighbours.
 function wordsOf(raw, file, smooth) {
   const pixels = file.width * file.height, bytes = file.bits / 8;
   const words = file.bits === 16 ? new Uint16Array(pixels) : new Uint32Array(pixels);
@@ -67,7 +67,7 @@ class Values {
   error(pixel) {
     return this.file.errors ? this.number(this.planes.length - 1, pixel, this.file.errorUnit) : 0;
   }
-  // The shortest decimal that identifies the number; of a quantised one only the digits that it still has.
+  // The shortest decimal that identifies the number; for a quantised one only its significant digits.
   text(number) {
     if (!this.file.exact || !Number.isFinite(number)) return String(+number.toPrecision(4));
     for (let digits = 1; digits < 9; ++digits) {
@@ -85,7 +85,7 @@ window.diptychValues = async (name, file) => {
   waiting.delete(name);
 };
 
-// The name stands in the page's text, which may be another machine's: a script beside the page or below, and no other.
+// The name may come from another machine's report, so only a script in the page's folder is accepted.
 function addScript(name, failed) {
   const script = document.createElement('script'), url = new URL(name, location);
   if (!url.href.startsWith(new URL('.', location).href) || !url.pathname.endsWith('.js')) return failed();

@@ -14,7 +14,7 @@ namespace {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-// Digits and the letters that a legend needs, of 3 x 5 pixels, a row of three bits each from the top.
+// Digits and the letters of the legend, 3 x 5 pixels, each row as three bits, from the top.
 constexpr std::string_view glyphs = "0123456789.kEGHILPRSTX ";
 constexpr std::array<std::array<unsigned, 5>, 23> rows{
     {{7, 5, 5, 5, 7}, {2, 6, 2, 2, 7}, {7, 1, 7, 4, 7}, {7, 1, 7, 1, 7}, {5, 5, 7, 1, 1}, {7, 4, 7, 1, 7},
@@ -68,7 +68,7 @@ double heatTop(double largest) {
 
 Image8 withHeatLegend(const Image8& picture, double top) {
     if (picture.width < 80) return picture;
-    const int size = std::max(1, picture.width / 480);  // of a glyph's pixel
+    const int size = std::max(1, picture.width / 480);  // size of a glyph's pixel
     const int margin = 3 * size, width = std::min(picture.width - 2 * margin, 100 * size), bar = 5 * size;
     const int title = picture.height + margin, above = title + 7 * size, line = above + bar + 2 * size;
     Image8 image = picture;

@@ -22,8 +22,8 @@ std::uint8_t byteOf(double zeroToOne) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(zeroToOne, 0.0, 1.0)));
 }
 
-// srgbFromLinear() in 8 bits, by a table over the square root, which resolves the steep dark end. With 4096
-// entries every code is off by at most one.
+// srgbFromLinear() in 8 bits, by a table over the square root, which resolves the steep dark end. With
+// 4096 entries every code is off by at most one.
 std::uint8_t srgbByte(float linear) {
     static const std::vector<std::uint8_t> table = [] {
         std::vector<std::uint8_t> codes(4097);
@@ -52,7 +52,7 @@ Rgb8 display(Color radiance, const Exposure& exposure) {
     return {srgbByte(radiance[0]), srgbByte(radiance[1]), srgbByte(radiance[2])};
 }
 
-// Gives neighbouring ids distant hues (steps of the golden angle) in three lightnesses.
+// Neighbouring ids get distant hues (steps of the golden angle) in three lightnesses.
 Rgb8 idColor(float id) {
     const auto i = static_cast<std::int64_t>(id);
     const double hue = 6 * (0.6180339887498949 * static_cast<double>(i) + 0.07);
@@ -205,7 +205,7 @@ Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureSc
             put(result, i, nonfiniteColor);
             continue;
         }
-        // Nothing was drawn there: the environment, where the frame shows one.
+        // Background: the environment, if the frame shows one.
         if (!seen.covered[i] && (mode.number != gpu::DEBUG_lit ||
                                  std::all_of(p, p + image.components, [](float v) { return v == 0; })))
             put(result, i, background);
@@ -235,7 +235,7 @@ namespace {
 
 constexpr int beyondShades = 9;
 
-// From beyondColor just above the top to white at farBeyond times it, even steps of the logarithm.
+// From beyondColor just above the top to white at farBeyond times the top, in equal logarithmic steps.
 Rgb8 beyondShade(double times) {
     const double share = std::min(std::log(times) / std::log(farBeyond), 1.0);
     const double t = std::min(std::floor(share * beyondShades), beyondShades - 1.0) / (beyondShades - 1);
@@ -249,7 +249,7 @@ Rgb8 beyondShade(double times) {
 }  // namespace
 
 Image8 errorPicture(const Image& errors, double top) {
-    // With black, the shades of what is beyond and the colour of infinity, a palette holds all.
+    // With black, the shades beyond the top and the colour of infinity, a palette has 256 colours.
     static const std::array<Rgb8, 254 - beyondShades> map = [] {
         std::array<Rgb8, 254 - beyondShades> colors;
         for (std::size_t i = 0; i < colors.size(); ++i)

@@ -29,7 +29,8 @@ void Drawing::text(const char* kind, double x, double y, const std::string& word
                           markup(words));
 }
 
-// The vertical axis is named above it: beside it, a turned name would meet the ticks where text is large.
+// The vertical axis is named above it: a rotated name beside it would collide with the ticks if text is
+// large.
 void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x,
                    const std::string& xName, const std::vector<Tick>& up, const Place& y,
                    const std::string& yName) {

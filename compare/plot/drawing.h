@@ -10,9 +10,9 @@
 
 namespace diptych {
 
-extern const char* const plotStyle;  // plot.css, in a page and in a file of its own
+extern const char* const plotStyle;  // plot.css, in a page and in separate files
 
-// A plot in a file of its own holds its style and title; in a page the page supplies both.
+// A plot in its own file contains its style and title; in a page, the page has both.
 enum class PlotPlace { file, page };
 
 // The rectangle that the axes enclose.
@@ -26,8 +26,8 @@ public:
     void text(const char* kind, double x, double y, const std::string& words);  // escaped
     void add(const std::string& markup) { lines_ += markup; }
 
-    // Ticks, grid and names of two axes; `x` and `y` place values. The names take 50 below the box and 30
-    // above.
+    // Ticks, grid and names of two axes; `x` and `y` map values to positions. The names need 50 units
+    // below the box and 30 above.
     using Place = std::function<double(double)>;
     void axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x, const std::string& xName,
               const std::vector<Tick>& up, const Place& y, const std::string& yName);
@@ -38,10 +38,10 @@ private:
     std::string lines_, texts_;
 };
 
-// A length with one digit after the decimal point, as SVG attributes hold it.
+// A length with one decimal digit, for SVG attributes.
 std::string svgNumber(double length);
 
-// The element around a plot's markup.
+// The SVG element around a plot's markup.
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,
                         const std::string& markup);
 

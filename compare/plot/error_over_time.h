@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What plots of errors over frame times share. Both axes are logarithmic; errors of 0 and infinite ones stand
-// in lanes of their own at the foot and at the top.
+// Shared part of plots of error over frame time. Both axes are logarithmic; errors of 0 and infinite ones
+// have their own lanes at the bottom and the top.
 #pragma once
 
 #include "compare/plot/drawing.h"
@@ -15,16 +15,16 @@ namespace diptych {
 
 class ErrorOverTime {
 public:
-    // `box`: what the axes enclose. `times` (ms) and `errors`: all that has to be in view. `points`: the
-    // errors of the points alone, by which it is decided whether there are lanes.
+    // `box`: area inside the axes. `times` (ms) and `errors`: the values to be visible. `points`: errors
+    // of the points, which decide whether there are lanes.
     ErrorOverTime(const PlotBox& box, const std::vector<double>& times, const std::vector<double>& errors,
                   std::span<const double> points);
 
     double x(double ms) const;
     double y(double error) const;
     std::string axes(const std::string& error_name) const;
-    // The least error that is reached within a time, by points (ms, error) with ascending times and
-    // descending errors: a step line, lower only from the next point on. Empty without points.
+    // The smallest error reached within a time, as a step line. `points` are (ms, error) with ascending
+    // times and descending errors. Empty without points.
     std::string front(std::span<const std::pair<double, double>> points) const;
 
 private:
@@ -33,7 +33,7 @@ private:
     const bool zeros_, infinities_;
 };
 
-// A point of a path: round or square, so that paths differ not by colour alone. `r`: its radius.
+// A path's point: round or square, so that paths differ in more than colour. `r`: radius.
 std::string pathMark(Path path, double x, double y, double r);
 
 }  // namespace diptych

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double gap = 7;  // between a point and its label
 constexpr int distances = 6;
-// In order of preference. Of a falling step line, what is above on the right and below on the left is free.
+// In order of preference. Along a falling step line, above right and below left are free.
 constexpr std::array<std::pair<int, int>, 8> directions{
     {{1, -1}, {-1, 1}, {1, 1}, {-1, -1}, {0, -1}, {0, 1}, {1, 0}, {-1, 0}}};
 
@@ -29,8 +29,8 @@ double overlap(const PlotBox& a, const PlotBox& b) {
 
 PlotBox boxOf(const Label& label, std::pair<int, int> direction, int distance, const PlotBox& area) {
     const double far = gap + distance * label.height, across = label.width / 2, down = label.height / 2;
-    // The middle of the label, so that its nearest edge or corner is as far from the point as wanted, but
-    // inside.
+    // The label's centre, so that its nearest edge or corner has the given distance from the point,
+    // clamped to the area.
     const double x = std::max(std::min(label.x + direction.first * (far + across), area.right - across),
                               area.left + across),
                  y = std::max(std::min(label.y + direction.second * (far + down), area.bottom - down),
@@ -50,7 +50,7 @@ std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::ve
             for (std::size_t d = 0; d < directions.size(); ++d) {
                 const PlotBox box = boxOf(label, directions[d], distance, area);
                 const double room = label.width * label.height;
-                // What weighs more is worse than any number of what weighs less.
+                // Each criterion outweighs all weaker ones together.
                 double cost = distance + 0.01 * static_cast<double>(d);
                 for (const PlotBox& other : placed) cost += 1e3 * overlap(box, grown(other)) / room;
                 for (const PlotBox& mark : marks) cost += 10 * overlap(box, mark) / room;

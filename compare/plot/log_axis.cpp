@@ -23,7 +23,7 @@ LogAxis::LogAxis(const std::vector<double>& values) {
     double least = 0, most = 0;
     for (const double value : values) {
         if (!(value > 0) || !std::isfinite(value)) continue;
-        const double v = std::clamp(value, 1e-100, 1e100);  // ends and their ratio stay finite
+        const double v = std::clamp(value, 1e-100, 1e100);  // keeps ends and ratio finite
         least = least == 0 ? v : std::min(least, v);
         most = std::max(most, v);
     }
@@ -51,7 +51,7 @@ std::vector<Tick> LogAxis::ticks() const {
         return ticks;
     };
     if (std::vector<Tick> decades = within({1}, false); decades.size() >= 2) {
-        // Over many decades every second or third is named.
+        // Over many decades every second or third is labelled.
         const std::size_t step = (decades.size() + 5) / 6;
         for (std::size_t i = 0; i < decades.size(); ++i)
             if (i % step != 0) decades[i].text.clear();

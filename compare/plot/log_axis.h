@@ -8,21 +8,21 @@ namespace diptych {
 
 struct Tick {
     double value = 0;
-    std::string text;  // empty: a minor one
+    std::string text;  // empty: a minor tick
 };
 
-// A logarithmic axis that holds values above 0, with a margin on either side.
+// A logarithmic axis for values above 0, with a margin at both ends.
 class LogAxis {
 public:
-    // Only finite values above 0 count; without any the axis goes from 0.1 to 1.
+    // Only finite values above 0 count; without any, the axis is 0.1 to 1.
     explicit LogAxis(const std::vector<double>& values);
 
     double low() const { return low_; }
     double high() const { return high_; }
-    // From 0 (low) to 1 (high); values beyond are clamped.
+    // Position from 0 (low) to 1 (high), clamped.
     double place(double value) const;
-    // Powers of ten where at least two of them are in view, with minor ones between; else 1, 2 and 5 times
-    // them; else round steps.
+    // Powers of ten if at least two are visible, with minor ticks between them; else 1, 2 and 5 times
+    // powers of ten; else even steps.
     std::vector<Tick> ticks() const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haze: the air along a ray, and what it lets through and scatters.
+// Haze: the medium along a ray, its transmittance and in-scattering.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/features.h"
@@ -20,9 +20,9 @@ Probe airProbe(const char* name, std::uint32_t function, const char* inputs, con
     return probe;
 }
 
-// exponential() of air.glsl promises 2e-7 of the value, and is made of sums, products and a floor alone:
-// where these are rounded up or down instead of to nearest, each errs by twice as much.
-// Its last product, of a power of two, may be a denormal, which Vulkan lets be 0; so may what that leaves.
+// exponential() of air.glsl is accurate to 2e-7 of its value, and uses only sums, products and a floor. If
+// these round up or down instead of to nearest, each errs by twice as much. Its last product, with a power
+// of two, may be a denormal, which Vulkan may flush to 0.
 constexpr double exponential_promise = 4e-7, exponential_flush = least_normal;
 
 constexpr auto exact_exp = [](double x) { return std::exp(x); };
@@ -45,7 +45,7 @@ Probe exponentialProbe() {
         out[0] = monotoneOf(in[0], exact_exp, exponential_promise, exponential_flush);
         out[1] = monotoneOf(in[0], exact_expm1, exponential_promise, exponential_flush);
     });
-    // The promise is of the value's both sides.
+    // The accuracy holds for exp and expm1.
     p.allowance = [](const float* in, double* allowed) {
         allowed[0] = std::exp(double{in[0]}) * exponential_promise + 2 * exponential_flush;
         allowed[1] = std::abs(std::expm1(double{in[0]})) * exponential_promise + 2 * exponential_flush;
@@ -53,8 +53,8 @@ Probe exponentialProbe() {
     return p;
 }
 
-// The metres of air at height 0 along `reach` metres that rise by `rise`, the density being exp(-height / H):
-// its integral.
+// The equivalent metres of air at height 0 along `reach` metres that rise by `rise`: the integral of the
+// density exp(-height / H).
 double airByDefinition(double height, double rise, double reach, double inverse_height) {
     const double lower = height + std::min(rise, 0.0), x = std::abs(rise) * inverse_height;
     const double density = std::exp(std::clamp(-lower * inverse_height, -87.0, 60.0));
@@ -76,7 +76,7 @@ Probe alongProbe() {
         in[2] = static_cast<float>(reach);
         in[3] = static_cast<float>(1 / random.logarithmic(1, 1e5));
     };
-    // What is below the range of normal numbers on the way has fewer bits.
+    // Denormal intermediate results have fewer bits.
     p.step = [](const float*, std::size_t, double expected) {
         return expected < 1e-30 ? 0 : ulpOf(expected);
     };
@@ -145,10 +145,10 @@ Probe hazeProbe() {
     p.step = [](const float*, std::size_t, double expected) {
         return expected < least_normal ? 0 : ulpOf(expected);
     };
-    // Beer and Lambert; Rayleigh's phase function and that of Cornette and Shanks 1992, by the angle.
+    // Beer-Lambert, Rayleigh's phase function, and that of Cornette and Shanks 1992, by the angle.
     p.definition = [](const float* in, double* out) {
         const double cosine = dot(unit(exactVec(in + 20)), unit(exactVec(in + 4)));
-        // phase_0 is (1 - g)^2: 1 + g^2 - 2 g cos is that and 2 g (1 - cos).
+        // phase_0 is (1 - g)^2, so 1 + g^2 - 2 g cos is phase_0 + 2 g (1 - cos).
         const double k = double{in[11]} + 2 * double{in[15]} * (1 - cosine), both = 1 + cosine * cosine;
         for (int c = 0; c < 3; ++c) {
             const double depth = std::min(double{in[c]} * double{in[23]}, 87.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// D, the specular lobe and F against their definitions.
+// D, the specular lobe and F, compared with their definitions.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/constants.h"
@@ -19,7 +19,7 @@ Probe brdfProbe(const char* name, std::uint32_t function, const char* inputs, co
     return probe;
 }
 
-// Perceptual roughness from the least that is shaded to 1, both ends among them.
+// Squared perceptual roughness, from the smallest shaded roughness to 1, including both ends.
 double randomAlpha(Random& random) {
     const double least_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
     const double r = random.coin() ? random.ends(least_roughness, 1) : random.logarithmic(least_roughness, 1);
@@ -67,13 +67,13 @@ Probe distribution() {
     return p;
 }
 
-// Heitz 2014, equation 72: of a cosine above 0.
+// Heitz 2014, equation 72; for a cosine above 0.
 double lambda(double alpha, double cosine) {
     const double tan2 = (1 - cosine * cosine) / (cosine * cosine);
     return 0.5 * (std::sqrt(1 + alpha * alpha * std::max(tan2, 0.0)) - 1);
 }
 
-// D G2 / (4 n.v n.l), G2 height-correlated (Heitz 2014, equation 99), of the vectors as they are.
+// D G2 / (4 n.v n.l), with height-correlated G2 (Heitz 2014, equation 99), for the vectors as given.
 double lobeByDefinition(double roughness, Vec<double> n, Vec<double> v, Vec<double> l) {
     const double r = std::max(roughness, double{gpu::MIN_PERCEPTUAL_ROUGHNESS}), alpha = r * r;
     const Vec<double> h = unit(v + l);
@@ -93,8 +93,8 @@ N lobeSequence(N roughness, Vec<N> n, Vec<N> v, Vec<N> l) {
     return a * a * N(0.5f * gpu::INVERSE_PI) / most(q * q * sum, N(1e-37f));
 }
 
-// Roughness, n anywhere, v and l above it, the least cosine being `lowest`: half of the l near the mirrored
-// view, where the lobe is.
+// Roughness, any n, v and l above its horizon with a cosine of at least `lowest`. Half of the l are near
+// the mirrored view, where the lobe is.
 void makeLobeRow(Random& random, double lowest, float* in) {
     const double alpha = randomAlpha(random);
     in[0] = static_cast<float>(std::sqrt(alpha));
@@ -110,7 +110,8 @@ void makeLobeRow(Random& random, double lowest, float* in) {
         const Vec<double> mirrored = h * (2 * dot(v, h)) - v;
         if (mirrored.z > lowest) l = unit(mirrored);
     }
-    // Opposite, s is nothing but rounding, which the shader leaves out below 1e-6 and says so below 1e-4.
+    // For opposite v and l, |l + v| is only rounding: the shader returns 0 below 1e-6 and is
+    // accurate above 1e-4.
     const Vec<double> sum = v + l;
     if (length(sum) < 1e-3) l = v;
     put(n, in + 1);
@@ -158,9 +159,8 @@ Probe reciprocityProbe() {
     return p;
 }
 
-// Heitz 2018, "Sampling the GGX Distribution of Visible Normals": half vectors of a line, each of which
-// reflects G2 / G1 <= 1 of what it gets, so that their mean is the energy that the lobe sends, at most 1 with
-// however few of them.
+// Heitz 2018, "Sampling the GGX Distribution of Visible Normals". Each half vector of a line reflects G2 /
+// G1 <= 1 of its light. So the mean, the energy that the lobe sends, is at most 1 for any number of them.
 constexpr std::size_t energy_line = 64, energy_side = 64;
 
 struct EnergyRow {
@@ -176,7 +176,7 @@ EnergyRow energyRow(std::size_t row) {
     const double least_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
     e.roughness = least_roughness + (1 - least_roughness) * share(line / energy_side % energy_side);
     const double down = share(line % energy_side);
-    e.mu = std::max(1 - down * (2 - down), double{gpu::MIN_N_DOT_V});  // closer together near the horizon
+    e.mu = std::max(1 - down * (2 - down), double{gpu::MIN_N_DOT_V});  // denser near the horizon
     const double alpha = e.roughness * e.roughness;
     e.v = {std::sqrt(1 - e.mu * e.mu), 0, e.mu};
     const Vec<double> up = unit({alpha * e.v.x, 0, e.v.z});
@@ -217,7 +217,7 @@ Probe energyProbe() {
         for (std::size_t k = 0; k < energy_line; ++k) {
             const float* row = in + k * 10;
             const Vec<double> l = exactVec(row + 7);
-            if (l.z < 1e-6) continue;  // it goes down: nothing is sent there
+            if (l.z < 1e-6) continue;  // points down and reflects nothing
             const double weight = l.z / energyRow(tally.first_row + k).density / energy_line;
             double off = 0;
             allowance(row, &off);
@@ -228,8 +228,8 @@ Probe energyProbe() {
         const auto energy = static_cast<float>(got);
         allowed += ulpOf(got);
         tally.value(tally.first_row, 0, energy, expected, allowed, ulpOf(expected));
-        // Inputs are rounded to float too: the density is of the direction before that. Next to a lobe of
-        // width alpha^2 = 4e-6 a direction's 2^-24 is 2^-24 / 0.002 of the width.
+        // Inputs are rounded to float too, but the density is of the unrounded direction. For a lobe of
+        // width alpha^2 = 4e-6, a direction's 2^-24 is 2^-24 / 0.002 of the width.
         tally.value(tally.first_row, 0, energy, std::min(double{energy}, 1.0), allowed + 8 * 0x1p-24 / 0.002,
                     0);
     };
@@ -262,7 +262,8 @@ Probe lightProbe() {
         makeLobeRow(random, 1e-3, in);
         for (int i = 10; i < 14; ++i) in[i] = static_cast<float>(random.ends(0, 1));
     };
-    // Where the layer reflects all, what is left for the base is rounding: counted in ULP of the base alone.
+    // If the layer reflects everything, the base's remainder is rounding, so errors are in ULP of the base
+    // alone.
     p.step = [](const float* in, std::size_t output, double expected) {
         return ulpOf(output == 0 ? double{in[11]} * dot(exactVec(in + 1), exactVec(in + 7)) / std::numbers::pi
                                  : expected);

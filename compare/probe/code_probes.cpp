@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers to the bits of the G-buffer and back.
+// Encoding and decoding of the G-buffer's bits.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/features.h"
@@ -25,20 +25,20 @@ Probe codeProbe(std::string name, std::uint32_t function, const char* inputs, co
 double topOf(std::uint32_t bits) {
     return std::exp2(bits) - 1;
 }
-// Of an octahedral coordinate, which has a sign.
+// Largest code of an octahedral coordinate, which is signed.
 double topOfCoordinate(std::uint32_t bits) {
     return std::exp2(bits - 1) - 1;
 }
 
-// The place of a direction on the octahedron |x| + |y| + |z| = 1, its lower half folded outwards over the
-// upper one's edges (Meyer et al. 2010, "On Floating-Point Normal Vectors").
+// Octahedral encoding: the direction's position on |x| + |y| + |z| = 1, with the lower half folded outward
+// over the edges (Meyer et al. 2010, "On Floating-Point Normal Vectors").
 std::array<double, 2> octahedralPlace(Vec<double> n) {
     const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z), x = n.x / sum, y = n.y / sum;
     if (n.z >= 0) return {x, y};
     return {std::copysign(1 - std::abs(y), n.x >= 0 ? 1.0 : -1.0),
             std::copysign(1 - std::abs(x), n.y >= 0 ? 1.0 : -1.0)};
 }
-// And back: the point of the octahedron over (x, y), or under it where that is beyond the edges.
+// Octahedral decoding: the point of the octahedron above (x, y), or below if that is beyond the edges.
 Vec<double> octahedralDirection(double x, double y) {
     const double z = 1 - std::abs(x) - std::abs(y);
     if (z >= 0) return unit({x, y, z});
@@ -50,14 +50,13 @@ double angleBetween(Vec<double> a, Vec<double> b) {
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-// Half a step in both coordinates, (h, h, -2 h) on the octahedron, seen from its centre, which is 3^-1/2 away
-// at the middle of a face: the farthest that a direction moves. Float32 moves coordinates by up to 8
-// roundings.
+// Half a step in both coordinates, (h, h, -2 h) on the octahedron, seen from its centre, 3^-1/2 away at
+// the middle of a face: the largest change of direction. Float32 moves coordinates by up to 8 roundings.
 double octahedralBound(std::uint32_t bits) {
     return std::sqrt(6.0) * std::sqrt(3.0) * (0.5 / topOfCoordinate(bits) + 8 * 0x1p-23);
 }
 
-// Directions anywhere, on axes, diagonals and close to where the octahedron is folded.
+// Random directions, axes, diagonals, and directions near the octahedron's folds.
 Vec<double> foldedDirection(Random& random) {
     Vec<double> n = randomDirection(random);
     const auto near_zero = [&](double& c) {
@@ -90,7 +89,7 @@ Probe octahedralProbe(std::uint32_t bits) {
         const N top(static_cast<float>(topOfCoordinate(bits))), half(0.5f);
         out[0] = floorOf(least(most(q0, -one), one) * top + half);
         out[1] = floorOf(least(most(q1, -one), one) * top + half);
-        // Decoded as decodedProbe() has it; only what a sloppy device gives is asked here.
+        // Decoded as in decodedProbe(); this only generates a sloppy device's result.
         const N x = out[0] * (one / top), y = out[1] * (one / top), z = one - size(x) - size(y);
         const auto under = isLess(z, N(0.0f));
         const N x2 = chosen(under, wrap(x, y), x), y2 = chosen(under, wrap(y, x), y);
@@ -101,8 +100,7 @@ Probe octahedralProbe(std::uint32_t bits) {
         const Vec<double> n = exactVec(in);
         const std::array<double, 2> place = octahedralPlace(n);
         const double top = topOfCoordinate(bits);
-        // A coordinate of 1 or less is off by at most 8 ULP of 1: five operations, of which one is a
-        // division.
+        // A coordinate of at most 1 is off by up to 8 ULP of 1: five operations, one of them a division.
         for (std::size_t i = 0; i < 2; ++i)
             tally.value(tally.first_row, i, out[i], place[i] * top, 0.5 + 8 * 0x1p-24 * top, 1);
         const auto angle = static_cast<float>(angleBetween(n, exactVec(out + 2)));
@@ -138,7 +136,7 @@ Probe decodedProbe(std::uint32_t bits) {
         const auto wrap = [&](N c, N other) {
             return chosen(isLess(c, N(0.0f)), -(one - size(other)), one - size(other));
         };
-        // On the edge both halves are the same point.
+        // At the edge both halves are the same point.
         const auto under = isLess(z, N(0.0f));
         const N x2 = chosen(under, wrap(x, y), x), y2 = chosen(under, wrap(y, x), y);
         const N l = root(sumOf(x2 * x2, y2 * y2, z * z));
@@ -165,7 +163,7 @@ Probe unormProbe(std::uint32_t bits) {
         const N x = least(most(in[0], N(0.0f)), N(1.0f));
         out[0] = floorOf(x * N(static_cast<float>(top)) + N(0.5f));
     });
-    // Rounded, a sum and a product may be one ULP higher or lower.
+    // Sum and product may each be rounded one ULP up or down.
     p.allowance = [top](const float*, double* allowed) { allowed[0] = 0.5 + 2 * ulpOf(top); };
     return p;
 }
@@ -220,12 +218,12 @@ Probe rootBackProbe() {
     return p;
 }
 
-// A step of 9.9.9.e5: of the exponent of the largest component once it is rounded to nine bits
-// (EXT_texture_shared_exponent), at least 2^-24.
+// Step of 9.9.9.e5 (EXT_texture_shared_exponent): from the largest component's exponent after rounding to
+// nine bits; at least 2^-24.
 double sharedStep(double largest) {
     const double most_value = double{gpu::EMISSION_MAX}, x = std::clamp(largest, 0.0, most_value);
     double step = 0x1p-24;
-    // Where rounding decides whether ten bits are needed, it may go either way.
+    // Rounding decides whether ten bits are needed, so both steps are valid.
     while (x > step * (511.5 - 0x1p-14)) step *= 2;
     return step;
 }
@@ -251,7 +249,7 @@ Probe radianceProbe() {
     p.definition = [](const float* in, double* out) {
         for (int i = 0; i < 3; ++i) out[i] = std::clamp(double{in[i]}, 0.0, double{gpu::EMISSION_MAX});
     };
-    // A sum with 1/2 may be rounded to the next integer: half a ULP of 512.
+    // Adding 1/2 may round to the next integer: half a ULP of 512.
     p.allowance = [step](const float* in, double* allowed) {
         for (int i = 0; i < 3; ++i) allowed[i] = step(in) * (0.5 + 0x1p-14);
     };
@@ -288,7 +286,7 @@ void judgeSurface(const Layout& layout, const float* in, const float* out, Tally
         tally.value(row, i, out[i], std::clamp(double{in[i]}, 0.0, double{gpu::EMISSION_MAX}),
                     full ? 0 : allowed, full ? ulpOf(double{in[i]}) : step);
     };
-    // Half a step and float32 on the way: a product, a sum, and a product back.
+    // Half a step, plus float32 rounding of a product, a sum, and a product back.
     const auto unorm = [&](std::size_t i, std::uint32_t bits) {
         const double step = 1 / topOf(bits);
         field(i, 0.5 * step + 4 * 0x1p-23, step);

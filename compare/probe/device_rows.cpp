@@ -14,7 +14,7 @@ namespace diptych::probe {
 namespace {
 
 constexpr std::uint32_t row_group = 64;            // local_size_x of rows.glsl
-constexpr std::uint32_t function_constant = 1000;  // of rows.glsl
+constexpr std::uint32_t function_constant = 1000;  // constant_id of rows.glsl
 constexpr std::array row_bindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 const ShaderModule& moduleOf(const std::string& name) {
@@ -23,7 +23,7 @@ const ShaderModule& moduleOf(const std::string& name) {
     throw std::logic_error("no shader of probes is called " + name);
 }
 
-// The value of a specialization constant that is not among the probe's is 0.
+// Specialization constants that the probe does not set are 0.
 SpecializationValue valueOf(const Probe& probe) {
     return [&probe](std::uint32_t id) {
         if (id == function_constant) return probe.function;

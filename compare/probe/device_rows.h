@@ -13,7 +13,7 @@ class DeviceRows {
 public:
     explicit DeviceRows(Device& device);
 
-    // As many rows of outputs as `in` has rows. A probe without a shader is run on the host.
+    // Returns one row of outputs for each row of `in`. A probe without a shader runs on the host.
     std::vector<float> run(const Probe& probe, const std::vector<float>& in);
 
 private:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What float32 arithmetic may give on a device that keeps to Vulkan and no more: every operation on intervals
-// has the widest result that Vulkan 1.3 allows ("Precision and Operation of SPIR-V Instructions", table 94
-// and around it), as its conformance tests compute it.
+// Interval arithmetic over all float32 results that Vulkan 1.3 allows ("Precision and Operation of SPIR-V
+// Instructions", table 94 and around it). Every operation has its widest allowed result, as in Vulkan's
+// conformance tests.
 //
-//   + - *            the exact result, rounded up or down; an exact one stays
-//   a / b            2.5 ULP for |b| in [2^-126, 2^126], anything beyond
+//   + - *            the exact result, rounded up or down unless it is a float
+//   a / b            2.5 ULP for |b| in [2^-126, 2^126], no guarantee beyond
 //   inversesqrt      2 ULP; sqrt is 1 / inversesqrt
 //   exp, exp2        3 + 2 |x| ULP
 //   log, log2        3 ULP; an absolute error of 2^-21 for x in [0.5, 2]
-//   sin, cos         an absolute error of 2^-11 for x in [-pi, pi], anything beyond
+//   sin, cos         an absolute error of 2^-11 for x in [-pi, pi], no guarantee beyond
 //   denormals        may be 0, as operands and as results
 //
 // Bounds are doubles: their own rounding is 2^-29 of a ULP.
@@ -26,14 +26,14 @@ namespace diptych::probe {
 inline constexpr double endless = std::numeric_limits<double>::infinity();
 inline constexpr double least_normal = 0x1p-126;
 
-// The distance of floats around x; that of denormals, 2^-149, below 2^-126.
+// The spacing of floats at x; 2^-149, that of denormals, below 2^-126.
 inline double ulpOf(double x) {
     const auto exponent = static_cast<std::int64_t>((std::bit_cast<std::uint64_t>(x) >> 52) & 0x7ff) - 1023;
     return std::bit_cast<double>(
         static_cast<std::uint64_t>(std::max<std::int64_t>(exponent, -126) - 23 + 1023) << 52);
 }
 
-// The largest float that is not above x, and the smallest that is not below it.
+// The largest float at most x, and the smallest at least x.
 inline double floatBelow(double x) {
     const float f = static_cast<float>(x);
     return f > x ? double{std::nextafter(f, -std::numeric_limits<float>::infinity())} : double{f};
@@ -48,7 +48,7 @@ struct Interval {
 
     Interval() = default;
     Interval(float x) : Interval(double{x}, double{x}) {}
-    // Denormals may be taken for 0.
+    // Denormals may be treated as 0.
     Interval(double from, double to) : lo(from), hi(to) {
         if (lo > 0 && lo < least_normal) lo = 0;
         if (hi < 0 && hi > -least_normal) hi = 0;
@@ -60,12 +60,12 @@ inline Interval anything() {
     return {-endless, endless};
 }
 
-// Rounded up or down.
+// Rounded outward to floats; anything() for NaN.
 inline Interval rounded(double lo, double hi) {
-    if (!(lo <= hi)) return anything();  // what is no number
+    if (!(lo <= hi)) return anything();
     return {floatBelow(lo), floatAbove(hi)};
 }
-// The smallest number that is `ulps` less than one of [lo, hi]; a ULP doubles at a power of two.
+// The smallest x - `ulps` ULP(x) over x in [lo, hi]; the ULP doubles at each power of two.
 inline double reachBelow(double lo, double hi, double ulps) {
     double reach = lo - ulps * ulpOf(lo);
     const double next = lo > 0 ? std::exp2(std::floor(std::log2(lo)) + 1) : hi;
@@ -89,7 +89,7 @@ inline Interval operator-(Interval a, Interval b) {
     return rounded(a.lo - b.hi, a.hi - b.lo);
 }
 
-// The least and the largest of what `of` makes of the ends.
+// The range of `of` at the four combinations of ends.
 template <class Of>
 Interval ofEnds(Interval a, Interval b, Of of) {
     const double w = of(a.lo, b.lo), x = of(a.lo, b.hi), y = of(a.hi, b.lo), z = of(a.hi, b.hi);
@@ -110,7 +110,7 @@ inline Interval operator/(Interval a, Interval b) {
     return within(ends.lo, ends.hi, 2.5);
 }
 
-// In any order: two roundings of what the terms' sizes add up to.
+// The sum in any order: the exact one, widened by two roundings of the sum of magnitudes.
 inline Interval sumOf(Interval a, Interval b, Interval c) {
     const auto size = [](Interval x) { return std::max(std::abs(x.lo), std::abs(x.hi)); };
     const double most = size(a) + size(b) + size(c), more = most > 0 ? ulpOf(most) : 0;
@@ -124,7 +124,7 @@ inline Interval inverseRoot(Interval x) {
 }
 inline Interval root(Interval x) {
     if (x.hi < 0) return anything();
-    // 2 ULP of the one and 2.5 of its inverse; a ULP is 2^-24 to 2^-23 of a number.
+    // 2 ULP of inversesqrt and 2.5 of the division; a ULP is 2^-24 to 2^-23 of a number.
     const double lo = std::sqrt(std::max(x.lo, 0.0)), hi = std::sqrt(x.hi), share = 4.5 * 0x1p-23;
     const Interval r = rounded(lo - lo * share, hi + hi * share);
     return x.lo < 0 ? hull(r, Interval(0.0f)) : r;
@@ -151,7 +151,7 @@ inline Interval binaryLogarithm(Interval x) {
 inline Interval naturalLogarithm(Interval x) {
     return logarithm(x, [](double v) { return std::log(v); });
 }
-// Of a narrow interval: sine and cosine turn by no more than it is wide.
+// For a narrow interval: sine and cosine change by at most its width.
 template <class Of>
 Interval waveOf(Interval x, Of of) {
     if (x.lo < -std::numbers::pi * (1 + 0x1p-23) || x.hi > std::numbers::pi * (1 + 0x1p-23))
@@ -180,7 +180,7 @@ inline Interval floorOf(Interval a) {
     return {std::floor(a.lo), std::floor(a.hi)};
 }
 
-// A comparison that rounding may decide either way.
+// A comparison whose result may depend on rounding.
 struct Truth {
     bool may_hold, may_fail;
 };
@@ -191,13 +191,13 @@ inline Interval chosen(Truth truth, Interval a, Interval b) {
     return truth.may_hold ? truth.may_fail ? hull(a, b) : a : b;
 }
 
-// What a polynomial or the like is off by from what it stands for.
+// Widens an interval by an approximation's error.
 inline Interval approximating(Interval x, double relative, double absolute = 0) {
     const auto off = [&](double v) { return std::abs(v) * relative + absolute; };
     return {x.lo - off(x.lo), x.hi + off(x.hi)};
 }
 
-// What a function that only grows or only falls makes of it, within a share of that.
+// A monotone function of an interval, with the approximation's error.
 template <class Of>
 Interval monotoneOf(Interval x, Of of, double relative, double absolute = 0) {
     const double a = of(x.lo), b = of(x.hi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What arrives of points and spots: KHR_lights_punctual.
+// Irradiance of point and spot lights: KHR_lights_punctual.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/constants.h"
@@ -33,7 +33,7 @@ N attenuationSequence(Vec<N> to_light, N inverse_range_squared, N& inverse) {
     return chosen(isLess(x, one), one - x * x, N(0.0f)) * (inverse * inverse);
 }
 
-// Without a range, with one far beyond, and with one close to the distance.
+// No range, one far beyond the distance, or one close to it.
 float randomRange(Random& random, double distance) {
     if (random.bits() % 4 == 0) return 0;
     const double share = random.coin() ? random.logarithmic(1, 1e3) : random.uniform(0.9, 1.1),
@@ -49,8 +49,8 @@ Probe pointProbe() {
     p.ins = 4;
     p.outs = 4;
     p.rows = 1u << 17;
-    // Near the range's end what is left is rounding: counted in ULP of what there is without a range; the
-    // components of the direction in ULP of its length.
+    // Near the range's end the result is mostly rounding, so errors are in ULP of the irradiance without a
+    // range. Components of the direction are in ULP of its length.
     p.unit = "ULP of 1/d2";
     p.step = [](const float* in, std::size_t output, double) {
         return ulpOf(output > 0 ? 1 : attenuation(exactVec(in), 0));
@@ -109,20 +109,21 @@ Probe spotProbe() {
         const double outer = std::cos(random.logarithmic(1e-3, 0.5 * std::numbers::pi));
         const double inner = outer + (1 - outer) * random.logarithmic(1e-4, 1);
         const double angle = random.coin() ? std::acos(random.uniform(outer, inner)) : random.uniform(0, 1.6);
-        // Towards the light: against its direction.
+        // The vector to the light is opposite to the light's direction.
         put(turnedTo(axis * -1.0, atAngle(random, angle)) * distance, in);
         in[3] = randomRange(random, distance);
         put(axis, in + 4);
         in[7] = static_cast<float>(1 / std::max(0.001, inner - outer));
         in[8] = static_cast<float>(-outer * double{in[7]});
     };
-    // Of the cone's two numbers, 1 / (cos inner - cos outer) and -cos outer times that, as they are given.
+    // The cone's two parameters: 1 / (cos inner - cos outer), and -cos outer times that.
     p.definition = [](const float* in, double* out) {
         const double c = -dot(unit(exactVec(in)), exactVec(in + 4));
         const double share = std::clamp(c * double{in[7]} + double{in[8]}, 0.0, 1.0);
         out[0] = attenuation(exactVec(in), double{in[3]}) * share * share;
     };
-    // At the cone's edge what is left of a difference is rounding: counted in ULP of a point's irradiance.
+    // At the cone's edge the result is mostly rounding, so errors are in ULP of a point light's
+    // irradiance.
     p.unit = "ULP of point";
     p.step = [](const float* in, std::size_t, double) {
         const double point = attenuation(exactVec(in), double{in[3]});

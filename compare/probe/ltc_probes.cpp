@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Polygons of light under a linearly transformed cosine.
+// Polygonal lights under linearly transformed cosines.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/constants.h"
@@ -20,7 +20,7 @@ Probe ltcProbe(const char* name, std::uint32_t function, const char* inputs, con
     return probe;
 }
 
-// arcRatio() of angles.glsl: within 6e-7, and seven sums and seven products, of up to a ULP each.
+// arcRatio() of angles.glsl: accurate to 6e-7, plus seven sums and seven products of up to one ULP each.
 constexpr double arc_promise = 6e-7 + 14 * 0x1p-23;
 constexpr auto exact_arc = [](double x) {
     return x >= 1 ? 1 : std::acos(std::max(x, 0.0)) / std::sqrt(1 - std::max(x, 0.0) * std::max(x, 0.0));
@@ -49,8 +49,8 @@ Probe angleProbe() {
         out[0] = angle;
         out[1] = angle / double{in[1]};
     };
-    // The pair is rounded: both functions read the angle from the one that tells it best, and the definition
-    // from both.
+    // The pair is rounded: both functions use the component that determines the angle best, the definition
+    // uses both.
     follow(p, []<class N>(const N* in, N* out) {
         const N small = monotoneOf(least(size(in[0]), N(1.0f)), exact_arc, arc_promise) * in[1];
         const N angle = chosen(isLess(in[0], N(0.0f)), N(gpu::PI) - small, small);
@@ -70,7 +70,7 @@ Vec<N> edgeSequence(Vec<N> from, Vec<N> to) {
     return c * (ratioSequence(dot(p, q), root(dot(c, c))) * N(0.5f) * N(gpu::INVERSE_PI));
 }
 
-// Lambert 1760: the angle between both, along their normal, over 2 pi.
+// Lambert 1760: the angle between the vectors, along their common normal, over 2 pi.
 Vec<double> edgeByDefinition(Vec<double> from, Vec<double> to) {
     const Vec<double> c = cross(from, to);
     const double l = length(c);
@@ -107,7 +107,7 @@ Vec<N> toCosineSequence(const N* m, Vec<N> l) {
     return {(l.x - m[2] * l.z) * m[0], l.y * m[1], l.z};
 }
 
-// Of what is above the horizon: cut corner by corner (Sutherland and Hodgman 1974), then Lambert's sum.
+// Clips at the horizon (Sutherland and Hodgman 1974), then applies Lambert's sum.
 Vec<double> parallelogramByDefinition(const float* in) {
     const Vec<double> c = toCosine(in, exactVec(in + 3)), x = toCosine(in, exactVec(in + 6)),
                       y = toCosine(in, exactVec(in + 9));
@@ -171,13 +171,13 @@ Probe parallelogramProbe(bool plain) {
         Vec<double> c = randomDirection(random) * distance;
         c.z = std::abs(c.z);
         const Vec<double> normal = randomDirection(random);
-        // Smaller ones are points from afar: 128 times their reach.
+        // Smaller lights are nearly points: 128 times their size away.
         const double least_side = std::max(0.01, distance * 0.05);
         Vec<double> x = turnedTo(normal, {1, 0, 0}) * random.logarithmic(least_side, 10);
         const Vec<double> y = turnedTo(normal, {0, 1, 0}) * random.logarithmic(least_side, 10);
         // cross(x, y) points away from the surface.
         if (dot(cross(x, y), c) < 0) x = x * -1.0;
-        // Through the surface itself nothing is asked.
+        // A light whose plane contains the surface is not tested.
         if (std::abs(dot(unit(cross(x, y)), c)) < 0.02 * distance) c = c * 0.0 + Vec<double>{0, 0, distance};
         put(c, in + 3), put(x, in + 6), put(y, in + 9);
         if (dot(cross(exactVec(in + 6), exactVec(in + 9)), exactVec(in + 3)) < 0) put(x * -1.0, in + 6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moments of shadow maps, and what they let through.
+// Moment shadow maps and their visibility.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/features.h"
@@ -20,7 +20,7 @@ Probe momentProbe(const char* name, std::uint32_t function, const char* inputs, 
     return probe;
 }
 
-// exponent, the other warp's, nearest depth, bleed, least variance, bias; depths of 32 bits.
+// exponent, the other warp's, nearest depth, bleed, smallest variance, bias; 32-bit depths.
 void makeShadowLight(Random& random, float* in) {
     in[0] = static_cast<float>(random.uniform(1, 40));
     in[1] = static_cast<float>(random.uniform(1, 10));
@@ -30,7 +30,7 @@ void makeShadowLight(Random& random, float* in) {
     in[5] = static_cast<float>(random.logarithmic(3e-5, 1e-2));
 }
 
-// From the map's depth, 1 towards the light, to one that grows away from it, up to 1.
+// Converts the map's depth, 1 toward the light, to one that grows away from it, up to 1.
 double away(double depth, double nearest) {
     return 1 - (1 - nearest) * std::clamp(depth, 0.0, 1.0);
 }
@@ -66,7 +66,8 @@ Probe warpProbe() {
     return p;
 }
 
-// Cantelli 1928: the share of a distribution that lies so far above its mean is var / (var + far^2) at most.
+// Cantelli 1928: the fraction of a distribution at least `far` above its mean is at most var / (var +
+// far^2).
 Probe chebyshevProbe() {
     Probe p = momentProbe("Chebyshev's bound", 1,
                           "receivers behind the mean by 1e-12 to 1e12 standard deviations, in front of it, "
@@ -101,9 +102,9 @@ Probe quantisedProbe() {
         const double d = 1 - double{in[0]};  // away from the light
         for (int i = 0; i < 4; ++i) out[i] = std::pow(d, i + 1);
     };
-    // Peters and Klein 2015, section 4.3. Each quantised moment is a sum of terms of these sizes, and each
-    // moment one of quantised ones between 0 and 1 by factors below 1: five roundings of each term, and the
-    // matrices' product is the identity but for 2e-8 of the terms.
+    // Peters and Klein 2015, section 4.3. Each quantised moment is a sum of terms of these sizes. Each
+    // moment is a sum of quantised moments in [0, 1] with factors below 1. Each term has five roundings;
+    // the matrices' product differs from the identity by up to 2e-8 of the terms.
     p.allowance = [](const float* in, double* allowed) {
         constexpr double terms[4][4] = {{2.073, 32.24, 68.58, 39.38},
                                         {13.8, 59.47, 82.04, 35.37},
@@ -124,7 +125,7 @@ Probe quantisedProbe() {
     return p;
 }
 
-// The moments of a filter of two depths, as they are stored.
+// A filter over two depths.
 struct Filter {
     double near, far, share;
 };
@@ -155,8 +156,7 @@ Probe visibilityProbe(bool four) {
         const double between = f.near + (f.far - f.near) * random.uniform(-0.5, 1.5);
         in[10] = static_cast<float>(random.coin() ? random.uniform(0, 1) : std::clamp(between, 0.0, 1.0));
     };
-    // Of the moments as they are given, and of the receiver's warped depth: a mean, a variance, and the
-    // bound.
+    // From the moments and the receiver's warped depth: a mean, a variance, and Chebyshev's bound.
     p.definition = [four](const float* in, double* out) {
         const double d = away(double{in[10]}, double{in[2]}), range = 1 - double{in[2]};
         const auto bound = [&](double mean, double square, double rate, double w) {
@@ -167,7 +167,7 @@ Probe visibilityProbe(bool four) {
         const double c = double{in[0]}, k = double{in[1]};
         double share = 1;
         const double w = std::exp(c * d), n = -std::exp(-k * d);
-        // The receiver lies behind where its warped depth is beyond the mean.
+        // The receiver is behind the mean if its warped depth is larger.
         share = bound(double{in[6]}, double{in[7]}, c, w);
         if (four) share = std::min(share, bound(double{in[8]}, double{in[9]}, k, n));
         out[0] = std::clamp((share - double{in[3]}) / (1 - double{in[3]}), 0.0, 1.0);
@@ -192,9 +192,9 @@ Probe visibilityProbe(bool four) {
     return p;
 }
 
-// The share that lies before `depth` at least, of all distributions with the moments b (Akhiezer 1965, "The
-// Classical Moment Problem"): its polynomial is orthogonal to 1 and d under (d - depth) times the
-// distribution, its roots are the other two places, and weights follow from moments 0, 1 and 2.
+// The smallest fraction before `depth` over all distributions with moments b (Akhiezer 1965, "The
+// Classical Moment Problem"). Its polynomial is orthogonal to 1 and d under (d - depth) times the
+// distribution. The roots are the other two positions; weights follow from moments 0, 1 and 2.
 double leastBefore(const std::array<double, 4>& b, double depth) {
     // Moments of (d - depth) times the distribution, and q = d^2 + u d + v with <q, 1> = <q, d> = 0.
     const double m0 = b[0] - depth, m1 = b[1] - depth * b[0], m2 = b[2] - depth * b[1],
@@ -256,7 +256,7 @@ Probe hamburgerProbe() {
     return p;
 }
 
-// Whatever is stored and filtered, also what no distribution has: a share.
+// For any stored and filtered moments, even impossible ones, the result is a fraction.
 Probe anyMomentsProbe(const char* name, std::uint32_t shadows) {
     Probe p = momentProbe(name, 3,
                           "moments of no distribution: 0, 1, numbers from 0 to 1 and of all magnitudes, four "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device does, operation by operation.
+// Device operations.
 #include "compare/probe/groups.h"
 
 namespace diptych::probe {
@@ -23,7 +23,7 @@ float signedMagnitude(Random& random, double from, double to) {
     return static_cast<float>(random.coin() ? x : -x);
 }
 
-// Positive numbers, every magnitude alike.
+// Positive, log-uniform.
 void positive(Probe& p) {
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = static_cast<float>(random.logarithmic(0x1p-100, 0x1p100));
@@ -41,7 +41,7 @@ void binary(Probe& p, Exact exact, Sequence sequence) {
     p.ins = 2;
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = signedMagnitude(random, 0x1p-60, 0x1p60);
-        // Half of them of nearly the same size, where sums cancel.
+        // Half of the pairs have nearly equal magnitudes, where sums cancel.
         in[1] = random.coin() ? signedMagnitude(random, 0x1p-60, 0x1p60)
                               : static_cast<float>(-double{in[0]} * random.uniform(0.5, 2));
     };
@@ -208,7 +208,7 @@ Probe halfProbe() {
     Probe p = operation("packHalf2x16 and back", 12, "|a| from 2^-24 to 65504, log-uniform",
                         "Vulkan: rounded to either neighbour; values below 2^-14 may be 0");
     p.unit = "ULP of half";
-    // Of eleven bits, from 2^-14 on.
+    // Halves have eleven bits from 2^-14 on.
     const auto step = [](double x) { return std::max(ulpOf(x) * 0x1p13, 0x1p-24); };
     p.make = [](Random& random, std::size_t, float* in) { in[0] = signedMagnitude(random, 0x1p-24, 65504); };
     p.definition = [](const float* in, double* out) { out[0] = double{in[0]}; };

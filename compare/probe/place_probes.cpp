@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Positions from depth, and the cell of a pixel.
+// Positions from depth, and the froxel of a pixel.
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/features.h"
@@ -20,8 +20,8 @@ Probe placeProbe(const char* name, std::uint32_t function, const char* inputs, c
     return probe;
 }
 
-// The four numbers of shared/contract/view.h for reversed depth: 1 at the near plane, 0 at the far one.
-// Perspective: 1 / d is affine in z; orthographic: d is.
+// The four depth parameters of shared/contract/view.h for reversed depth: 1 at the near plane, 0 at the
+// far plane. Perspective: 1 / d is affine in z; orthographic: d is.
 void makeDepths(Random& random, bool perspective, float* in) {
     const double near = random.logarithmic(1e-4, 1e3), far = near * random.logarithmic(1.01, 1e9);
     const bool endless_far = random.bits() % 4 == 0;
@@ -39,7 +39,7 @@ double depthByDefinition(const float* in) {
     return (double{in[0]} + z * double{in[1]}) / (double{in[2]} + z * double{in[3]});
 }
 
-// What is added on the way to it, which an orthographic depth is a difference of.
+// The sum of the terms' magnitudes, of which an orthographic depth may be a small difference.
 double depthTerms(const float* in) {
     const double z = double{in[4]};
     return (std::abs(double{in[0]}) + std::abs(z * double{in[1]})) / (double{in[2]} + z * double{in[3]});
@@ -77,7 +77,7 @@ Probe positionProbe(bool perspective) {
     p.ins = 25;
     p.outs = 3;
     p.features = {{gpu::FEATURE_orthographic, perspective ? 0 : 1}};
-    // Each component is a sum that may cancel: counted in ULP of what is added.
+    // Components are sums that may cancel, so errors are in ULP of the terms.
     p.unit = "ULP of sum";
     p.make = [perspective](Random& random, std::size_t, float* in) {
         makeDepths(random, perspective, in);
@@ -123,7 +123,7 @@ Probe positionProbe(bool perspective) {
     return p;
 }
 
-// How many floats there are from 0 to x: linear between powers of two.
+// The number of floats from 0 to x: linear between powers of two.
 double floatsUpTo(double x) {
     const double e = std::floor(std::log2(x));
     return (e + 126 + x / std::exp2(e)) * 0x1p23;
@@ -133,7 +133,7 @@ double floatOfCount(double count) {
     return std::exp2(e) * (count * 0x1p-23 - (e + 126));
 }
 
-// Slices are so many floats each of depth + offset (shared/contract/light_list.h).
+// A slice is a fixed number of consecutive floats of depth + offset (shared/contract/light_list.h).
 Probe froxelProbe() {
     Probe p = placeProbe("froxel of a pixel and depth", 2,
                          "offsets 1 cm to 100 m, 2 to 64 slices of 2^17 to 2^23 floats; depths from 1e-3 m "
@@ -156,7 +156,7 @@ Probe froxelProbe() {
         in[4] = static_cast<float>(1 + random.bits() % 1024);
         in[5] = static_cast<float>(4 + line.bits() % 3);
         const double first = floatsUpTo(double{in[0]}), all = std::exp2(double{in[1]}) * double{in[2]};
-        // Every fourth line crosses the bound of a slice, float after float.
+        // Every fourth line crosses a slice's bound, float by float.
         const double bound =
             first + std::exp2(double{in[1]}) *
                         static_cast<double>(1 + line.bits() % static_cast<std::uint64_t>(in[2]));
@@ -181,7 +181,7 @@ Probe froxelProbe() {
             const double low = sliceOf(floatBelow(sum)), high = sliceOf(floatAbove(sum)),
                          slice = double{out[0]};
             tally.value(row, 0, out[0], std::clamp(slice, low, high), 0, 1);
-            // Its bounds, and that they hold the depth.
+            // The slice's bounds, and that they contain the depth.
             const auto bound = [&](double i) { return floatOfCount(floatsUpTo(offset) + i * size); };
             const double from = bound(slice), to = bound(slice + 1);
             if (slice > 0)

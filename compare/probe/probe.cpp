@@ -34,7 +34,7 @@ void judgeRow(const Probe& probe, std::size_t row, const float* in, const float*
     probe.allowance(in, allowed.data());
     for (std::size_t k = 0; k < probe.outs; ++k) {
         const double e = expected[k];
-        // What is below the normal range may be 0: that is judged, but is no matter of ULP.
+        // Values below the normal range may be flushed to 0: they are judged, but not counted in ULP.
         const double step = probe.step                             ? probe.step(in, k, e)
                             : std::abs(e) < least_normal && e != 0 ? 0
                                                                    : ulpOf(e);

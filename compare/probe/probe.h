@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A probe: a shipped function of shaders/lib, or an operation of the device that they are made of, run on
-// many inputs, each result held against a definition in double precision.
+// A probe runs a function of shaders/lib, or a device operation, on many inputs and compares each result
+// with a definition in double precision.
 #pragma once
 
 #include "compare/probe/interval.h"
@@ -18,45 +18,48 @@
 
 namespace diptych::probe {
 
-// The widest row of inputs or outputs, floats.
+// The largest row of inputs or outputs, floats.
 inline constexpr std::size_t widest = 48;
 
 struct Probe {
     std::string group;    // "operations"
     std::string name;     // "a / b"
-    std::string inputs;   // which, and how they are spread
-    std::string unit;     // what errors are counted in: "ULP"
-    std::string because;  // why so much is allowed
-    // A shader of compare/probe/shaders, and which of its functions; empty: `host` is run instead.
+    std::string inputs;   // description of the inputs and their distribution
+    std::string unit;     // of errors: "ULP"
+    std::string because;  // reason for the allowed error
+    // A shader of compare/probe/shaders and the index of its function; empty: runs `host`.
     std::string shader;
     std::uint32_t function = 0;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> features{};  // specialization constants and values
+    // Specialization constants: index and value.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> features{};
     std::function<void(const float* in, float* out)> host{};
 
-    std::size_t ins = 1, outs = 1;  // floats of a row
+    std::size_t ins = 1, outs = 1;  // floats in a row
     std::size_t rows = 1u << 16;
-    std::size_t line = 1;  // rows that are judged together
+    std::size_t line = 1;  // number of rows judged together
 
     std::function<void(Random&, std::size_t row, float* in)> make{};
-    // Of each output what it is by definition, in double, from the inputs as they were rounded to float.
+    // The exact outputs in double, for inputs already rounded to float.
     std::function<void(const float* in, double* expected)> definition{};
-    // How far from that a device may be.
+    // The allowed error of each output.
     std::function<void(const float* in, double* allowed)> allowance{};
-    // What a device might give that is as inexact as Vulkan allows; for tests.
+    // Outputs of a device as inexact as Vulkan allows; for tests.
     std::function<void(const float* in, float* out)> sloppy{};
-    // What an error of an output is counted in; empty: the ULP of what is expected.
+    // The unit of an output's error; empty: the ULP of the expected value.
     std::function<double(const float* in, std::size_t output, double expected)> step{};
-    // Instead of definition and allowance: judges a line of rows.
+    // Judges a line of rows, instead of definition and allowance.
     std::function<void(const float* in, const float* out, Tally&)> judge{};
 
-    // Along a line output 0 only grows (1) or only falls (-1); 0: nothing is asked.
+    // Along a line, output 0 only grows (1) or only falls (-1); 0: not checked.
     int monotone = 0;
-    // Every operation on the way keeps the order on any device: a step back is a fault. Else it is counted.
+    // All operations preserve order on any device, so a step back is a failure. Otherwise steps back are
+    // only counted.
     bool strict = false;
 };
 
-// The shader's sequence of operations, `sequence(const N* in, N* out)`, for N = Interval and N = Sloppy: a
-// device's result and the exact one are both in the interval, so they are no farther apart than it is wide.
+// Sets allowance and sloppy from the shader's operations, `sequence(const N* in, N* out)`, for N =
+// Interval and N = Sloppy. The interval contains both the device's and the exact result, so its width
+// limits their difference.
 template <class Sequence>
 void follow(Probe& probe, Sequence sequence) {
     probe.allowance = [sequence, n = probe.ins, m = probe.outs](const float* in, double* allowed) {
@@ -73,14 +76,14 @@ void follow(Probe& probe, Sequence sequence) {
     };
 }
 
-// A number of a row in a line of `line` rows that only grows: over [from, to] evenly, or, of every second
-// line, float after float from somewhere in it.
+// A value that grows along a line of `line` rows: evenly over [from, to], or in every second line float by
+// float from a random start.
 float onLine(std::size_t row, std::size_t line, double from, double to);
 
-// `rows` rows of inputs from `first` on.
+// Inputs of `rows` rows, starting at row `first`.
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows);
 
-// Judges whole lines of results.
+// Judges complete lines of results.
 Tally judged(const Probe& probe, std::size_t first, const std::vector<float>& in,
              const std::vector<float>& out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers for a row of inputs, made from the row's number alone: the same on every machine and in any order.
+// Random inputs of a row, determined by its index alone: equal on every machine and in any order.
 #pragma once
 
 #include <cmath>
@@ -21,9 +21,9 @@ public:
     }
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  // in [0, 1)
     double uniform(double from, double to) { return from + (to - from) * unit(); }
-    // Every magnitude alike; both ends above 0.
+    // Log-uniform; both ends above 0.
     double logarithmic(double from, double to) { return from * std::exp2(unit() * std::log2(to / from)); }
-    // In [from, to], half of them close to one of the ends: down to 2^-24 of the range away, and on it.
+    // In [from, to]. Half of the values are at an end or near it, down to 2^-24 of the range away.
     double ends(double from, double to) {
         const std::uint64_t kind = bits() & 7;
         if (kind < 4) return uniform(from, to);

@@ -6,7 +6,7 @@
 namespace diptych::probe {
 namespace {
 
-// What operations.comp gives of one row.
+// The result of operations.comp for one row.
 float resultOf(DeviceRows& rows, std::uint32_t function, const std::vector<float>& in) {
     Probe probe;
     probe.name = "of rounding";
@@ -17,7 +17,7 @@ float resultOf(DeviceRows& rows, std::uint32_t function, const std::vector<float
 }
 
 constexpr std::uint32_t add_function = 9, multiply_function = 10, fma_function = 11,
-                        half_function = 12;  // of operations.comp
+                        half_function = 12;  // indices in operations.comp
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::vector<DeviceFact> roundingFacts(Device& device) {
     };
     const bool results = gives(multiply_function, {0x1p-100f, 0x1p-30f}, std::bit_cast<float>(1u << 19)),
                operands = gives(multiply_function, {std::bit_cast<float>(1u << 19), 0x1p20f}, 0x1p-110f);
-    // One and a half of the last place, and two ties: to the even neighbour below and above.
+    // Three quarters of the last place, and two ties: to the even neighbour below and above.
     const bool nearest = gives(add_function, {1, 0x1.8p-24f}, 1 + 0x1p-23f) &&
                          gives(add_function, {1, 0x1p-24f}, 1) &&
                          gives(add_function, {1 + 0x1p-23f, 0x1p-24f}, 1 + 0x1p-22f);

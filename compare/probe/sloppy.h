@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of a device that is as inexact as Vulkan allows: each operation has any result of its
-// Interval, drawn by chance. What such a device computes must pass every probe.
+// Arithmetic of a device as inexact as Vulkan allows: each operation returns a random value from its
+// Interval. Such results must pass every probe.
 #pragma once
 
 #include "compare/probe/interval.h"
@@ -20,7 +20,8 @@ inline Random& sloppiness() {
 }
 
 inline Sloppy anyOf(Interval x) {
-    const double share = std::clamp(sloppiness().uniform(-0.5, 1.5), 0.0, 1.0);  // half of them the ends
+    // Half of them are the ends.
+    const double share = std::clamp(sloppiness().uniform(-0.5, 1.5), 0.0, 1.0);
     const double most_value = double{std::numeric_limits<float>::max()};
     const double lo = floatAbove(std::max(x.lo, -most_value)), hi = floatBelow(std::min(x.hi, most_value));
     if (hi <= lo) return static_cast<float>(lo);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Specular anti-aliasing, light between microfacets, spherical harmonics, and the tone curve of pictures.
+// Specular anti-aliasing, multiple scattering, spherical harmonics, and the tone curve of images.
 #include "compare/picture/picture.h"
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
@@ -24,8 +24,7 @@ Probe surfaceProbe(const char* group, const char* name, const char* shader, std:
     return probe;
 }
 
-// Tokuyoshi and Kaplanyan 2019: alpha'^2 = alpha^2 + min(2 sigma^2 (|dn/dx|^2 + |dn/dy|^2), kappa), as wide
-// as a lobe gets at most.
+// Tokuyoshi and Kaplanyan 2019: alpha'^2 = alpha^2 + min(2 sigma^2 (|dn/dx|^2 + |dn/dy|^2), kappa).
 Probe roughnessProbe() {
     constexpr float variance = 0.15915494f, limit = 0.18f;
     Probe p = surfaceProbe("surfaces", "roughness, specular anti-aliasing", "surface.comp", 0,
@@ -79,7 +78,7 @@ Probe betweenProbe(bool energy) {
         in[0] = static_cast<float>(random.ends(0, 1)), in[1] = static_cast<float>(random.ends(0, 1));
         in[2] = static_cast<float>(all * part), in[3] = static_cast<float>(all * (1 - part));
     };
-    // Of a lobe that sends almost all, what is lost is rounding: counted in ULP of what is sent.
+    // If a lobe reflects nearly everything, the loss is rounding, so errors are in ULP of 1.
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
     p.definition = [energy](const float* in, double* out) {
@@ -101,14 +100,14 @@ Probe betweenProbe(bool energy) {
     return p;
 }
 
-// Nodes and weights of Gauss and Legendre's quadrature of [0, 1].
+// Nodes and weights of Gauss-Legendre quadrature on [0, 1].
 template <std::size_t Count>
 std::array<std::array<double, 2>, Count> gaussLegendre() {
     std::array<std::array<double, 2>, Count> nodes{};
     for (std::size_t i = 0; i < Count; ++i) {
         double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (Count + 0.5)), slope = 1;
         for (int step = 0; step < 20; ++step) {
-            double before = 1, p = x;  // Legendre's polynomials, one after the other
+            double before = 1, p = x;  // Legendre polynomials by recurrence
             for (std::size_t k = 2; k <= Count; ++k) {
                 const double n = static_cast<double>(k), next = ((2 * n - 1) * x * p - (n - 1) * before) / n;
                 before = p, p = next;
@@ -121,14 +120,14 @@ std::array<std::array<double, 2>, Count> gaussLegendre() {
     return nodes;
 }
 
-// The mean over light from everywhere, cosine-weighted, of (1 - v.h)^5.
+// The cosine-weighted mean of (1 - v.h)^5 over uniform light.
 double meanWeight(double mu) {
     constexpr int sectors = 32;
     static const auto rings = gaussLegendre<24>();
     const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
     double sum = 0;
     for (const auto& [s, weight] : rings) {
-        // z = s^2: fine near the horizon, where l is opposite to a grazing view.
+        // z = s^2 is dense near the horizon, where l may be opposite to a grazing view.
         const double z = s * s, across = std::sqrt(1 - z * z);
         for (int j = 0; j < sectors; ++j) {
             const double v_dot_l = mu * z + sine * across * std::cos(std::numbers::pi * (j + 0.5) / sectors);
@@ -177,7 +176,7 @@ Probe unitProbe() {
     return p;
 }
 
-// Nine coefficients of three colours each, and a unit normal behind them.
+// Nine coefficients of three colours each, then a unit normal.
 void makeHarmonics(Random& random, std::size_t coefficients, float* in) {
     const double scale = random.logarithmic(1e-3, 1e3);
     for (std::size_t i = 0; i < coefficients; ++i) in[i] = static_cast<float>(scale * random.uniform(-1, 1));
@@ -185,7 +184,7 @@ void makeHarmonics(Random& random, std::size_t coefficients, float* in) {
         in + coefficients);
 }
 
-// Counted in ULP of the sum of all coefficients' sizes: a sum of terms of both signs.
+// Errors are in ULP of the sum of the coefficients' magnitudes: a sum with terms of both signs.
 void countTerms(Probe& p, std::size_t coefficients) {
     p.unit = "ULP of sum";
     p.step = [coefficients](const float* in, std::size_t, double) {
@@ -205,7 +204,7 @@ Probe environmentHarmonicsProbe() {
     p.features = {{gpu::FEATURE_environment, gpu::ENVIRONMENT_LIT}};
     p.make = [](Random& random, std::size_t, float* in) { makeHarmonics(random, texels, in); };
     countTerms(p, texels);
-    // shared/contract/environment.h: texels 1 to 7, the last two coefficients in their fourth components.
+    // shared/contract/environment.h: texels 1 to 7, with the last two coefficients in fourth components.
     const auto sum = []<class N>(const N* in, const auto& basis, int c) {
         N total(0.0f);
         for (int i = 0; i < 7; ++i) total = total + in[4 * (i + 1) + c] * basis[static_cast<std::size_t>(i)];
@@ -281,7 +280,7 @@ Probe maskingProbe() {
     };
     p.unit = "ULP of 1+L";
     p.step = [](const float*, std::size_t, double expected) { return ulpOf(1 + expected); };
-    // By the projected length of an ellipsoid of half axes alpha, alpha, 1 (Walter et al. 2007).
+    // From the projected length of an ellipsoid with half axes alpha, alpha, 1 (Walter et al. 2007).
     p.definition = [](const float* in, double* out) {
         const double c = double{in[1]}, s2 = std::max(1 - c * c, 0.0);
         out[0] = (std::sqrt(c * c + double{in[0]} * s2) - c) / (2 * c);
@@ -315,7 +314,7 @@ Probe levelProbe() {
         const N first = binaryLogarithm(N(gpu::ENVIRONMENT_FIRST_ALPHA)),
                 lowest = N(2.0f) * binaryLogarithm(N(gpu::MIN_PERCEPTUAL_ROUGHNESS)),
                 octaves = binaryLogarithm(in[0]);
-        // At the seam both are 1.
+        // At the seam both branches give 1.
         out[0] =
             chosen(isLess(octaves, first), (octaves - lowest) / (first - lowest),
                    N(1.0f) + N(static_cast<float>(gpu::ENVIRONMENT_LEVELS_AN_OCTAVE)) * (octaves - first));
@@ -323,7 +322,7 @@ Probe levelProbe() {
     return p;
 }
 
-// Khronos PBR Neutral (Khronos Group 2024): host code, in float32.
+// Khronos PBR Neutral (Khronos Group 2024): host code in float32.
 Probe toneProbe() {
     Probe p = surfaceProbe("pictures", "tone curve, on the host", "", 0,
                            "radiance 1e-6 to 1e6, grey and coloured; sequences of 256 of growing brightness",

@@ -8,7 +8,7 @@
 namespace diptych::probe {
 namespace {
 
-// Of the double in which a definition is evaluated: a few of its roundings.
+// Rounding error of the double-precision definition: a few roundings.
 constexpr double definition_rounding = 0x1p-46;
 
 std::size_t binOf(double error) {
@@ -17,7 +17,7 @@ std::size_t binOf(double error) {
     return static_cast<std::size_t>(std::min(bin, double{error_bins - 1}));
 }
 
-// The same whatever order rows are judged in.
+// Independent of the order in which rows are judged.
 void keepWorse(Worst& worst, const Worst& other) {
     if (other.any &&
         (!worst.any || other.error > worst.error || (other.error == worst.error && other.row < worst.row)))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of the numbers that probes compute with: Interval and Sloppy for what a device may do, double for
-// what is right.
+// Vectors of the number types of probes: Interval and Sloppy for a device's arithmetic, double for exact
+// results.
 #pragma once
 
 #include "compare/probe/sloppy.h"
@@ -56,8 +56,8 @@ inline Vec<double> unit(Vec<double> a) {
     return a / length(a);
 }
 
-// A float vector is as long as 1 only nearly. A formula for unit vectors gives with it what it gives with
-// one that is: wherever between the two.
+// A float vector has only nearly unit length. A formula for unit vectors may use it as it is or
+// normalised; the interval covers both.
 inline Vec<Interval> nearlyUnit(Vec<Interval> v) {
     const double l = length({v.x.lo, v.y.lo, v.z.lo});
     const auto both = [&](Interval c) {
@@ -69,13 +69,13 @@ inline Vec<Sloppy> nearlyUnit(Vec<Sloppy> v) {
     return v;
 }
 
-// Of every direction alike, or within about `angle` of an axis z, every magnitude of that alike.
+// Uniform over the sphere.
 inline Vec<double> randomDirection(Random& random) {
     const double z = random.uniform(-1, 1), s = std::sqrt(1 - z * z),
                  t = random.uniform(0, 2 * std::numbers::pi);
     return {s * std::cos(t), s * std::sin(t), z};
 }
-// At an angle with z, radians.
+// At `angle` to the z axis, rad; random azimuth.
 inline Vec<double> atAngle(Random& random, double angle) {
     const double t = random.uniform(0, 2 * std::numbers::pi);
     return {std::sin(angle) * std::cos(t), std::sin(angle) * std::sin(t), std::cos(angle)};
@@ -83,7 +83,7 @@ inline Vec<double> atAngle(Random& random, double angle) {
 inline void put(Vec<double> v, float* to) {
     to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z);
 }
-// The same vector where the axis z is `n`, unit.
+// Rotates the vector so that the z axis becomes `n`, unit.
 inline Vec<double> turnedTo(Vec<double> n, Vec<double> v) {
     const Vec<double> other = std::abs(n.x) < 0.5 ? Vec<double>{1, 0, 0} : Vec<double>{0, 1, 0};
     const Vec<double> x = unit(cross(other, n)), y = cross(n, x);

@@ -28,7 +28,7 @@ std::string worstText(const Worst& w, std::span<const float> input) {
                        rowText(input));
 }
 
-// The upper end of a bin of the histogram; 0: exact.
+// The upper end of a histogram bin; 0: exact.
 double binEnd(std::size_t bin) {
     return bin == 0 ? 0 : std::exp2(static_cast<double>(bin) - 2);
 }

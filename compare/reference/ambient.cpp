@@ -11,9 +11,8 @@
 namespace diptych::reference {
 namespace {
 
-// Sixteen-point Gauss-Legendre quadrature on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature
-// Rules"; here the roots are found by bisection between the extrema of a finer grid, and refined by Newton's
-// method).
+// Sixteen-point Gauss-Legendre quadrature on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss
+// Quadrature Rules"). The roots are bracketed on a finer grid, bisected, and refined by Newton's method.
 struct Rule {
     static constexpr int points = 16;
     std::array<double, points> at, weight;
@@ -62,7 +61,7 @@ public:
     Integrals(const Surface& surface, const Compensation& compensation)
         : brdf_(framed(surface), compensation) {}
 
-    // All but the lobe of GGX: integrates over the projected hemisphere; by symmetry one half is enough.
+    // All but the GGX lobe: integrates over the projected hemisphere. By symmetry one half is enough.
     Reflected smooth() const {
         Reflected sum;
         eachPoint(0, 1, [&](double square, double step) {
@@ -77,9 +76,9 @@ public:
         return sum;
     }
 
-    // The lobe: integrates over rings of half vectors, by the tangent of their angle to the normal, in three
-    // parts: up to where a part of a ring begins to reflect light from below the horizon; from there to the
-    // lobe's width; and on to where all of a ring does.
+    // The GGX lobe: integrates over rings of half vectors, by the tangent of their angle to the normal.
+    // There are three ranges: up to the first ring that reflects light from below the horizon, from there
+    // to the lobe's width, and up to the first ring that reflects only such light.
     glm::dvec3 lobe() const {
         const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
         const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);
@@ -88,12 +87,11 @@ public:
         const auto add = [&](double tangent, double step) {
             sum += ring(std::atan(tangent)) * (step / (1 + tangent * tangent));
         };
-        // Substitution by a hyperbolic sine: even steps near the middle of the lobe, logarithmic steps far
-        // out.
+        // sinh substitution: even steps near the middle of the lobe, logarithmic steps far out.
         eachPoint(0, std::asinh(whole / alpha),
                   [&](double y, double step) { add(alpha * std::sinh(y), alpha * std::cosh(y) * step); });
-        // Substitution by a cube: it resolves the ends of the interval, where rings begin and cease to
-        // count; far out the lobe is smooth in the cotangent.
+        // Cubic substitution: resolves the ends of the interval, where rings begin and cease to
+        // contribute. Far out the lobe is smooth in the cotangent.
         eachPoint(0, 1, [&](double t, double step) {
             const double cube = t * t * t, slope = 3 * t * t * step;
             add(whole + (width - whole) * cube, (width - whole) * slope);
@@ -105,7 +103,7 @@ public:
 
 private:
     static Surface framed(Surface s) {
-        constexpr double least = 1e-4;  // of n.v, as in the material (README.md, "The model")
+        constexpr double least = 1e-4;  // n.v, as in the material (README.md, "The model")
         const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
         s.normal = {0, 0, 1};
         s.to_viewer = {std::sqrt(1 - cosine * cosine), 0, cosine};

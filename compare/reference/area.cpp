@@ -27,7 +27,7 @@ std::vector<glm::dvec3> aboveHorizon(const std::array<glm::dvec3, 4>& corners, c
     return polygon;
 }
 
-// The normal of the flat light's side that lights the origin; zero if none does.
+// The normal of the flat light's side that faces the origin and emits; zero if there is none.
 glm::dvec3 shiningSide(const Emitter& light, const glm::dvec3& centre) {
     const double side = -glm::dot(light.direction, centre);
     if (side > 0) return light.direction;
@@ -51,8 +51,8 @@ void addRect(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
 
 void addDisc(std::vector<Patch>& patches, const glm::dvec3& centre, const glm::dvec3& normal, double radius,
              const glm::dvec3& n) {
-    // x is the direction in the disc that rises fastest over the horizon: n.(centre + s radius x) = height +
-    // s rise.
+    // x is the direction in the disc that rises fastest over the horizon: n.(centre + s radius x) = height
+    // + s rise.
     const glm::dvec3 along = n - glm::dot(n, normal) * normal;
     const glm::dvec3 x = unitOr(along, perpendicularTo(normal));
     const double height = glm::dot(n, centre), rise = glm::dot(n, x) * radius;
@@ -64,7 +64,7 @@ void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
              const glm::dvec3& n) {
     const glm::dvec3 axis = light.axis;
     const double radius = light.radius, length = light.length;
-    const double along = -glm::dot(centre, axis);  // position of the origin along the axis, from the centre
+    const double along = -glm::dot(centre, axis);  // origin's position along the axis, from the centre
     for (const double end : {-1.0, 1.0})
         if (end * along > length / 2)
             addDisc(patches, centre + axis * (end * length / 2), axis * end, radius, n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Area lights and suns with an angle: the part of each that a surface sees, as patches with two parameters.
+// Area lights and suns with an angular size: the visible part of each, as patches with two parameters.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -10,8 +10,8 @@
 
 namespace diptych::reference {
 
-// The part of a light's surface above the horizon of the surface that it lights; positions are relative to
-// the lit surface.
+// The part of a light's surface above the horizon of the lit surface. Positions are relative to the lit
+// surface.
 class Patch {
 public:
     // A point of the patch, with its area element dA / (du dv), m^2.
@@ -25,10 +25,11 @@ public:
                           const glm::dvec3& normal);
     static Patch parallelogram(const glm::dvec3& corner, const glm::dvec3& x, const glm::dvec3& y,
                                const glm::dvec3& normal);
-    // A disc, or the part of it beyond a chord: from `from` to 1 radii along `x` from the centre.
+    // The part of a disc beyond a chord: from `from` to 1, in radii along `x` from the centre; -1 is the
+    // whole disc.
     static Patch disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y,
                       const glm::dvec3& normal, double radius, double from);
-    // The side of a cylinder between two angles around `axis`, where n.p > 0.
+    // The part of a cylinder's side between two angles around `axis`, where n.p > 0.
     static Patch cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
                           const glm::dvec3& y, double radius, double length, double from, double to,
                           const glm::dvec3& n);
@@ -40,8 +41,8 @@ private:
     double a_ = 0, b_ = 0, radius_ = 0, length_ = 0;
 };
 
-// A rectangle, disc or tube; or the disc of a directional light with an angle, which is seen from everywhere
-// at the same place, a metre away.
+// A rectangle, disc or tube; or the disc of a directional light with an angular size, always one metre
+// away.
 struct Emitter {
     LightKind shape = LightKind::rect;  // rect, disc or tube
     bool far = false;                   // a directional light: `centre` is relative to the lit surface
@@ -51,12 +52,12 @@ struct Emitter {
     glm::dvec3 radiance{0};  // W/(sr m^2), before the factor rangeWindow()
 };
 
-// `origin` becomes the origin of positions. A sun's radiance L follows from its illuminance E on a surface
+// Positions become relative to `origin`. A sun's radiance L follows from its illuminance E on a surface
 // that faces it: E = pi L sin^2(angle / 2).
 Emitter emitterOf(const Light& light, const glm::dvec3& origin);
 
-// The patches of the emitter that light a surface at the origin with normal `n`; `centre` is the emitter's,
-// relative to the surface. Empty if none does.
+// The patches of the emitter that light a surface at the origin with normal `n`; may be empty. `centre`:
+// the emitter's, relative to the surface.
 std::vector<Patch> visiblePatches(const Emitter& emitter, const glm::dvec3& centre, const glm::dvec3& n);
 
 }  // namespace diptych::reference

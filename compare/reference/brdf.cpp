@@ -11,17 +11,17 @@
 namespace diptych::reference {
 namespace {
 
-// The bounds of the model itself (README.md of this folder, "The model"), restated here: a punctual light on
-// a perfect mirror is a delta function that cannot be sampled, and a normal map may turn a visible surface
-// away from the viewer.
+// The bounds of the material model (README.md of this folder, "The model"), restated independently. A
+// perfect mirror under a punctual light is a delta function that cannot be sampled. A normal map may turn
+// a visible surface away from the viewer.
 constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
 
 double square(double x) {
     return x * x;
 }
 
-// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equation 33: GGX, 1/sr. 0
-// for microfacets that face down.
+// GGX, 1/sr; 0 for microfacets that face down. Walter et al. 2007, "Microfacet Models for Refraction
+// through Rough Surfaces", equation 33.
 double distribution(double alpha, double n_dot_h) {
     if (!(n_dot_h > 0)) return 0;
     return square(alpha) / (std::numbers::pi * square(square(n_dot_h) * (square(alpha) - 1) + 1));
@@ -79,7 +79,7 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double lobe = distribution(alpha_, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
     const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
     const glm::dvec3 metal = fresnel(albedo_, 1, weight);
-    // A dielectric's Lambertian base receives what its specular layer does not reflect.
+    // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
     const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =
         layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B, with
+// The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B,
 // KHR_materials_ior and KHR_materials_specular.
 #pragma once
 
@@ -9,28 +9,28 @@
 
 namespace diptych::reference {
 
-// What stands for light that is reflected between microfacets (multiscatter.h), for one direction to the
-// viewer.
+// Multiple-scattering terms (multiscatter.h) for one view direction.
 struct Compensation {
-    glm::dvec3 dielectric{1}, metal{1};  // factors of the lobes of the two materials that `metallic` mixes
-    glm::dvec3 between{0};               // albedo of a Lambertian lobe beside the specular one, of the mix
-    // The share of light from any direction that a dielectric's base gets; by appendix B without one.
+    // factors of the specular lobes of the two materials that `metallic` mixes
+    glm::dvec3 dielectric{1}, metal{1};
+    glm::dvec3 between{0};  // albedo of an additional Lambertian lobe, mixed by `metallic`
+    // Fraction of light that reaches a dielectric's base, from any direction; if unset, appendix B's
+    // formula.
     std::optional<glm::dvec3> base;
 };
 
-// Of light from straight behind a surface without thickness what reaches the viewer, for each component
-// (KHR_materials_transmission without its roughness): what the layer lets in and the base neither scatters
-// nor absorbs.
+// Fraction of light from straight behind a thin surface that reaches the viewer, for each component. It is
+// the light that the layer admits and the base neither scatters nor absorbs (KHR_materials_transmission
+// without its roughness).
 glm::dvec3 transmitted(const Surface& surface);
 
 class Brdf {
 public:
     explicit Brdf(const Surface& surface, const Compensation& compensation = {});
 
-    // f(l, v) n.l of each lobe, 1/sr; `to_light` is unit. 0 for light from below the shading normal's
-    // horizon.
+    // f(l, v) n.l of each lobe, 1/sr; 0 for light below the shading normal's horizon. `to_light`: unit.
     Reflected operator()(const glm::dvec3& to_light) const;
-    // The same of GGX alone, which `specular` is without the lobe beside it.
+    // The GGX lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
 
     const glm::dvec3& normal() const { return normal_; }

@@ -46,8 +46,7 @@ fs::path fileOf(const fs::path& stem, std::uint64_t key) {
     return fmt::format("{}-{:08x}", stem.string(), key >> 32);
 }
 
-// Files in the folder of `stem` whose names consist of its name, a dash, and then only hexadecimal digits
-// and dashes.
+// Files in the folder of `stem` named by the stem, a dash, and then only hexadecimal digits and dashes.
 std::vector<fs::path> filesOf(const fs::path& stem) {
     const std::string prefix = stem.filename().string() + "-";
     std::vector<fs::path> files;
@@ -66,8 +65,8 @@ std::vector<fs::path> filesOf(const fs::path& stem) {
     return files;
 }
 
-// Opened for reading and writing, because some file systems only lock such files. Null where it is a link or
-// anything else but a regular file.
+// Opens for reading and writing, because some file systems only lock such files. Null for links and
+// anything else but regular files.
 std::FILE* opened(const fs::path& file, int how) {
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | how, 0666);
     if (descriptor < 0) return nullptr;
@@ -79,14 +78,14 @@ std::FILE* opened(const fs::path& file, int how) {
     return stream;
 }
 
-// False if another program holds the lock. The lock ends when the stream is closed.
+// False if another program holds the lock. Closing the stream releases it.
 bool lock(std::FILE* stream) {
     while (::flock(::fileno(stream), LOCK_EX | LOCK_NB) != 0)
         if (errno != EINTR) return errno != EWOULDBLOCK;
     return true;
 }
 
-// Whether the file has not been removed since it was opened.
+// Whether the open file still exists under its name.
 bool isAt(std::FILE* stream, const fs::path& file) {
     struct stat open {};
     struct stat there {};
@@ -96,7 +95,7 @@ bool isAt(std::FILE* stream, const fs::path& file) {
 
 enum class Holds { nothing, this_picture, something_else };
 
-// Compares the beginning of the file with `head`. A file shorter than a head is one that was just begun.
+// Compares the beginning of the file with `head`. A file shorter than a head has just been created.
 template <class Head>
 Holds headOf(std::FILE* stream, const Head& head) {
     Head there{};
@@ -104,7 +103,7 @@ Holds headOf(std::FILE* stream, const Head& head) {
     return std::memcmp(&there, &head, sizeof head) == 0 ? Holds::this_picture : Holds::something_else;
 }
 
-// Reads the records that follow, up to the first incomplete one; returns the position where that begins.
+// Reads the following records up to the first incomplete one; returns its position.
 long readRecords(std::FILE* stream, std::size_t floats, std::vector<Checkpoint::Record>& records) {
     long whole = std::ftell(stream);
     Checkpoint::Record record{0, std::vector<float>(floats)};
@@ -152,7 +151,7 @@ bool Checkpoint::open(const Head& head) {
         std::fclose(std::exchange(stream_, nullptr));
         return false;
     }
-    // A record that was incomplete when the program ended is overwritten.
+    // Overwrites a record that was incomplete when the program ended.
     const long whole = holds == Holds::this_picture ? readRecords(stream_, floats_, earlier_) : 0;
     if (std::fseek(stream_, whole, SEEK_SET) != 0 ||
         (whole == 0 && (std::fwrite(&head, sizeof head, 1, stream_) != 1 || std::fflush(stream_) != 0))) {
@@ -164,8 +163,8 @@ bool Checkpoint::open(const Head& head) {
     return true;
 }
 
-// Another program that draws the same picture may be appending to its file at the same time: its complete
-// records are taken, and its file is left to it.
+// Another program that renders the same image may be appending to its file. Its complete records are taken
+// and its file is left unchanged.
 void Checkpoint::merge(const fs::path& stem, const Head& head) {
     std::set<std::uint64_t> have;
     for (const Record& record : earlier_) have.insert(record.number);
@@ -188,7 +187,7 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
             throw;
         }
         std::error_code ignored;
-        // Also what a program had just begun when it was killed.
+        // Includes a file that a program had just created when it was killed.
         if (holds != Holds::something_else && ended) fs::remove(other, ignored);
         std::fclose(stream);
     }
@@ -206,7 +205,7 @@ void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
         failWriting(file_);
 }
 
-// The file is removed while it is locked, so that a program waiting for the lock sees that it is gone.
+// Removes the file while it is locked, so that a program waiting for the lock sees that it is gone.
 void Checkpoint::remove() {
     const std::lock_guard lock(mutex_);
     if (!stream_) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keeps finished parts of a long picture in a file, so that an interrupted program can go on from there.
+// Saves finished parts of a long rendering to a file, so that an interrupted program can resume.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace diptych::reference {
 
-// Numbered records of floats, each with a checksum: however the program ends, the complete records in the
-// file can be used. Functions may be called from any thread.
+// Numbered records of floats, each with a checksum. Complete records stay usable however the program ends.
+// Thread-safe.
 class Checkpoint {
 public:
     struct Record {
@@ -20,27 +20,27 @@ public:
         std::vector<float> values;
     };
 
-    // The file's name is STEM-HASH, where HASH is the first half of `key` in hexadecimal digits, so that
-    // different pictures have different files. The file is locked as long as the Checkpoint lives. If
-    // another program holds the lock, or if the file is of another picture nevertheless, it is left alone
-    // and the name is STEM-HASH-2, then -3. Records in other files of the same picture are used as well,
-    // whichever program writes them; files whose programs have ended are merged into this one and removed.
-    // `floats`: in a record. Throws std::runtime_error naming the file if it cannot be written. On a file
-    // system without locks, two programs share a file.
+    // The file's name is STEM-HASH; HASH is the first half of `key` in hexadecimal digits, so each image
+    // has its own file. The file is locked while the Checkpoint lives. If another program holds the lock,
+    // or the file belongs to another image, it is left unchanged and the name becomes STEM-HASH-2, then
+    // -3. Records in other files of the same image are used too. Files whose programs have ended are
+    // merged into this one and removed.
+    // `floats`: number of floats in a record. Throws std::runtime_error naming the file if it cannot be
+    // written. On a file system without locks, two programs may share a file.
     Checkpoint(const std::filesystem::path& stem, std::uint64_t key, std::size_t floats);
-    ~Checkpoint();  // the file stays
+    ~Checkpoint();  // the file remains
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
     const std::filesystem::path& file() const { return file_; }
 
-    // The records that were found, each number once.
+    // The records found at the start, each number once.
     std::vector<Record> takeEarlier() { return std::move(earlier_); }
 
     void keep(std::uint64_t number,
-              std::span<const float> values);  // a record shorter than `floats` is filled up with 0
+              std::span<const float> values);  // a record shorter than `floats` is padded with 0
 
-    // Removes the file and stops keeping records: the picture has been written elsewhere.
+    // Removes the file and stops saving records: the image has been written elsewhere.
     void remove();
 
 private:
@@ -55,8 +55,8 @@ private:
     std::vector<Record> earlier_;
 };
 
-// Checkpoint files of this stem, of any picture, that no program is writing to: left by commands that were
-// interrupted. Sorted by name.
+// Checkpoint files of this stem, for any image, that no program is writing: left by interrupted commands.
+// Sorted by name.
 std::vector<std::filesystem::path> abandonedCheckpoints(const std::filesystem::path& stem);
 
 }  // namespace diptych::reference

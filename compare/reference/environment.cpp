@@ -17,8 +17,8 @@ std::size_t at(int i) {
     return static_cast<std::size_t>(i);
 }
 
-// Inverts a cumulative distribution: the entry that contains u times the total, and u's position within it,
-// 0 to 1.
+// Inverts a cumulative distribution: the entry that contains u times the total, and the position within
+// it, 0 to 1.
 struct Found {
     std::size_t index;
     double within;
@@ -33,13 +33,13 @@ Found find(const double* cumulative, std::size_t count, double u) {
             width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
 }
 
-// Blocks of at least some 11 degrees a side.
+// Blocks are at least about 11 degrees wide.
 constexpr int mostAcross = 32, mostDown = 16;
 
 }  // namespace
 
-// A pixel's weight is the mean over the pixel of the bilinearly interpolated brightness, so that it is never
-// 0 where there is light.
+// A pixel's weight is its mean bilinearly interpolated brightness, so that it is above 0 wherever there is
+// light.
 EnvironmentLight::EnvironmentLight(const Environment& environment, double factor, double turned)
     : image_(environment.radiance),
       factor_(factor),
@@ -89,7 +89,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
         }
 }
 
-// Columns wrap around; a row beyond a pole is the row as far before the pole, rotated by half a turn.
+// Columns wrap around. A row beyond a pole mirrors to the same distance before it, rotated by 180 degrees.
 glm::dvec3 EnvironmentLight::texel(int x, int y) const {
     const int width = image_.width, height = image_.height;
     if (y < 0 || y >= height) {
@@ -107,8 +107,7 @@ glm::dvec3 EnvironmentLight::directionOf(double x, double y) const {
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-// A turn towards +X, which azimuths grow towards, is clockwise: what is seen at an azimuth stood at a larger
-// one.
+// Azimuth grows toward +X, clockwise seen from above; undoing a counter-clockwise rotation adds to it.
 double EnvironmentLight::column(const glm::dvec3& d) const {
     const double turns = (std::atan2(d.x, -d.z) + turned_) / (2 * pi) + 0.5;
     return (turns - std::floor(turns)) * image_.width;
@@ -152,7 +151,7 @@ glm::dvec3 EnvironmentLight::Sampler::operator()(const glm::dvec2& u) const {
     const Found row = find(block.rows.data(), block.rows.size(), u.y);
     const Found column =
         find(block.columns.data() + row.index * at(block.width), at(block.width), chosen.within);
-    // Uniform in solid angle within the row, that is in the cosine of the polar angle.
+    // Uniform in solid angle within the row: linear in the cosine of the polar angle.
     const double y = block.y + static_cast<double>(row.index),
                  x = block.x + static_cast<double>(column.index) + column.within;
     const double top = std::cos(pi * y / light_.image_.height),

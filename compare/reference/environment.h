@@ -15,27 +15,27 @@ namespace diptych::reference {
 
 class EnvironmentLight {
 public:
-    // `turned`: about +Y, counter-clockwise seen from above, rad.
+    // `turned`: rotation about +Y, counter-clockwise seen from above, rad.
     EnvironmentLight(const Environment& environment, double factor, double turned = 0);
 
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
-    // The picture's sides, and the direction of a place in it, in pixels.
+    // Size of the environment map, and the direction of a position in it, in pixels.
     int width() const { return image_.width; }
     int height() const { return image_.height; }
     glm::dvec3 directionOf(double x, double y) const;
 
-    // Samples directions with a density proportional to brightness times a weight for each block of the
-    // picture, which describes how the surface reflects it. (After Clarberg et al. 2005, "Wavelet Importance
+    // Samples directions with a density proportional to brightness times a weight per block of the map;
+    // the weight estimates how much the surface reflects. (After Clarberg et al. 2005, "Wavelet Importance
     // Sampling", which multiplies down to the pixel.)
     class Sampler {
     public:
-        // The weight of light from directions within distance `reach` (of unit vectors) of `middle`, at
-        // least 0; it must be above 0 wherever some of that light is reflected.
+        // The weight of directions within distance `reach` (of unit vectors) of `middle`, at least 0. It
+        // must be above 0 wherever some of that light is reflected.
         using Weight = std::function<double(const glm::dvec3& middle, double reach)>;
         Sampler(const EnvironmentLight& light, const Weight& weight);
 
-        // u in [0, 1)^2. Must not be called if all() is 0.
+        // u in [0, 1)^2; all() must be above 0.
         glm::dvec3 operator()(const glm::dvec2& u) const;
         double density(const glm::dvec3& direction) const;  // 1/sr
         double all() const { return cumulative_.back(); }
@@ -46,11 +46,11 @@ public:
     };
 
 private:
-    // A rectangle of pixels with cumulative weights: of its rows, and of the pixels within each row.
+    // A rectangle of pixels with cumulative weights: of its rows, and of the pixels in each row.
     struct Block {
         int x, y, width, height;
         glm::dvec3 middle;  // a direction
-        double reach;       // largest distance of a direction of the block from `middle`
+        double reach;       // largest distance of a direction in the block from `middle`
         std::vector<double> rows, columns;
     };
     struct Pixel {

@@ -21,7 +21,7 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Directions that cover the sphere evenly: Fibonacci's spiral.
+// Directions that cover the sphere evenly: a Fibonacci spiral.
 constexpr int spiral = 2000;
 glm::dvec3 onSpiral(int i) {
     const double y = 1 - (2 * i + 1.0) / spiral, s = std::sqrt(1 - y * y),
@@ -29,7 +29,7 @@ glm::dvec3 onSpiral(int i) {
     return {s * std::cos(turn), y, s * std::sin(turn)};
 }
 
-// The mean of n.l under GGX where the viewer, the normal and the mirrored direction are one, by the
+// The mean of n.l under GGX if the viewer and the mirror direction coincide with the normal, by the
 // distribution of n.h: Walter et al. 2007, equation 35.
 double meanCosine(double alpha) {
     constexpr int points = 512;
@@ -41,10 +41,10 @@ double meanCosine(double alpha) {
     return sum / points;
 }
 
-// Narrower lobes are somewhere between one of this width and a mirror.
+// A narrower lobe is bounded by one of this width and by a mirror.
 constexpr double leastFiltered = 1.0 / 64;
-// Of the peak: what linear interpolation of irradiance between nodes is off by where a light sets, and what a
-// window that is known within 1 % changes.
+// Fractions of the peak: the error of interpolating irradiance linearly between nodes where a light sets,
+// and the effect of an error of 1 % in the window.
 constexpr double irradianceNodes = 0.02, windowKnown = 0.01;
 
 }  // namespace
@@ -72,8 +72,8 @@ EnvironmentCosts operator*(const EnvironmentCosts& a, double b) {
     return result;
 }
 
-// Pixels are summed in parts, so that also those of few pixels are resolved. A map of n rows of texels has
-// cells of up to 2 / n * 3^(3/4) rad, and what is between its nodes is of their own neighbourhoods too.
+// Subdivides pixels so that small maps are resolved. A map with n rows of texels has cells of up to 2 / n
+// * 3^(3/4) rad; interpolation between its nodes widens them.
 EnvironmentApproximation::EnvironmentApproximation(const EnvironmentLight& light)
     : light_(light), cell_(1.5 * 2 * 2.28 / std::clamp(light.height(), 16, 1024)) {
     const int parts = std::max(1, 512 / light.height()), rows = parts * light.height(),
@@ -111,7 +111,7 @@ EnvironmentApproximation::EnvironmentApproximation(const EnvironmentLight& light
     for (int i = 0; i < spiral; ++i) peak_ = std::max(peak_, largest(unclamped(onSpiral(i), 0)));
 }
 
-// The clamped cosine over pi is, up to order 2, (1 + 2 c + 5/8 (3 c^2 - 1)) / (4 pi) of the cosine c.
+// The clamped cosine over pi up to order 2, with cosine c: (1 + 2 c + 5/8 (3 c^2 - 1)) / (4 pi).
 glm::dvec3 EnvironmentApproximation::unclamped(const glm::dvec3& n, double window) const {
     glm::dvec3 first(0), second(0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -127,7 +127,7 @@ glm::dvec3 EnvironmentApproximation::irradiance(const glm::dvec3& normal, double
     return glm::max(unclamped(normal, window), glm::dvec3(0));
 }
 
-// Both means by the same samples: by blocks of the picture, and by the lobe.
+// Both means use the same samples: by blocks of the map, and by the lobe.
 EnvironmentApproximation::Means EnvironmentApproximation::meansOf(const glm::dvec3& normal,
                                                                   const glm::dvec3& mirrored, double alpha,
                                                                   std::uint64_t seed) const {
@@ -169,7 +169,7 @@ EnvironmentApproximation::Means EnvironmentApproximation::meansOf(const glm::dve
             surerThan95 * means.uncertainty};
 }
 
-// How far radiance differs within `reach` of a direction, about a place for each pixel.
+// The range of radiance within `reach` of a direction, with about one point per pixel.
 double EnvironmentApproximation::range(const glm::dvec3& direction, double reach) const {
     const glm::dvec3 x = perpendicularTo(direction), y = glm::cross(direction, x);
     const int steps = std::clamp(static_cast<int>(std::ceil(reach * light_.height() / pi)), 2, 12);
@@ -195,7 +195,7 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
     single.between = glm::dvec3(0);
     const glm::dvec3 base = diffuseAlbedo(surface, compensation), lobe = specularAlbedo(surface, single),
                      between = compensation.between;
-    // What lobes much wider than a cell see changes across one by the square of their ratio.
+    // For lobes much wider than a cell, the change across a cell falls by the square of their ratio.
     const double coarse = range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * alpha * alpha));
     double filtered = coarse;
     if (alpha < leastFiltered) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the usual ways to light a surface by an environment are off by, by the reference's own integrals:
-// irradiance by spherical harmonics up to order 2 (Ramamoorthi and Hanrahan 2001, "An Efficient
-// Representation for Irradiance Environment Maps"), and the split sum (Karis 2013, "Real Shading in Unreal
-// Engine 4"): the mean radiance about the mirrored direction times the lobe's own integral.
+// Errors of the usual approximations of environment lighting, measured by the reference's own integrals.
+// The approximations are irradiance by spherical harmonics up to order 2 (Ramamoorthi and Hanrahan 2001,
+// "An Efficient Representation for Irradiance Environment Maps") and the split sum (Karis 2013, "Real
+// Shading in Unreal Engine 4"). The split sum is the mean radiance about the mirror direction times the
+// lobe's own integral.
 #pragma once
 
 #include "compare/reference/brdf.h"
@@ -15,15 +16,15 @@
 
 namespace diptych::reference {
 
-// Of one surface, largest components, W/(sr m^2). What is sampled is off by its interval of 99.9 % at most,
-// which is added; and what maps of the picture's own resolution cannot hold.
+// Errors at one surface, largest components, W/(sr m^2). Each includes the 99.9 % confidence interval of
+// sampled values, and the error of maps with the environment's own resolution.
 struct EnvironmentCosts {
-    // By IblDiffuse: irradiance, with the base's share of all light in the place of that of each direction's;
-    // the split sum, and what a Lambertian lobe beside it reflects of that irradiance.
+    // By IblDiffuse. `diffuse`: irradiance times the base's albedo under uniform light. `split`: the split
+    // sum, with the Lambertian lobe of multiple scattering lit by that irradiance.
     std::array<double, 3> diffuse{}, split{};
-    double sampled = 0;  // in the place of `split`, where the lobe is sampled
-    double wider = 0;    // how far the split sum with a lobe of twice the solid angle is from it
-    double lobe = 0;     // what the specular lobe sends of the environment
+    double sampled = 0;  // replaces `split` where the lobe is sampled
+    double wider = 0;    // change of the split sum for a lobe of twice the solid angle
+    double lobe = 0;     // radiance that the specular lobe reflects from the environment
 
     EnvironmentCosts& operator+=(const EnvironmentCosts& other);
     friend EnvironmentCosts operator*(const EnvironmentCosts& a, double b);
@@ -34,22 +35,21 @@ public:
     // `light` must outlive it.
     explicit EnvironmentApproximation(const EnvironmentLight& light);
 
-    // `exact`: what the surface reflects of the environment by the whole BRDF, unoccluded. `seed`: as for
-    // Lighting.
+    // `exact`: the environment's light reflected by the whole BRDF, unoccluded. `seed`: as for Lighting.
     EnvironmentCosts costs(const Surface& surface, const Compensation& compensation, const Reflected& exact,
                            std::uint64_t seed) const;
 
-    // Irradiance over pi of the harmonics, at least 0; W/(sr m^2). `window`: bands l are multiplied by 1 / (1
-    // + window l^2 (l + 1)^2) (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").
+    // Irradiance / pi from the harmonics, at least 0, W/(sr m^2). Band l is multiplied by 1 / (1 + window
+    // l^2 (l + 1)^2) (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").
     glm::dvec3 irradiance(const glm::dvec3& normal, double window) const;
-    // The least window with which nothing is negative.
+    // The smallest window at which no irradiance is negative.
     double window() const { return window_; }
 
 private:
     struct Means {
-        glm::dvec3 irradiance, mirrored;  // over pi; under the lobe: W/(sr m^2)
+        glm::dvec3 irradiance, mirrored;  // irradiance / pi; mean radiance under the lobe, W/(sr m^2)
         glm::dvec3 wider;                 // under a lobe of twice the solid angle
-        double uncertainty;               // 99.9 %
+        double uncertainty;               // 99.9 % confidence
     };
     Means meansOf(const glm::dvec3& normal, const glm::dvec3& mirrored, double alpha,
                   std::uint64_t seed) const;
@@ -61,8 +61,9 @@ private:
     glm::dvec3 flux_{0};
     std::array<glm::dvec3, 3> vector_{};
     std::array<std::array<glm::dvec3, 3>, 3> tensor_{};
-    double window_ = 0, peak_ = 0;  // of irradiance over pi: the largest component
-    double cell_;                   // how far apart what a map of the picture's resolution mixes may be, rad
+    double window_ = 0, peak_ = 0;  // peak_: largest component of irradiance / pi
+    // largest angle between directions that a map of the environment's resolution mixes, rad
+    double cell_;
 };
 
 }  // namespace diptych::reference

@@ -30,7 +30,7 @@ namespace {
 
 // Data of one ray query, passed through Embree to the filter.
 struct RayQuery {
-    // Must come first: Embree passes back a pointer to it, which is cast to RayQuery.
+    // Must be first: Embree returns a pointer to it, which is cast to RayQuery.
     EmbreeContext context;
     const Geometry* geometry;
     const Ray* ray;
@@ -38,8 +38,8 @@ struct RayQuery {
     Hit hit;  // the last accepted
 };
 
-// Tests Embree's candidate again in double, and rejects hits that do not count. Embree orders candidates in
-// single precision; the last one it accepted is the nearest.
+// Repeats Embree's candidate test in double, and rejects hits that `counts` refuses. Embree orders
+// candidates in single precision; the last accepted one is the nearest.
 void filter(const RTCFilterFunctionNArguments* arguments) {
     auto& query = *reinterpret_cast<RayQuery*>(arguments->context);
     const TriangleId id{RTCHitN_geomID(arguments->hit, 1, 0), RTCHitN_primID(arguments->hit, 1, 0)};
@@ -66,7 +66,7 @@ RTCRay single(const Ray& ray) {
     r.dir_x = static_cast<float>(ray.direction.x);
     r.dir_y = static_cast<float>(ray.direction.y);
     r.dir_z = static_cast<float>(ray.direction.z);
-    // Slightly longer at both ends, because the filter compares the exact range in double.
+    // Slightly longer at both ends: the filter compares the exact range in double.
     r.tnear = static_cast<float>(ray.from > 0 ? ray.from * (1 - 1e-5) : 0);
     r.tfar =
         std::isinf(ray.to) ? std::numeric_limits<float>::infinity() : static_cast<float>(ray.to * (1 + 1e-5));
@@ -155,7 +155,7 @@ const PosedVertices* Geometry::posed(const TriangleId& id) const {
 
 namespace {
 
-// Those of three vertices: posed ones where there are any, else the primitive's.
+// Values of three vertices: the deformed ones if there are any, else the primitive's.
 template <class To, class From>
 std::optional<std::array<To, 3>> atCorners(const std::vector<To>* posed, const std::vector<From>& rest,
                                            const std::array<std::uint32_t, 3>& v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray casting: Embree finds which triangle a ray meets, and the position on it is computed in double.
+// Ray casting: Embree finds the triangle that a ray hits; the hit position is computed in double.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -27,21 +27,21 @@ struct TriangleId {
 struct Hit {
     TriangleId id;
     double t = 0;               // ray parameter, in lengths of the ray's direction
-    glm::dvec2 barycentric{0};  // weights of the second and third corner
+    glm::dvec2 barycentric{0};  // weights of the second and third corners
     glm::dvec3 position{0};
     glm::dvec3 geometric_normal{0};  // unit, on the front side
-    bool front = true;               // whether the ray comes from the front side
+    bool front = true;               // whether the ray hits the front side
 };
 
 struct Ray {
-    glm::dvec3 origin{0}, direction{0};  // any length
+    glm::dvec3 origin{0}, direction{0};  // of any length
     double from = 0, to = 0;             // range of t, exclusive at both ends
-    TriangleId without = {};             // the triangle that the ray leaves, which it cannot meet
+    TriangleId without = {};             // the triangle that the ray starts on, which it cannot hit
 };
 
 class Geometry {
 public:
-    // `eye` becomes the origin of positions; `blended_normals`: see posedVertices(). The pose and the scene
+    // Positions become relative to `eye`; `blended_normals`: see posedVertices(). The pose and the scene
     // must outlive this.
     Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool blended_normals = false);
     ~Geometry();
@@ -57,13 +57,13 @@ public:
     const Primitive& primitive(const TriangleId& id) const;
     std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;  // indices into its primitive
     std::array<glm::dvec3, 3> corners(const TriangleId& id) const;      // relative to the camera
-    // The posed vertices of its instance, in world space; nullptr if world_from_object applies to all of
-    // them alike.
+    // The deformed vertices of its instance, in world space; nullptr if world_from_object applies to all
+    // vertices.
     const PosedVertices* posed(const TriangleId& id) const;
-    // Of the three corners, as morph targets leave them; no value if the primitive has none.
+    // Values of the three corners after morphing; empty if the primitive has none.
     std::optional<std::array<glm::dvec2, 3>> texcoords(const TriangleId& id, int set) const;
     std::optional<std::array<glm::dvec4, 3>> colors(const TriangleId& id) const;
-    // Intersection with the plane of the triangle; no value if the ray is parallel to it.
+    // Intersection with the plane of the triangle; empty if the ray is parallel to it.
     std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin,
                                const glm::dvec3& direction) const;
 

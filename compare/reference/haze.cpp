@@ -23,8 +23,8 @@ constexpr std::array<double, gauss_nodes> gauss_weight{
     0.050614268145188130, 0.11119051722668724, 0.15685332293894364, 0.18134189168918100,
     0.18134189168918100,  0.15685332293894364, 0.11119051722668724, 0.050614268145188130};
 
-constexpr double no_depth = 1e-15;  // optical depth that adds nothing
-constexpr double opaque = 110;      // optical depth behind which float32 has no light: e^-104 is its least
+constexpr double no_depth = 1e-15;  // optical depth that changes nothing
+constexpr double opaque = 110;      // optical depth beyond float32: e^-104 is its smallest transmittance
 
 double densityOf(const AirKind& kind, double height) {
     return std::exp(std::min(-height / kind.scale, 60.0));
@@ -75,13 +75,14 @@ Hazed Haze::along(const glm::dvec3& origin, const glm::dvec3& away, double reach
                        ((2 + g * g) * std::pow(1 + g * g - 2 * g * cosine, 1.5));
     const bool dimmed = sun_up_ > 0 && !air_.uniform;
     const glm::dvec3 overhead = dimmed ? above(start) : glm::dvec3(0);
-    // On the way to the sun there is less air than where the ray began, by what the ray itself has gone
-    // through, as both are exponential in height alone.
+    // Density is exponential in height alone, so the optical depth to the sun falls by the ray's own
+    // optical depth, scaled by the two slopes.
     const auto sunlight = [&](const glm::dvec3& depth) {
         if (!dimmed) return sunlight_;
         return glm::exp(-glm::max((overhead - depth * up) / sun_up_, glm::dvec3(0)));
     };
-    // How far a panel may go: over one height of either kind, and one optical depth of a colour that is seen.
+    // The length of the next panel: at most one scale height of either kind, and one optical depth of a
+    // visible component.
     const auto panelFrom = [&](double t, const glm::dvec3& depth) {
         double step = reach - t;
         const glm::dvec3 here = extinctionOf(air_, start + up * t);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Air along a ray, integrated by quadrature: what it takes away and what it scatters to the viewer, once.
+// Participating medium along a ray, by quadrature: transmittance and single scattering toward the viewer.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -8,7 +8,7 @@
 
 namespace diptych::reference {
 
-// Density falls as exp(-height / scale), at most e^60 times that at height 0.
+// Density falls as exp(-height / scale); it is at most e^60 times the density at height 0.
 struct AirKind {
     glm::dvec3 scattering{0}, extinction{0};  // at height 0, 1/m
     double scale = 1;                         // m
@@ -16,13 +16,13 @@ struct AirKind {
 
 struct Air {
     AirKind molecules, aerosols;
-    double g = 0;       // mean cosine of what aerosols scatter
+    double g = 0;       // mean cosine of aerosol scattering
     double ground = 0;  // world y of height 0, m
-    // One height for both kinds, by which the column above height 0 stays what it is (of the components'
-    // mean), and the sun's light as it is at the camera's height.
+    // One scale height for both kinds, which preserves the column above height 0 (mean over components);
+    // sunlight is constant, as at the camera's height.
     bool uniform = true;
-    const Light* sun = nullptr;  // its irradiance is that above the air; it must outlive this
-    glm::dvec3 ambient{0};       // radiance from everywhere, W/(sr m^2)
+    const Light* sun = nullptr;  // its irradiance is above the atmosphere; must outlive this
+    glm::dvec3 ambient{0};       // uniform radiance, W/(sr m^2)
 };
 
 struct Hazed {
@@ -31,21 +31,21 @@ struct Hazed {
 
 class Haze {
 public:
-    // `eye`: of the camera, world, m.
+    // `eye`: camera position, world, m.
     Haze(const Air& air, const glm::dvec3& eye);
 
-    // Over `reach` metres, which may be infinite, from `origin` (relative to the eye) along the unit vector
+    // Over `reach` metres (may be infinite) from `origin`, relative to the eye, along the unit vector
     // `away`.
     Hazed along(const glm::dvec3& origin, const glm::dvec3& away, double reach) const;
 
 private:
-    glm::dvec3 above(double height) const;  // optical depth straight up
+    glm::dvec3 above(double height) const;  // optical depth toward the zenith
 
     Air air_;
     double eye_height_;
-    double sun_up_ = 0;  // sine of the sun's elevation; 0: it gives nothing
+    double sun_up_ = 0;  // sine of the sun's elevation; 0: no sunlight
     glm::dvec3 to_sun_{0, 1, 0}, irradiance_{0};
-    glm::dvec3 sunlight_{0};  // share of it at the camera's height
+    glm::dvec3 sunlight_{0};  // transmittance of sunlight at the camera's height
 };
 
 }  // namespace diptych::reference

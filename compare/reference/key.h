@@ -8,8 +8,8 @@
 
 namespace diptych::reference {
 
-// A hash of everything that decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991). Kept parts of a
-// picture are only used if their key is the same.
+// A hash of everything that affects an image (64-bit FNV-1a; Fowler, Noll and Vo 1991). Saved parts are
+// reused only if their key matches.
 class Key {
 public:
     void add(std::span<const std::byte> bytes) {

@@ -26,10 +26,10 @@ Reflected through(const Brdf& brdf, const Patch::Point& point) {
     return brdf(to_light) * (std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / square);
 }
 
-// Whether a cell may be too large for quadrature to find the specular lobe in it. It is split while it is
-// wider than the lobe at the mirrored direction (turning the light by an angle turns the half vector by that
-// angle over 2 v.h). It is also split while it covers a large angle itself: for a light that reaches far
-// away, the part that is close is a small part of the cell but gives most of the light.
+// Whether quadrature may miss the specular lobe in a cell. Splits while the cell is wider than the lobe at
+// the mirror direction; turning the light by an angle turns the half vector by that angle over 2 v.h. Also
+// splits cells that cover a large angle: in a light that extends far away, the near part is a small part
+// of the cell and gives most of the light.
 Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
     const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
@@ -52,9 +52,9 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     return split(turn > std::max(brdf.alpha(), apart - turn));
 }
 
-// The stream of a surface's walks, which no light has.
+// Random stream of a surface's random walks; no light has this index.
 constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
-// And those of what is told of an environment beside its light.
+// Streams of the environment's errors and of occlusion.
 constexpr std::uint64_t costsStream = ~std::uint64_t{2}, surroundingsStream = ~std::uint64_t{3};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -64,15 +64,15 @@ struct Leaves {
     std::vector<Leaf> leaves;
 };
 
-// Estimates the visible part of an integral whose value F without shadows is known, from evenly distributed
-// points in each leaf. There are two unbiased estimators for a point with value f and visibility V: f V is
-// exact in full shadow, F - f (1 - V) in full light. A few pilot samples decide which one is used.
+// Estimates the visible part of an integral whose unshadowed value F is known, from evenly distributed
+// points in each leaf. Two estimators are unbiased for a point with value f and visibility V: f V, exact
+// in full shadow, and F - f (1 - V), exact in full light. A few pilot samples choose one.
 class Shaded {
 public:
     Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Visibility& visible)
         : brdf_(brdf), leaves_(leaves), far_(far), visible_(visible) {}
 
-    // Takes one point in each leaf, element `index` of a low-discrepancy sequence that `seed` rotates;
+    // Takes one point in each leaf: element `index` of a low-discrepancy sequence, shifted by `seed`.
     // `seen` counts the visible points.
     Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_visible,
                        std::size_t& seen) const {
@@ -153,7 +153,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
         if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance)))
             sum.reflected += reflected;
-        // NaN must not be hidden.
+        // Keeps NaN visible.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }
     for (std::size_t i = 0; i < emitters_.size(); ++i)
@@ -166,7 +166,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         if (approximation_)
             shading.costs =
                 approximation_->costs(surface, compensation, sky.value, streamOf(seed, costsStream));
-        if (surface.lightmapped) shading.costs.diffuse = {};  // nor do the paths approximate it
+        if (surface.lightmapped) shading.costs.diffuse = {};  // the paths do not approximate it either
         shading.environment = sky.value;
         sum += shading * surface.occlusion;
     }
@@ -174,7 +174,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         sum.surroundings = surroundingsOf(brdf, environment_ ? &*environment_ : nullptr, surface.lightmapped,
                                           ambient_, visible, streamOf(seed, surroundingsStream)) *
                            surface.occlusion;
-    // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
+    // A lightmap has no directions: its irradiance is taken as uniform, and only the diffuse base reflects
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
         sum.ambient = diffuseAlbedo(surface, compensation) * (ambient_ + surface.lightmap);
@@ -193,7 +193,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
 
 Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibility& visible,
                                             const glm::dvec3& single, std::uint64_t seed) const {
-    // Lights without extent are seen, or not, by all paths alike.
+    // All paths share one visibility test per punctual light.
     std::vector<Incident> directions;
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position, falloff_);
@@ -237,7 +237,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
         });
         layer += path.layer * share;
         ++walked;
-        // Light from everywhere in the place of `diffuse`.
+        // Stores the ambient part in `diffuse`.
         Reflected sum{path.weight * ambient_, path.direct};
         if (environment_ && (!shadowed_environment_ || !visible || visible(path.direction, infinity)))
             sum.specular += path.weight * environment_->radiance(path.direction) * surface.occlusion;
@@ -246,7 +246,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     };
     Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
-    // Where few paths meet a second facet, those that do have few samples to spend.
+    // Few paths meet a second facet, so each may use few samples.
     if (share > Between::leastShare) more = untilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
     if (walked > 0) {
         layer /= static_cast<double>(walked);
@@ -299,15 +299,14 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     return {estimated.value * radiance, (estimated.uncertainty + whole.error) * brightest, {}};
 }
 
-// Directions are sampled in two ways, combined by the balance heuristic (Veach and Guibas 1995, "Optimally
-// Combining Sampling Techniques for Monte Carlo Rendering"): by blocks of the picture that are bright and
-// reflected, and by the specular lobe, which may be narrower than a block.
+// Combines two sampling techniques by the balance heuristic (Veach and Guibas 1995, "Optimally Combining
+// Sampling Techniques for Monte Carlo Rendering"): bright blocks of the map that the surface reflects, and
+// the specular lobe, which may be narrower than a block.
 Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,
                                     std::uint64_t seed) const {
     const LobeSampler lobes(brdf.normal(), brdf.toViewer(), brdf.alpha());
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
-        // Within a block that the horizon crosses, or that a lobe touches, other directions may reflect more
-        // than the middle.
+        // If the horizon or a lobe crosses a block, other directions may reflect more than its middle.
         const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);
         return brdf(middle).size() + 0.02 * cosine;
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights a surface by every light in full: without culling, packing or light lists.
+// Evaluates every light at a surface, without culling, packing or light lists.
 #pragma once
 
 #include "compare/reference/area.h"
@@ -23,18 +23,18 @@
 
 namespace diptych::reference {
 
-// Relative tolerance of integrals without shadows: the change by the last subdivision of their cells, which
-// is a thousand times the error where the integrand is smooth.
+// Relative tolerance of integrals without shadows: the change at the last subdivision of their cells. For
+// a smooth integrand that is a thousand times the error.
 inline constexpr double quadratureError = 2e-6;
 
 struct Shading {
     Reflected reflected;     // from lights and environment, towards the viewer, W/(sr m^2)
-    double uncertainty = 0;  // of the largest component of `reflected`, 95 % confidence, W/(sr m^2)
-    glm::dvec3 ambient{0};   // reflected from ambient light, W/(sr m^2); neither includes emission
-    // Where it was asked for.
+    double uncertainty = 0;  // 95 % confidence, of the largest component of `reflected`, W/(sr m^2)
+    glm::dvec3 ambient{0};   // reflected ambient light, W/(sr m^2); neither includes emission
+    // Only if requested.
     EnvironmentCosts costs{};
     Surroundings surroundings{};
-    Reflected environment{};  // of `reflected`: the environment's part
+    Reflected environment{};  // the environment's part of `reflected`
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -54,30 +54,29 @@ struct Shading {
 
 class Lighting {
 public:
-    // `lights` are in world space; `environment` must outlive this; `eye` becomes the origin of positions;
-    // `ambient` is radiance from all directions; `casters` are the lights, by their places, that cast
-    // shadows.
+    // `lights` are in world space; `environment` must outlive this; positions become relative to `eye`;
+    // `ambient` is uniform radiance; `casters` are the indices of the shadow-casting lights.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
              Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0,
              const Falloff& falloff = {});
 
-    // From now on Shading has its costs, unless light between microfacets is followed, or its surroundings,
-    // of what `visible` is known.
+    // After these calls Shading has costs (unless Multiscatter::walk is used) or surroundings (if
+    // `visible` is not empty).
     void takeCosts();
     void takeSurroundings() { takes_surroundings_ = true; }
 
-    // What is seen where no surface is, W/(sr m^2).
+    // Radiance where no surface is, W/(sr m^2).
     glm::dvec3 background(const glm::dvec3& direction) const {
         return environment_ ? environment_->radiance(direction) : glm::dvec3(0);
     }
 
-    // `visible`, for what casts shadows; empty: nothing does. `seed` identifies the shaded surface, for
-    // sampling.
+    // `visible` is asked for shadow-casting lights only; if empty, there are no shadows. `seed` identifies
+    // the shaded surface.
     Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
 
-    // What a surface reflects of light from one direction.
+    // The surface's BRDF with its multiple-scattering terms.
     Brdf brdf(const Surface& surface) const { return Brdf(surface, compensationOf(surface, multiscatter_)); }
 
 private:
@@ -92,12 +91,12 @@ private:
     };
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
-    // `lobeOnly`: nothing from the base, which has its light from a lightmap.
+    // `lobeOnly`: nothing from the base, which is lit by a lightmap.
     Estimated fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,
                               std::uint64_t seed) const;
-    // What further reflections between microfacets add, by random walk (microsurface.h), and the share that
-    // the base gets of all light: what its layer does not reflect. `single`: the radiance of single
-    // reflections, which the confidence is relative to.
+    // Adds further reflections between microfacets by a random walk (microsurface.h). `base`: the fraction
+    // of uniform light that reaches the base, which the layer does not reflect. `single`: radiance of
+    // single reflections; the confidence is relative to it.
     struct MoreReflections {
         Shading shading;
         glm::dvec3 base;

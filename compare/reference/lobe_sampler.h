@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions by the specular lobe.
+// Sampling of the specular lobe.
 #pragma once
 
 #include "shared/scene/model/axes.h"
@@ -14,8 +14,7 @@
 
 namespace diptych::reference {
 
-// Samples directions of specular reflection, with half vectors distributed as D (n.h); Walter et al. 2007,
-// equation 35.
+// Samples reflected directions, with half vectors distributed as D (n.h); Walter et al. 2007, equation 35.
 class LobeSampler {
 public:
     // `normal`, `to_viewer`: unit; `alpha`: GGX's width.
@@ -26,7 +25,7 @@ public:
           x_(perpendicularTo(normal)),
           y_(glm::cross(normal, x_)) {}
 
-    // u in [0, 1)^2; unit, and it may lie below the horizon.
+    // u in [0, 1)^2. Returns a unit vector, which may be below the horizon.
     glm::dvec3 operator()(const glm::dvec2& u) const {
         const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x));
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;

@@ -23,8 +23,8 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
     return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
 }
 
-// glTF 2.0, 3.9.4: what is at least the cutoff is opaque. The cutoff is a float. One that is meant to be a
-// texel's alpha, as 0.5019608 is 128 / 255, may have been rounded up, so that alpha is rounded as well.
+// glTF 2.0, 3.9.4: alpha of at least the cutoff is opaque. The float cutoff may be a texel's alpha rounded
+// up, as 0.5019608 is for 128 / 255, so alpha is rounded too.
 bool isCutOut(const Material& m, double alpha) {
     return static_cast<float>(alpha) < m.alpha_cutoff;
 }
@@ -35,8 +35,8 @@ const Material& Materials::material(const Hit& hit) const {
     return materials_[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
 }
 
-// The footprint follows from the intersections of the neighbouring rays with the triangle's plane (Igehy
-// 1999, "Tracing Ray Differentials"); to first order, t changes by -n.(o' + t d') / n.d.
+// The neighbouring rays intersect the triangle's plane (Igehy 1999, "Tracing Ray Differentials"); to first
+// order, t changes by -n.(o' + t d') / n.d.
 Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const {
     const auto set = geometry_.texcoords(hit.id, slot.texcoord == 1 ? 1 : 0);
     if (!set) return {{slot.u.z, slot.v.z}};
@@ -96,16 +96,16 @@ double Materials::coverage(const Hit& hit, const PixelRay& ray) const {
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 
-// glTF 2.0, 3.7.2.1 and 3.9.3: normals are transformed by the inverse transpose, tangents as the surface;
-// the bitangent is w cross(normal, tangent). Both are interpolated without normalisation, as MikkTSpace
+// glTF 2.0, 3.7.2.1 and 3.9.3: normals transform by the inverse transpose, tangents like the surface; the
+// bitangent is w cross(normal, tangent). Both are interpolated without normalisation, as MikkTSpace
 // requires. On a back face the normal is flipped.
 void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
     const glm::dvec3 facing =
         glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
-    // The cofactor matrix is the inverse transpose times the determinant; it also exists for singular
-    // matrices.
+    // The cofactor matrix is the inverse transpose times the determinant; it exists for singular matrices
+    // too.
     const double handedness = glm::determinant(world) < 0 ? -1 : 1;
     const glm::dmat3 cofactors = glm::dmat3(glm::cross(world[1], world[2]), glm::cross(world[2], world[0]),
                                             glm::cross(world[0], world[1])) *
@@ -128,7 +128,7 @@ void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) con
         t.x *= double{m.normal_scale};
         t.y *= double{m.normal_scale};
         n = t.x * tangent + t.y * sign * glm::cross(n, tangent) + t.z * n;
-        if (m.normal_scale != 0) {  // which takes all effect from the map: the paths do not read it then
+        if (m.normal_scale != 0) {  // a scale of 0 disables the map: the paths do not read it
             s.tangent = unitOrZero(tangent);
             s.handedness = sign;
             s.tangent_normal = unitOrZero(t);
@@ -163,8 +163,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.lightmapped = hasLightmap(m);
     if (s.lightmapped)
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
-    // KHR_materials_ior: 0 stands for an infinite index. KHR_materials_specular: colour from RGB, strength
-    // from alpha.
+    // KHR_materials_ior: 0 means an infinite index. KHR_materials_specular: colour from RGB, strength from
+    // alpha.
     const double ior = m.ior, r = (1 - ior) / (1 + ior);
     const glm::dvec3 tint =
         glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The material at a point of a triangle, computed from the glTF factors and textures independently of the
-// paths.
+// The material at a point of a triangle, from the glTF factors and textures, independent of the paths.
 #pragma once
 
 #include "compare/reference/geometry.h"
@@ -9,42 +8,41 @@
 
 namespace diptych::reference {
 
-// A camera ray, and its differences to the rays of the next pixel to the right and below. Origins are
-// relative to the camera; directions are one metre of depth long.
+// A camera ray and its differences to the rays of the next pixels to the right and below. Origins are
+// relative to the camera; directions advance one metre in depth.
 struct PixelRay {
     glm::dvec3 origin{0}, direction{0};
-    glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};  // differences to the neighbours
+    glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};
 };
 
-// Whether a surface's base has its light from a lightmap, black or not, and not from the environment.
+// Whether a lightmap, black or not, replaces the environment's light at the base.
 inline bool hasLightmap(const Material& m) {
     return !m.unlit && m.lightmap_texture.texture >= 0 && m.lightmap_intensity != 0;
 }
 
-// Whether it is blended over what lies behind it.
+// Whether it is blended over the surfaces behind it.
 inline bool isSeenThrough(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || (!m.unlit && m.transmission > 0);
 }
 
 class Materials {
 public:
-    // Those of the pose. All arguments must outlive this.
+    // Uses the pose's materials. All arguments must outlive this.
     Materials(const Scene& scene, const Pose& pose, const Geometry& geometry)
         : scene_(scene), materials_(materialsOf(scene, pose)), geometry_(geometry), textures_(scene) {}
 
-    // Whether a camera ray ends at the hit: not on the back of a single-sided material, nor where a mask
+    // Whether a camera ray ends at the hit: false on the back of a single-sided material and where a mask
     // cuts it out.
     bool isThere(const Hit& hit, const PixelRay* ray) const;
-    // Whether the hit occludes a light. Both sides of a triangle do, unless its material blends; masks are
-    // read without filtering.
+    // Whether the hit blocks light. Both sides of a triangle do, unless its material blends. Masks are not
+    // filtered.
     bool throwsShadow(const Hit& hit) const;
 
     Surface surface(const Hit& hit, const PixelRay& ray) const;
 
-    // Whether it is blended over what lies behind it.
+    // Whether it is blended over the surfaces behind it.
     bool blends(const Hit& hit) const;
-    // The base colour's alpha if the material's mode is BLEND, otherwise 1: the share of the place that the
-    // surface covers.
+    // The base colour's alpha if the material's mode is BLEND, otherwise 1.
     double coverage(const Hit& hit, const PixelRay& ray) const;
 
 private:
@@ -52,7 +50,7 @@ private:
     Footprint footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const;
     glm::dvec4 lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const;
     glm::dvec4 baseColor(const Hit& hit, const PixelRay* ray) const;
-    // Fills the normal, and what a normal map is read with and holds.
+    // Fills the normal, and the tangent frame and tangent-space normal of a normal map.
     void shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;

@@ -14,9 +14,9 @@
 namespace diptych::reference {
 namespace {
 
-// Rays along the surface meet a facet at once, as those a hair aside do.
+// Rays along the surface hit a facet at once, like rays just beside them.
 constexpr double leastCosine = 1e-9;
-constexpr double leastView = 1e-4;  // of n.v, as in the material (README.md, "The model")
+constexpr double leastView = 1e-4;  // n.v, as in the material (README.md, "The model")
 
 double squared(double x) {
     return x * x;
@@ -24,14 +24,14 @@ double squared(double x) {
 
 }  // namespace
 
-// Smith's Lambda for GGX; of directions from below, Lambda(-w) = -1 - Lambda(w).
+// Smith's Lambda for GGX; for directions from below, Lambda(-w) = -1 - Lambda(w).
 double Microsurface::lambda(const glm::dvec3& w) const {
     const double z = std::clamp(std::abs(w.z), leastCosine, 1.0);
     const double above = (std::sqrt(1 + squared(alpha_) * (1 - squared(z)) / squared(z)) - 1) / 2;
     return w.z < 0 ? -1 - above : above;
 }
 
-// A facet that is seen from a direction, above or below: Dupuy and Benyoub 2023, "Sampling Visible GGX
+// Samples a facet visible from a direction above or below: Dupuy and Benyoub 2023, "Sampling Visible GGX
 // Normals with Spherical Caps".
 glm::dvec3 Microsurface::facet(const glm::dvec3& seen_from, Random& random) const {
     const glm::dvec3 w = glm::normalize(glm::dvec3(alpha_ * seen_from.x, alpha_ * seen_from.y, seen_from.z));
@@ -41,16 +41,16 @@ glm::dvec3 Microsurface::facet(const glm::dvec3& seen_from, Random& random) cons
     return glm::normalize(glm::dvec3(alpha_ * h.x, alpha_ * h.y, std::max(h.z, 1e-100)));
 }
 
-// A ray that goes on from a height passes another with the probability (C / C')^Lambda, C being the share of
-// the surface below: for whatever distribution of heights its logarithm is all that is needed. 0 is the top.
+// A ray passes another height with probability (C / C')^Lambda, where C is the fraction of the surface
+// below. The logarithm of C suffices for any height distribution; 0 is the top.
 double Microsurface::next(const glm::dvec3& on, double height, Random& random) const {
     const double passes = lambda(on), share = std::log1p(-random());
     if (on.z > 0 && share <= passes * height) return 1;
     return std::min(height - share / passes, 0.0);
 }
 
-// The phase function of facets that are seen from `back_` (their D, Walter et al. 2007, by their projected
-// area), and what of its light reaches the open.
+// The phase function of facets visible from `back_`: D (Walter et al. 2007) over their projected area,
+// times the probability that the light leaves the surface.
 Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) const {
     const glm::dvec3 h = to_light + back_;
     const double length = glm::length(h);

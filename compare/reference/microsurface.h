@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What compensations approximate: light on a rough surface of mirrors that are lit by each other, by random
-// walk. Heitz, Hanika, d'Eon and Dachsbacher 2016, "Multiple-Scattering Microfacet BSDFs with the Smith
-// Model".
+// Ground truth for multiple-scattering compensation: a random walk between mirror microfacets. Heitz,
+// Hanika, d'Eon and Dachsbacher 2016, "Multiple-Scattering Microfacet BSDFs with the Smith Model".
 #pragma once
 
 #include "compare/reference/sampling.h"
@@ -15,21 +14,21 @@
 
 namespace diptych::reference {
 
-// Facets distributed as GGX with Smith's independent heights, each a mirror. Directions are unit, in a frame
-// with the normal +Z, away from the surface.
+// Mirror facets with a GGX distribution and Smith's independent heights. Directions are unit and point
+// away from the surface, in a frame with the normal +Z.
 class Microsurface {
 public:
     explicit Microsurface(double alpha) : alpha_(alpha) {}  // GGX width, roughness^2, in (0, 1]
 
-    // A facet that a path meets, and what it shows of a light.
+    // A facet on a path, and its reflection of a light.
     class Facet {
     public:
         Facet(const Microsurface& surface, const glm::dvec3& back, double height)
             : surface_(surface), back_(back), height_(height) {}
 
         struct Seen {
-            double cosine;  // of the light's angle to the facet that mirrors it
-            double share;   // of a path that arrives here, by facets with F = 1, 1/sr
+            double cosine;  // between the light and the normal of the facet that mirrors it
+            double share;   // fraction of the path's radiance from that light with F = 1, 1/sr
         };
         Seen of(const glm::dvec3& to_light) const;
 
@@ -39,16 +38,16 @@ public:
         double height_;
     };
 
-    // One path that arrives from `from`, which ends in the direction that is returned. Calls visit(facet,
-    // cosine) at every facet: the cosine is that of its reflection there.
+    // Traces one path that arrives from `from`; returns the direction in which it leaves. Calls
+    // visit(facet, cosine) at every facet, with the cosine of the reflection there.
     template <class Visit>
     glm::dvec3 trace(const glm::dvec3& from, Random& random, const Visit& visit) const;
 
 private:
     glm::dvec3 facet(const glm::dvec3& seen_from, Random& random) const;
     double lambda(const glm::dvec3& w) const;
-    // The height of the next facet: the logarithm of the share of the surface that lies below. Above 0: there
-    // is none.
+    // The height of the next facet: the logarithm of the fraction of the surface below it. Above 0: the
+    // path leaves.
     double next(const glm::dvec3& on, double height, Random& random) const;
 
     double alpha_;
@@ -67,26 +66,26 @@ glm::dvec3 Microsurface::trace(const glm::dvec3& from, Random& random, const Vis
     }
 }
 
-// The lobes of a Surface's two materials with Schlick's Fresnel at every facet, mixed as its BRDF is: paths
-// of the one material and of the other, never of a mix. What is beyond the first reflection.
+// Reflections beyond the first, with Schlick's Fresnel at every facet. Each path sees one of a Surface's
+// two materials throughout; their results are mixed as in the BRDF.
 class Between {
 public:
     explicit Between(const Surface& surface);
 
-    // The share of all paths from the viewer that meet two facets or more.
+    // The fraction of all paths from the viewer that meet at least two facets.
     double share() const { return share_; }
-    // Below this one nothing is followed: less than that share of light from everywhere.
+    // No paths are traced below this fraction of uniform light.
     static constexpr double leastShare = 0.002;
 
-    // One of them: as many are begun as that takes.
+    // A path that meets at least two facets, found by rejection.
     struct Path {
-        glm::dvec3 direct{0};     // of `lights`, W/(sr m^2)
-        glm::dvec3 direction{0};  // in which it leaves,
-        glm::dvec3 weight{0};     // and the share of radiance from there that reaches the viewer,
-        glm::dvec3 layer{0};      // by the dielectric's layer alone
+        glm::dvec3 direct{0};     // from `lights`, W/(sr m^2)
+        glm::dvec3 direction{0};  // in which the path leaves
+        glm::dvec3 weight{0};     // fraction of radiance from `direction` that reaches the viewer
+        glm::dvec3 layer{0};      // the same by the dielectric's layer alone
     };
-    // `lights` calls its argument with the direction and the irradiance of each, W/m^2 across it, once for
-    // every facet from the second on; it may choose another point of a light each time.
+    // `lights` calls its argument with each light's direction and irradiance, W/m^2 perpendicular to it.
+    // It is called at every facet from the second on, and may choose another point on a light each time.
     using Add = std::function<void(const glm::dvec3& to_light, const glm::dvec3& irradiance)>;
     Path path(Random& random, const std::function<void(const Add&)>& lights) const;
 

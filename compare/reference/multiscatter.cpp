@@ -9,18 +9,18 @@
 namespace diptych::reference {
 namespace {
 
-// One material's lobe, with what stands for further reflections.
+// One material's lobe with its multiple-scattering terms.
 struct Lobe {
     glm::dvec3 factor{1}, between{0};
 };
 
-// `single`: what the lobe reflects of light from everywhere; `white`: the same where F = 1; `f0`: at normal
-// incidence; `mean`: the mean of F over the cosine-weighted hemisphere.
+// `single`: the lobe's directional albedo; `white`: the same with F = 1; `f0`: at normal incidence;
+// `mean`: the mean of F over the cosine-weighted hemisphere.
 Lobe compensated(Multiscatter multiscatter, const glm::dvec3& single, double white, const glm::dvec3& f0,
                  const glm::dvec3& mean) {
     if (multiscatter == Multiscatter::energy) return {1.0 + f0 * ((1 - white) / white), glm::dvec3(0)};
-    // Light that meets k + 2 facets: of the mean reflectance k + 1 times, having stayed k + 1 times and left
-    // with `single` as if it had met one. The sum of a geometric series.
+    // Light that meets k + 2 facets is reflected k + 1 times by the mean reflectance, stays in the surface
+    // k + 1 times, and leaves with `single`. This sums the geometric series.
     glm::dvec3 sum(0);
     for (int c = 0; c < 3; ++c) {
         const double again = mean[c] * (1 - white);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The compensations of --multiscatter in double, from their definitions, by the integrals of the BRDF itself.
-// What they approximate is in microsurface.h.
+// The compensations of --multiscatter in double, from their definitions, by integrals of the BRDF.
+// microsurface.h has the ground truth.
 #pragma once
 
 #include "compare/reference/brdf.h"
@@ -9,10 +9,10 @@
 namespace diptych::reference {
 
 // energy: Turquin 2019, "Practical multiple scattering compensation for microfacet models". fdez:
-// Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting". Each of a
-// dielectric's layer and of a metal by themselves; a base gets what its layer, with the compensation, does
-// not reflect of light from everywhere. walk: the base gets everything,
-// as the walk adds what is missing and takes from the base.
+// Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting". A
+// dielectric's layer and a metal are compensated separately. With BaseLayer::max, the base receives the
+// uniform light that the compensated layer does not reflect. walk: the base receives all light; the random
+// walk adds and subtracts the rest.
 Compensation compensationOf(const Surface& surface, Multiscatter multiscatter);
 
 }  // namespace diptych::reference

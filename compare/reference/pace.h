@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long a picture will take, known before any part of it is done.
+// Estimates how long an image will take before any part of it is done.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -13,11 +13,10 @@
 
 namespace diptych::reference {
 
-// Draws pixels spread evenly over a picture of width x height, coarse first (the R2 sequence: M. Roberts
-// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"), on all cores, and throws them away: for
-// at most `most`, and no more than a hundredth of the picture. From that the seconds that all pixels will
-// take; empty where that hundredth was done in less than 20 ms, and so the picture needs no estimate.
-// `render(x, y)` draws one, from any thread.
+// Renders pixels spread evenly over a width x height image, coarse first, on all cores, and discards them
+// (R2 sequence: M. Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"). It stops
+// after `most` or a hundredth of the image. Returns the estimated seconds for all pixels; empty if that
+// hundredth took less than 20 ms. `render(x, y)` renders one pixel, from any thread.
 template <class Render>
 std::optional<double> expectedSeconds(int width, int height, const Render& render,
                                       std::chrono::duration<double> most = std::chrono::milliseconds(1200)) {

@@ -82,8 +82,7 @@ void addScene(Key& key, const Request& request) {
 
 }  // namespace
 
-// Everything that decides a pixel. The version number must be increased whenever the reference itself draws
-// differently.
+// Increase the version number whenever the reference itself renders differently.
 std::uint64_t keyOf(const Request& request) {
     constexpr int version = 14;
     Key key;

@@ -7,8 +7,8 @@ namespace diptych::reference {
 
 struct Request;
 
-// A hash of everything that decides a pixel of the picture, including the program's version. Kept parts of a
-// picture are only used if their key is the same.
+// A hash of everything that affects a pixel, including the program's version. Saved parts are reused only
+// if their key matches.
 std::uint64_t keyOf(const Request& request);
 
 }  // namespace diptych::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reference knows of one pixel, or of one place in it.
+// The reference's result for one pixel, or for one sample in it.
 #pragma once
 
 #include "compare/reference/haze.h"
@@ -14,9 +14,9 @@ namespace diptych::reference {
 // Without a surface it is background.
 struct Pixel {
     std::optional<Surface> surface;
-    Shading shading;    // of the nearest surface that is not blended
-    Shading blended;    // of those in front of it, as seen
-    double hidden = 0;  // the share of it that they hide
+    Shading shading;    // of the nearest opaque surface
+    Shading blended;    // of the blended surfaces in front of it, as visible
+    double hidden = 0;  // fraction of the opaque surface that they hide
     glm::dvec3 lit{0}, unblended{0};
     double sun_visibility = 0;
     double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;

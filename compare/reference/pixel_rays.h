@@ -11,8 +11,8 @@
 
 namespace diptych::reference {
 
-// The camera rays of a picture. Pixels are square, and (0, 0) is the upper left corner of the first.
-// Directions are one metre of depth long.
+// The camera rays of an image. Pixels are square; (0, 0) is the upper left corner of the first. Directions
+// advance one metre in depth.
 class PixelRays {
 public:
     explicit PixelRays(const View& view)
@@ -23,7 +23,7 @@ public:
         corner_ = x_ * (-0.5 * view.width) + y_ * (-0.5 * view.height);
     }
 
-    // The ray through a point of the picture, with the differences to rays `apart` pixels further.
+    // The ray through a point of the image, with the differences to rays `apart` pixels further.
     PixelRay through(double x, double y, double apart = 1) const {
         const glm::dvec3 place = corner_ + x_ * x + y_ * y, none(0);
         if (orthographic_) return {place, -backward_, x_ * apart, none, y_ * apart, none};

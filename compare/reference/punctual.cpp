@@ -28,12 +28,11 @@ Incident incident(const Light& light, const glm::dvec3& light_position, const gl
                     distance};
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
-        // The constant 0.001 is KHR_lights_punctual's: it keeps the slope finite for a cone with a hard
-        // edge.
+        // 0.001 is KHR_lights_punctual's constant: it keeps the slope finite for a cone with a hard edge.
         const double inside =
             (-glm::dot(result.to_light, light.direction) - outer) / std::max(0.001, inner - outer);
         const double t = std::clamp(inside, 0.0, 1.0);
-        // The cubic of zero slope at both ends (Hermite), or the square.
+        // The cubic Hermite curve with zero slope at both ends, or the square.
         result.irradiance *= falloff.cone == SpotFalloff::smoothstep ? 3 * t * t - 2 * t * t * t : t * t;
     }
     return result;

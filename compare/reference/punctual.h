@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights without extent, as KHR_lights_punctual (Khronos 2019) defines them, in double.
+// Punctual lights as KHR_lights_punctual (Khronos 2019) defines them, in double.
 #pragma once
 
 #include "shared/frame/setting_values.h"
@@ -9,17 +9,16 @@
 
 namespace diptych::reference {
 
-// The attenuation by a light's range, both arguments in metres: max(min(1 - (d / range)^4, 1), 0), or its
-// square.
+// Attenuation by a light's range; distances in metres: max(min(1 - (d / range)^4, 1), 0), or its square.
 double rangeWindow(double distance, double range, RangeWindow window = RangeWindow::gltf);
 
-// How light falls off.
 struct Falloff {
     RangeWindow window = RangeWindow::gltf;
     SpotFalloff cone = SpotFalloff::gltf;
 };
 
-// The light of a directional light without a disc, a point light or a spot at one place.
+// The light that arrives at a point from a directional light without a disc, a point light or a spot
+// light.
 struct Incident {
     glm::dvec3 to_light{0};    // unit; 0 at the light's own position
     glm::dvec3 irradiance{0};  // W/m^2 on a surface perpendicular to that direction

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adaptive integration over rectangles of two parameters.
+// Adaptive integration over a rectangle of two parameters.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -27,7 +27,7 @@ struct Cell {
 
 struct Integral {
     Reflected value;
-    // Of value.size(): differences that remained when the limits on cells or depth were reached.
+    // Of value.size(): differences that remained at the limit on cells or depth.
     double error = 0;
 };
 
@@ -47,13 +47,13 @@ Reflected gauss(const Integrand& f, const Cell& cell) {
     return sum * (du * dv);
 }
 
-// Whether, and in which direction, a cell must be split before the integrand is evaluated: a narrow lobe
-// between all points of a cell would not be noticed.
+// Whether, and in which direction, a cell must be split before the integrand is evaluated. Otherwise a
+// narrow lobe between the points of a cell would be missed.
 enum class Split { none, u, v };
 
-// Splits a cell into quarters until the sum of their integrals differs from its own by no more than
-// `relative` times the whole integral, a tolerance that is halved at every level below; `mustSplit(cell)`
-// returns a Split. `leaves`, if given, receives the final cells and their integrals.
+// Splits a cell into quarters until the sum of their integrals is within tolerance of its own integral.
+// The tolerance is `relative` times the whole integral, halved at every level. `mustSplit(cell)` returns a
+// Split. `leaves`, if given, receives the final cells and their integrals.
 struct Leaf {
     Cell cell;
     Reflected value;

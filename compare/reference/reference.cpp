@@ -140,7 +140,7 @@ public:
         Surface s;
         s.position = value(gpu::DEBUG_position, pixel);
         s.to_viewer = rays.toViewer(s.position);
-        // A unit vector in float32 is off by up to 1e-7, which would matter for 1 - (n.h)^2 at a highlight.
+        // A float32 unit vector is off by up to 1e-7, which would affect 1 - (n.h)^2 at a highlight.
         s.normal = unitOr(value(gpu::DEBUG_normals, pixel), s.to_viewer);
         s.geometric_normal = unitOr(value(gpu::DEBUG_geometric_normal, pixel), s.to_viewer);
         s.albedo = value(gpu::DEBUG_albedo, pixel);
@@ -227,7 +227,7 @@ public:
         return request_.mode == ReferenceMode::surface ? renderCaptured(x, y, seed) : renderScene(x, y, seed);
     }
 
-    // What the surface at the pixel's middle sends of each light alone, and of all else; nothing in the
+    // The contribution of each light and of everything else at the pixel's centre; empty in the
     // background.
     void takeTerms(int x, int y, PixelLight& pixel) const {
         const std::optional<Standing> standing = request_.mode == ReferenceMode::surface
@@ -246,7 +246,7 @@ public:
             const bool casts = std::ranges::find(request_.casters, i) != request_.casters.end();
             Shading shading = shade(request_.lights.subspan(i, 1), nullptr, glm::dvec3(0),
                                     std::span(&first, casts ? 1 : 0));
-            shading.ambient = glm::dvec3(0);  // of a lightmap, which shines beside every light
+            shading.ambient = glm::dvec3(0);  // a lightmap's, which would be added to every light
             pixel.lights.push_back(shading);
         }
         pixel.without_lights = shade({}, request_.environment(), request_.ambient, {});
@@ -258,17 +258,17 @@ private:
                static_cast<std::uint64_t>(x);
     }
 
-    // Where a shadow ray begins, relative to the point's distance from the camera: far above rounding errors
+    // Start of a shadow ray, relative to the point's distance from the camera: far above rounding errors
     // in double, far below modelled detail. A captured position is only as exact as a float32 depth.
     static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
-    // How far before the light a shadow ray ends, relative to its length, so that a lamp on a ceiling is not
-    // occluded by the ceiling, whose float32 vertices may round to below the lamp.
+    // Gap between the end of a shadow ray and the light, relative to the ray's length. It keeps a ceiling,
+    // whose float32 vertices may round to below the lamp, from occluding a lamp on it.
     static constexpr double lightOffset = 1e-5;
-    // Directions to a sun's disc at the least, and the stream that turns them, which no light has.
+    // Minimum number of directions to a sun's disc, and their random stream, which no light has.
     static constexpr int leastDiscSamples = 64;
     static constexpr std::uint64_t discStream = ~std::uint64_t{0};
 
-    // Light from behind the triangle does not reach it, whatever the shading normal is.
+    // Light from behind the triangle does not reach it, whatever the shading normal.
     struct Foot {
         glm::dvec3 place, geometric_normal;
         TriangleId without;
@@ -284,7 +284,7 @@ private:
         };
     }
 
-    // The share of the sun's disc that is seen, by directions that cover it evenly.
+    // The visible fraction of the sun's disc, by directions that cover it evenly.
     double seenOfDisc(const Foot& foot, std::uint64_t seed) const {
         const int samples = std::max(request_.samples, leastDiscSamples);
         const double radius = emitterOf(*sun_, {}).radius;
@@ -303,8 +303,8 @@ private:
         return static_cast<double>(seen) / samples;
     }
 
-    // What the pixel sees of the sun that casts, its centre or its disc: all of it where none does. Where a
-    // part of the disc is seen, the edge of its shadow is there; else as far as that of its centre.
+    // Visibility of the shadow-casting sun, its centre or its disc; 1 without one. A partly visible disc
+    // is at the shadow's boundary; otherwise the distance is measured for its centre.
     void takeShadow(Pixel& pixel, const Surface& s, const Foot& foot, std::uint64_t seed) const {
         pixel.sun_visibility = 1;
         if (!sun_) return;
@@ -324,7 +324,7 @@ private:
         pixel.sun_irradiance = std::max(glm::dot(s.normal, to_light), 0.0) * luminance(irradiance);
     }
 
-    // Likewise of the points and spots that cast, weighted by the luminance of their irradiance.
+    // The same for shadow-casting points and spots, weighted by the luminance of their irradiance.
     void takeLocalShadows(Pixel& pixel, const Surface& s, const Foot& foot) const {
         pixel.local_visibility = 1;
         double all = 0, seen = 0;
@@ -357,7 +357,7 @@ private:
         takeLocalShadows(pixel, s, foot);
     }
 
-    // What the camera sees of a background, behind all haze.
+    // The background behind all haze, as the camera sees it.
     glm::dvec3 background(const PixelRay& ray) const {
         const glm::dvec3 d = glm::normalize(ray.direction);
         const glm::dvec3 radiance = background_ ? background_->radiance(d) : lighting_.background(d);
@@ -366,7 +366,7 @@ private:
         return radiance * haze.transmittance + haze.scattered;
     }
 
-    // Applies the haze before the surface to its light.
+    // Applies the haze in front of the surface to its light.
     void takeHaze(Pixel& pixel, const Surface& s) const {
         if (!haze_) return;
         const glm::dvec3 away = -s.to_viewer;
@@ -380,21 +380,21 @@ private:
                 request_.view.camera.far};
     }
 
-    // The nearest surface that is not blended.
+    // The nearest opaque surface.
     std::optional<Hit> nearest(const PixelRay& ray) const {
         return geometry_.nearest(cameraRay(ray, 0), [&](const Hit& hit) {
             return !materials_.blends(hit) && materials_.isThere(hit, &ray);
         });
     }
 
-    // A surface, and where rays from it begin.
+    // A surface, and the start of rays from it.
     struct Standing {
         Surface surface;
         Foot foot;
         double depth = 0;
     };
 
-    // That of a path's capture; nothing in the background.
+    // From a path's captured channels; empty in the background.
     std::optional<Standing> capturedAt(int x, int y) const {
         const Captured captured(*request_.surfaces, materialsOf(request_.scene, request_.pose));
         const std::uint64_t pixel = seedOf(x, y);
@@ -404,7 +404,7 @@ private:
         const double depth = captured.depth(pixel);
         Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
         if (request_.shadows() || request_.surroundings) {
-            // Finds the exact position again, if the camera ray meets a surface at the captured depth.
+            // Recovers the exact position if the camera ray hits a surface at the captured depth.
             const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5));
             if (hit && std::abs(hit->t - depth) <= 1e-4 * depth)
                 foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
@@ -412,7 +412,7 @@ private:
         return Standing{s, foot, depth};
     }
 
-    // That of the nearest hit; nothing in the background.
+    // From the nearest hit; empty in the background.
     std::optional<Standing> tracedAt(const PixelRay& ray) const {
         const std::optional<Hit> hit = nearest(ray);
         return hit ? std::optional(standingAt(*hit, ray)) : std::nullopt;
@@ -466,21 +466,21 @@ private:
         return std::min({b.x, b.y, 1 - b.x - b.y}) < 1e-9;
     }
 
-    // What is blended in front of `end`, front to back; of two at one place the one that is drawn later, as
-    // the scene has them, is in front.
+    // Blended surfaces in front of `end`, front to back. At equal depth, the one later in the scene is in
+    // front.
     std::vector<Hit> blendedHits(double end, const PixelRay& ray) const {
         std::vector<Hit> hits;
         Ray search = cameraRay(ray, 0);
         search.to = std::min(search.to, end);
         geometry_.meets(search, [&](const Hit& hit) {
             if (materials_.blends(hit) && materials_.isThere(hit, &ray)) hits.push_back(hit);
-            return false;  // the ray goes on
+            return false;  // continue the ray
         });
         const auto place = [](const Hit& hit) {
             return std::tuple(hit.t, ~hit.id.instance, ~hit.id.triangle);
         };
         std::ranges::sort(hits, {}, place);
-        // A ray through an edge meets both of its triangles, which show one place.
+        // A ray through an edge hits both of its triangles at one point.
         const auto same = std::ranges::unique(hits, [](const Hit& a, const Hit& b) {
             return a.id == b.id ||
                    (a.id.instance == b.id.instance && isOnEdge(a) && isOnEdge(b) && b.t - a.t <= 1e-9 * a.t);
@@ -489,10 +489,10 @@ private:
         return hits;
     }
 
-    // Adds them to lit, blended "over" (Porter and Duff 1984, "Compositing Digital Images"). Returns the
-    // share of what lies behind them that is seen. What a surface lets through has no colour: the paths blend
-    // by one number, and the model is theirs (shared/transparent/README.md). The haze before a surface counts
-    // as much as it hides of what is behind, which has its own.
+    // Blends them over lit (Porter and Duff 1984, "Compositing Digital Images"). Returns the visible
+    // fraction of the background. Transmittance has no colour because the paths blend by one number
+    // (shared/transparent/README.md). A surface's haze counts only for the fraction it hides, because the
+    // background has its own.
     double blendedBefore(double end, const PixelRay& ray, std::uint64_t seed, Pixel& pixel) const {
         double through = 1;
         std::uint64_t layer = 0;
@@ -511,7 +511,7 @@ private:
         return through;
     }
 
-    // Channels other than lit are those of the nearest surface that is not blended.
+    // Channels other than lit show the nearest opaque surface.
     Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
         const std::optional<Hit> solid = nearest(ray);
         Pixel pixel;
@@ -522,7 +522,7 @@ private:
         return withBlended(std::move(pixel), solid ? solid->t : nowhere, ray, seed);
     }
 
-    // The pixel with what is blended in front of it, which may lie on it: `end` is known to float32.
+    // Blends surfaces over the pixel, including those that lie on it: `end` has float32 precision.
     Pixel withBlended(Pixel pixel, double end, const PixelRay& ray, std::uint64_t seed) const {
         if (!blends_) return pixel;
         const glm::dvec3 behind = std::exchange(pixel.lit, glm::dvec3(0));
@@ -533,7 +533,7 @@ private:
         return pixel;
     }
 
-    // With several samples, light is theirs over the pixel; the other channels are the centre's.
+    // With several samples, light is their mean over the pixel; other channels show the centre.
     Pixel renderScene(int x, int y, std::uint64_t seed) const {
         Pixel centre = alongRay(rays_.through(x + 0.5, y + 0.5), seed);
         if (request_.samples == 1) return centre;
@@ -554,20 +554,20 @@ private:
     const Geometry geometry_;
     const Materials materials_;
     Lighting lighting_;
-    std::optional<EnvironmentLight> background_;  // where another one lights
+    std::optional<EnvironmentLight> background_;  // set if another environment lights the scene
     std::optional<Haze> haze_;
-    const Light* sun_ = nullptr;        // that casts
-    std::vector<const Light*> locals_;  // points and spots that cast
-    const bool blends_;                 // some material does
-    const double scene_radius_;         // m, of a sphere around all that is drawn
+    const Light* sun_ = nullptr;        // the shadow-casting one
+    std::vector<const Light*> locals_;  // shadow-casting points and spots
+    const bool blends_;                 // whether any material blends
+    const double scene_radius_;         // m, of a sphere around all geometry
 };
 
-// ---- the picture -------------------------------------------------------------------------------------
+// ---- the image ---------------------------------------------------------------------------------------
 
-// Side of the square tiles that are drawn and kept as units, in pixels.
+// Side of the square tiles that are rendered and saved as units, in pixels.
 constexpr int tileSide = 16;
 
-// What a picture holds beside its channels and their uncertainty, in the order in which tiles keep it.
+// The other images of a picture, in the order in which tiles store them.
 std::array<Image*, 6> besides(Picture& picture) {
     return {&picture.shadow_edge,  &picture.local_shadow_edge, &picture.environment_costs,
             &picture.surroundings, &picture.blended,           &picture.unblended};
@@ -637,8 +637,8 @@ public:
                     picture_.kept_share += 1.0 / static_cast<double>(tiles);
                     picture_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
                 }
-        // Tiles are drawn in an order scattered over the picture, so that the finished part predicts the
-        // remaining time.
+        // The order of tiles is scattered over the image, so that the finished part predicts the remaining
+        // time.
         std::vector<std::uint64_t> order;
         std::uint64_t step =
             std::max<std::uint64_t>(1, static_cast<std::uint64_t>(0.618 * static_cast<double>(tiles)));
@@ -683,7 +683,7 @@ private:
                       std::min(tileSide, request_.view.height - y));
     }
 
-    // The seconds that the tile took, and its pixels' values.
+    // The seconds that the tile took, then its pixels' values.
     std::vector<float> renderTile(const PixelRenderer& renderer, std::uint64_t tile) const {
         const auto start = std::chrono::steady_clock::now();
         std::vector<float> values{0};
@@ -719,7 +719,7 @@ private:
     }
 
     void put(std::uint64_t tile, const std::vector<float>& values) {
-        const float* next = values.data() + 1;  // behind the seconds
+        const float* next = values.data() + 1;  // after the seconds
         eachPixel(tile, [&](int x, int y) {
             for (const DebugMode* mode : drawn_) {
                 Image& image = picture_.channels[mode->number];
@@ -735,7 +735,7 @@ private:
 
     const Request& request_;
     const int across_, down_;
-    int floats_ = 0;  // number of floats for each pixel; a tile has one more
+    int floats_ = 0;  // floats per pixel; a tile has one more
     std::vector<const DebugMode*> drawn_;
     Picture picture_;
 };
@@ -759,7 +759,7 @@ PixelLight drawPixel(const Request& request, int x, int y) {
         if (!isMadeByReference(mode)) continue;
         glm::dvec3& value = result.channels[mode.number] = channelValue(mode.number, pixel);
         if (request.mode == ReferenceMode::scene || isShaded(mode.number)) continue;
-        // Not shaded: the capture's own.
+        // Not shaded: copied from the capture.
         const Image& image = request.surfaces->at(mode.number);
         for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(place)[c]};
     }

@@ -29,48 +29,47 @@ struct Request {
     const Pose& pose;
     const View& view;
     std::span<const Light> lights;  // in world space
-    // What lights in the place of the scene's, which stays the background; nullptr: that one.
+    // Environment that lights instead of the scene's, which stays the background; nullptr: the scene's.
     const Environment* residual = nullptr;
     double environment_factor = 1;
     double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
-    glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
+    glm::dvec3 ambient{0};          // uniform radiance, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
     BaseLayer base_layer = BaseLayer::max;
     SkinNormals skin_normals = SkinNormals::joints;
     Falloff falloff = {};
     std::optional<Air> air = {};
-    bool blended = true;                    // whether surfaces of alphaMode BLEND are there at all
-    std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
+    bool blended = true;                    // whether surfaces of alphaMode BLEND are rendered
+    std::vector<std::size_t> casters = {};  // indices of shadow-casting `lights`
     bool shadowed_environment = false;      // whether the environment is shadowed too
     bool shadows() const { return !casters.empty() || shadowed_environment; }
-    // Whether the picture tells what approximations of the environment cost, and what geometry hides of it
-    // and of ambient light.
+    // Whether to measure errors of environment approximations, and the occlusion of environment and
+    // ambient light by geometry.
     bool environment_costs = false, surroundings = false;
-    // Whether it tells how much of suns, points and spots is seen, and how far the edges of their shadows
-    // are. Most of the rays for that are not needed for light. Without it there are no such channels.
+    // Whether to make the channels of shadow visibility and of distances to shadow boundaries. Most of
+    // their rays are not needed for light.
     bool shadow_edges = true;
     const Environment* environment() const {
         return residual ? residual : scene.environment ? &*scene.environment : nullptr;
     }
-    // In both modes rays meet what the pose's skins and morph targets deform.
+    // In both modes rays hit the skinned and morphed geometry.
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                                 // per pixel; mode scene only
-    Resolve resolve = Resolve::linear;               // of their light; mode scene only
-    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()
-    // Mode surface only: the same channels as a G-buffer gives them back, for Picture::decoded; or nullptr.
+    Resolve resolve = Resolve::linear;               // how the samples are combined; mode scene only
+    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: the surfaceChannels()
+    // Mode surface only: the same channels as deferred decodes them, for Picture::decoded; or nullptr.
     const std::map<int, Image>* decoded = nullptr;
-    // Called once, with the key of the picture and the number of floats in a tile; returns where finished
-    // tiles are kept. The caller owns the Checkpoint, and removes it once the picture has been written.
-    // Empty: nothing is kept. `program` is this program's version: tiles kept by another version are not
-    // used.
+    // Called once, with the image's key and the number of floats in a tile; returns the Checkpoint for
+    // finished tiles. The caller owns it and removes it once the image has been written. Empty: nothing is
+    // saved. `program` is this program's version; tiles saved by another version are not used.
     std::function<Checkpoint&(std::uint64_t key, std::size_t floats)> keep = {};
     std::string_view program = {};
-    // Called from any thread with the fraction that is done.
+    // Called from any thread with the finished fraction.
     std::function<void(double fraction)> progress = {};
-    // Called from any thread with each tile once it is in the picture: its left and top pixel, width and
-    // height. Only there may the picture be read; other tiles may be written meanwhile.
+    // Called from any thread with each finished tile: its left and top pixel, width and height. Only those
+    // pixels may be read; other tiles may be written meanwhile.
     std::function<void(const Picture& picture, int x, int y, int width, int height)> tile = {};
-    // Called once, soon, with the seconds that all of the picture is expected to take; not for a short one.
+    // Called once, early, with the estimated seconds for the whole image; not called for a short one.
     std::function<void(double seconds)> expected = {};
 };
 

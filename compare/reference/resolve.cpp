@@ -11,12 +11,12 @@ double largestComponent(const glm::dvec3& radiance) {
     return std::max({0.0, radiance.x, radiance.y, radiance.z});
 }
 
-// Of a half interval of 95 % confidence: to the variance of a normal distribution.
+// Factor from the square of a 95 % half-interval to the variance of a normal distribution.
 constexpr double variancesOf95 = 1 / (1.96 * 1.96);
 
-// The sum of Shadings' errors alone. With weights w = 1 / (1 + c) a mean L of samples c moves by w^2 (1 + L)
-// over the sum of w where a sample does by 1: here is the w^2. The curve's bend makes of a sample's noise of
-// variance v an error of its mean, w v of the above (the second term of its series).
+// Adds only the errors of Shadings. With weights w = 1 / (1 + c), a change of 1 in a sample c moves the
+// mean L by w^2 (1 + L) over the sum of w; this adds the w^2. The curve's bend turns a sample's noise of
+// variance v into a bias of w v times that (second term of the series).
 void addErrors(Shading& sum, const Shading& sample, double weight, double share) {
     const double u = sample.uncertainty, slope = share * weight * weight;
     sum.uncertainty += slope * (u + weight * u * u * variancesOf95);

@@ -23,8 +23,8 @@ double Random::operator()() {
     return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
 }
 
-// Neither factor is SplitMix64's increment: otherwise the streams of neighbouring numbers would be the same
-// sequence, one step apart.
+// Neither factor is SplitMix64's increment; otherwise neighbouring streams would be the same sequence, one
+// step apart.
 std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number) {
     return mixed(mixed(seed + 0xd1342543de82ef95u) + number * 0xaf251af3b0f025b5u);
 }
@@ -46,7 +46,8 @@ void Rounds::add(const Reflected& estimate) {
 
 double Rounds::halfWidth() const {
     if (count_ < 2) return std::numeric_limits<double>::infinity();
-    // Student's t, two-sided 95 %, for 1 to 15 degrees of freedom; beyond, 1.96 + 2.8 / n is an upper bound.
+    // Student's t, two-sided 95 %, for 1 to 15 degrees of freedom; above, 1.96 + 2.8 / n is an upper
+    // bound.
     constexpr std::array<double, 15> student{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
                                              2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131};
     const std::uint32_t freedom = count_ - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sampling until a stated confidence is reached.
+// Random numbers and confidence intervals.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -10,9 +10,9 @@
 
 namespace diptych::reference {
 
-// Pseudorandom numbers in [0, 1), determined by the seed. Every pixel, light and round has a seed of its
-// own, so that a picture does not depend on the number of threads or on where it was resumed. (Steele, Lea
-// and Flood 2014, "Fast Splittable Pseudorandom Number Generators": SplitMix64.)
+// Pseudorandom numbers in [0, 1), determined by the seed. Every pixel, light and round has its own seed,
+// so an image does not depend on the number of threads or on interruptions. (SplitMix64: Steele, Lea and
+// Flood 2014, "Fast Splittable Pseudorandom Number Generators".)
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -26,21 +26,20 @@ private:
 std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number);
 
 // Point `index` of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
-// Sequences"), shifted by `shift` on the torus (Cranley and Patterson 1976): every run of consecutive
+// Sequences"), shifted by `shift` on the torus (Cranley and Patterson 1976). Every range of consecutive
 // indices covers the square evenly.
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift);
 
-// From a confidence of 95 %, which a reference states, to 99.9 %: Student's t of 7 degrees of freedom, 5.41 /
-// 2.36.
+// Factor from the half-width at 95 % confidence, which the reference reports, to 99.9 %: Student's t with
+// 7 degrees of freedom, 5.41 / 2.36.
 inline constexpr double surerThan95 = 2.29;
 
-// Independent estimates of the same value: their mean, and its 95 % confidence interval by Student's
-// distribution.
+// Independent estimates of one value: their mean, and its 95 % confidence interval by Student's t.
 class Rounds {
 public:
     void add(const Reflected& estimate);
     Reflected mean() const { return mean_; }
-    double halfWidth() const;  // half the interval of mean().size(), W/(sr m^2); infinite below two estimates
+    double halfWidth() const;  // of mean().size(), W/(sr m^2); infinite below two estimates
 
 private:
     std::uint32_t count_ = 0;

@@ -16,7 +16,7 @@ double edgeDistance(const SeesLight& sees, const glm::dvec3& place, const glm::d
                     const glm::dvec3& to_light, double farthest) {
     constexpr int directions = 8, bisections = 4;
     constexpr double least = 0x1p-13;
-    // A straight edge lies at most half the angle between directions from the nearest of them.
+    // A straight boundary is at most half the angle between directions away from the nearest of them.
     const double straight = std::cos(std::numbers::pi / directions);
     const glm::dvec3 x = perpendicularTo(to_light), y = glm::cross(to_light, x);
     const double first = least * glm::length(place), cosine = glm::dot(normal, to_light);
@@ -24,7 +24,7 @@ double edgeDistance(const SeesLight& sees, const glm::dvec3& place, const glm::d
     const auto differs = [&](const glm::dvec3& across) {
         return sees(place + across - to_light * (glm::dot(normal, across) / cosine)) != here;
     };
-    // Every other ring is turned by half the angle between directions.
+    // Every other ring is rotated by half the angle between directions.
     double turn = 0;
     for (double radius = first; radius > 0 && radius <= 2 * farthest; radius *= 2, turn = 0.5 - turn) {
         double nearest = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's surface and reflected light: double precision, world axes with the camera as origin,
-// metres, linear Rec.709.
+// metres, linear Rec. 709.
 #pragma once
 
 #include "shared/frame/setting_values.h"
@@ -24,19 +24,19 @@ struct Surface {
     glm::dvec3 emission{0};       // W/(sr m^2)
     glm::dvec3 lightmap{0};       // irradiance / pi, W/(sr m^2)
     bool lightmapped = false;     // whether the material has a lightmap, which may be black here
-    glm::dvec3 dielectric_f0{0};  // F0 of the dielectric layer alone; the BRDF mixes it with the metal's
+    glm::dvec3 dielectric_f0{0};  // of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
-    double transmission = 0;  // share of what enters the base that passes it, instead of being scattered
+    double transmission = 0;  // fraction of the light entering the base that is transmitted, not scattered
     BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};
-    // What a normal map is read with and holds; 0 without one or where its scale is 0.
+    // Tangent frame and value of a normal map; 0 without one or if its scale is 0.
     glm::dvec3 tangent{0};         // unit, world
     double handedness = 0;         // bitangent = handedness * cross(normal, tangent)
     glm::dvec3 tangent_normal{0};  // unit, tangent space
 };
 
-// What the base loses to a layer that reflects `layer`, for each component.
+// Fraction of light that a layer reflecting `layer` takes from the base, for each component.
 inline glm::dvec3 lostToLayer(BaseLayer rule, const glm::dvec3& layer) {
     return rule == BaseLayer::component ? layer : glm::dvec3(std::max({layer.r, layer.g, layer.b}));
 }
@@ -57,7 +57,7 @@ struct Reflected {
         return {a.diffuse * b, a.specular * b};
     }
 
-    // The largest component of the sum, by magnitude: errors are relative to it.
+    // The largest component of the sum, by magnitude; errors are relative to it.
     double size() const {
         const glm::dvec3 sum = glm::abs(diffuse + specular);
         return std::max({sum.x, sum.y, sum.z});

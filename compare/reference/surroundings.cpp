@@ -16,9 +16,9 @@
 
 namespace diptych::reference {
 
-// Directions by the cosine with the normal, by the lobe and by where the environment is bright, as many of
-// each, combined by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques
-// for Monte Carlo Rendering").
+// Directions by the cosine with the normal, by the lobe and by the environment's brightness, an equal
+// number of each, combined by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
+// Techniques for Monte Carlo Rendering").
 Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, bool lobeOnly,
                             const glm::dvec3& ambient, const Visibility& visible, std::uint64_t seed) {
     constexpr std::uint64_t each = 32;

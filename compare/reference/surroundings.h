@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What geometry hides of light from everywhere, which neither path models.
+// Occlusion of environment and ambient light by geometry, which neither path models.
 #pragma once
 
 #include "compare/reference/brdf.h"
@@ -14,9 +14,9 @@ namespace diptych::reference {
 // outside the scene.
 using Visibility = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
-// Luminance of what a surface sends to the viewer of environment and ambient light, W/(sr m^2).
+// Luminance of the environment and ambient light that a surface reflects to the viewer, W/(sr m^2).
 struct Surroundings {
-    double all = 0, hidden = 0;  // hidden: of all, what comes from where geometry is
+    double all = 0, hidden = 0;  // hidden: the part of `all` that geometry blocks
 
     Surroundings& operator+=(const Surroundings& other) {
         all += other.all;
@@ -26,9 +26,9 @@ struct Surroundings {
     friend Surroundings operator*(const Surroundings& a, double b) { return {a.all * b, a.hidden * b}; }
 };
 
-// By 96 rays: a share of half is known to some 0.05 at one surface, and that of many by the root of their
-// number better. `environment`: or nullptr; with `lobeOnly` the base reflects nothing of it. `ambient`:
-// radiance from everywhere. `seed`: of this surface.
+// Traces 96 rays: at one surface a fraction of one half is accurate to about 0.05; the error of a mean
+// over n surfaces falls by sqrt(n). `environment`: may be nullptr; with `lobeOnly` the base reflects none
+// of it. `ambient`: uniform radiance. `seed`: of this surface.
 Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, bool lobeOnly,
                             const glm::dvec3& ambient, const Visibility& visible, std::uint64_t seed);
 

@@ -54,8 +54,8 @@ glm::dvec4 nearestTexel(const Pyramid& pyramid, const Sampler& sampler, const gl
                          wrapped(static_cast<int>(std::floor(uv.y * height)), height, sampler.wrap_t));
 }
 
-// Limits coordinates so large that they have no fractional part: any texel is then as good, as the picture
-// repeats.
+// Clamps coordinates so large that they have no fractional part; the image repeats, so any texel is as
+// good.
 glm::dvec2 bounded(const glm::dvec2& uv) {
     return glm::clamp(uv, glm::dvec2(-1e8), glm::dvec2(1e8));
 }
@@ -69,7 +69,7 @@ Pyramid::Pyramid(const TextureImage& image, bool srgb) : image_(image), srgb_(sr
         level.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(level.width) *
                            static_cast<std::size_t>(level.height));
         // Texel x of this level (width w from W texels) covers the texels x W / w to (x + 1) W / w of the
-        // level before.
+        // level below.
         const auto shares = [](int i, int from, int to) {
             const double begin = static_cast<double>(i) * from / to,
                          end = static_cast<double>(i + 1) * from / to;
@@ -139,11 +139,11 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     const Sampler& sampler = texture.sampler;
     if (!(longest > 1))
         return sampler.magnify_linear ? bilinear(levels, 0, sampler, uv) : nearestTexel(levels, sampler, uv);
-    // As many points along each side as make their shares square, but at least eight. A footprint seen at a
-    // grazing angle is long and narrow, and must not be blurred across its short side.
+    // Spaces the points equally along both sides, with at least eight on each. A footprint at a grazing
+    // angle is long and narrow and must not be blurred across its short side.
     constexpr double least = 8, most = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
-    // Side of a point's share, in texels of level 0.
+    // Spacing of the points, in texels of level 0.
     const double share = std::max(across / least, longest / most);
     const auto places = [&](const glm::dvec2& side) {
         return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), least, most));

@@ -15,18 +15,18 @@
 
 namespace diptych::reference {
 
-// A texture coordinate, and its change from a pixel to the next.
+// A texture coordinate, and its change to the next pixels.
 struct Footprint {
     glm::dvec2 uv{0}, dx{0}, dy{0};
 };
 
-// Averages of 2^k x 2^k texels, linear, in float32; level 0 is the image itself. Sizes are rounded up, and
-// every texel of a level covers the same share of the picture.
+// Means of 2^k x 2^k texels, linear, float32; level 0 is the image itself. Sizes are rounded up, and every
+// texel of a level covers an equal part of the image.
 class Pyramid {
 public:
     Pyramid(const TextureImage& image, bool srgb);
 
-    // RGBA of a texel, linear (0 to 1, except for images of floats); x and y must be inside the level.
+    // RGBA of a texel, linear (0 to 1, except for float images); x and y must be inside the level.
     glm::dvec4 texel(int level, int x, int y) const;
     int width(int level) const;
     int height(int level) const;
@@ -42,15 +42,15 @@ private:
     std::vector<Level> levels_;  // from level 1 on
 };
 
-// The scene's textures, decoded at their first use; may be used from any thread.
+// The scene's textures, decoded at first use. Thread-safe.
 class Textures {
 public:
     explicit Textures(const Scene& scene) : scene_(scene) {}
 
-    // The mean over the parallelogram of the footprint. A footprint smaller than a texel uses the sampler's
-    // magnification filter. Otherwise it is a box filter: the mean of 8 x 8 points, up to 64 along the
-    // longer side, each read bilinearly from the level whose texels have the size of a point's share. sRGB
-    // is decoded before filtering. Returns RGBA, 0 to 1.
+    // The mean over the parallelogram of the footprint, RGBA, 0 to 1. A footprint smaller than a texel
+    // uses the sampler's magnification filter. Otherwise it is a box filter: the mean of 8 x 8 points, or
+    // up to 64 along the longer side. Each point is read bilinearly from the level whose texels match the
+    // point spacing. sRGB is decoded before filtering.
     glm::dvec4 operator()(const Texture& texture, bool srgb, const Footprint& footprint) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Estimates by samples whose number is doubled until a stated confidence is reached.
+// Adaptive sampling: doubles the number of samples until a given confidence is reached.
 #pragma once
 
 #include "compare/reference/sampling.h"
@@ -11,9 +11,9 @@
 
 namespace diptych::reference {
 
-// Sampling goes on until half the 95 % confidence interval is at most samplingError, relative to what is
-// sampled, or until mostSamples; the pixel's uncertainty tells what was reached. If no sample sees a light,
-// no uncertainty is stated: less than samplingError of the light may pass through a gap between the samples.
+// Sampling stops when half the 95 % confidence interval is at most samplingError relative to the estimate,
+// or at mostSamples. The pixel's uncertainty records which was reached. If no sample sees a light, the
+// uncertainty is 0, although up to samplingError of the light may pass through a gap between samples.
 inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
@@ -22,16 +22,17 @@ struct Estimated {
     double uncertainty;  // half the 95 % confidence interval of value.size()
 };
 
-// Eight independent estimates (estimate(round, index)), whose number of samples is doubled until their means
-// agree. `whole`: what the confidence is relative to if the mean is smaller. `piece`: the largest
-// contribution of one sample; if N samples all agree, what they may have missed is, with 95 % confidence,
-// less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
+// Makes eight independent estimates, estimate(round, index), and doubles their number of samples until
+// their means agree. `whole`: the confidence is relative to it if the mean is smaller. `piece`: the
+// largest contribution of one sample. If N samples all agree, the contribution they missed is, with 95 %
+// confidence, less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything
+// All Right?").
 template <class Estimate>
 Estimated untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole,
                          double piece) {
     constexpr std::size_t count = 8;
-    // Stopping as soon as the rounds agree is biased towards stopping too early: of intervals by Student's
-    // 95 %, only 92 % would contain the true value; with this factor, 95 % do.
+    // Stopping at the first agreement is biased toward stopping too early: only 92 % of Student's 95 %
+    // intervals would contain the true value. With this factor 95 % do.
     constexpr double caution = 1.2;
     std::array<Reflected, count> sums;
     std::uint64_t done = 0;

@@ -68,7 +68,7 @@ private:
             tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
     }
 
-    // Two pictures that are the same are one file.
+    // Identical images share one file.
     void writePair(const Comparison& comparison, const DebugMode& mode, ChannelPictures& pictures) {
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
         const auto draw = [&](const Frame& frame, const std::string& name) {
@@ -85,7 +85,8 @@ private:
         for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
     }
 
-    // Writes the difference picture, its figures, and the values script, which also holds the errors.
+    // Writes the error image, its histogram and worst pixels, and the values script, which includes the
+    // errors.
     void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
         const DebugMode& mode = *channel.mode;
         const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of a report that are made of pixels.
+// Writes a report's files that contain pixels.
 #pragma once
 
 #include "compare/report/layout.h"
@@ -10,10 +10,10 @@
 
 namespace diptych {
 
-// Writes the EXRs, pictures and values that the layout names into `folder`, which has the folders that they
-// stand in; of a single file, makes the pictures that the page holds (ReportLayout::embedded). Fills in the
-// figures that the layout shows with the pictures, and the one name of pictures that turn out to be the same.
-// Throws std::runtime_error naming the file.
+// Writes the EXRs, images and values that the layout names into `folder`, whose subfolders must exist.
+// With ReportLayout::single_file, fills ReportLayout::embedded instead. Also fills in the layout's
+// histograms and worst pixels, and the shared name of identical images. Throws std::runtime_error naming
+// the file.
 void encode(const Report& report, ReportLayout& layout, const std::filesystem::path& folder,
             const Stage& progress);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int mostDecades = 12;
 constexpr int wantedBins = 48;
 
-// Smallest and largest of the covered errors that are finite and above 0; {0, 0} where there is none.
+// The smallest and largest covered errors that are finite and above 0; {0, 0} if there are none.
 std::pair<double, double> rangeOf(const Image& errors, const Coverage& coverage) {
     double low = HUGE_VAL, high = 0;
     for (std::size_t i = 0; i < errors.pixels(); ++i) {

@@ -57,7 +57,7 @@ double exposureOfFile(const std::filesystem::path& file) {
         if (frame.channels.contains(static_cast<int>(gpu::DEBUG_lit)))
             return exposureOf(frame, coverage(frame, frame), {}).factor;
     } catch (const std::runtime_error&) {
-        // No file of ours: its first colours are radiance.
+        // Not one of our files: its first colours are radiance.
     }
     const auto colors =
         std::ranges::find_if(picture.layers, [](const PictureLayer& l) { return l.image.components >= 3; });

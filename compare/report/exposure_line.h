@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which exposure pictures got, and taking over that of another picture.
+// Describes the exposure of images, and reads the exposure of another image.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -11,15 +11,15 @@
 
 namespace diptych {
 
-// "exposure 1.3, automatic: 0.18 / log-average luminance 0.14"; of several comparisons with exposures of
-// their own the range, and how all get the same.
+// "exposure 1.3, automatic: 0.18 / log-average luminance 0.14". For several comparisons with different
+// exposures: their range, and how to set one for all.
 std::string exposureLine(const Frame& frame, const PictureChoice& choice);
 std::string exposureLine(const Report& report, const PictureChoice& choice);
 std::string exposureLine(const std::vector<Exposure>& all);  // one per comparison
 Exposure exposureOf(const Report& report, const Comparison& comparison, const PictureChoice& choice);
 
-// The factor that a picture of this linear file gets by itself: of lit, or of the first colours of another
-// renderer's file. Throws std::runtime_error where the file cannot be read or holds no radiance.
+// The automatic exposure factor of a linear image file: from lit, or from the first colours of an external
+// renderer's file. Throws std::runtime_error if the file cannot be read or has no radiance.
 double exposureOfFile(const std::filesystem::path& file);
 
 }  // namespace diptych

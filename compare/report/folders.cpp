@@ -16,11 +16,11 @@ namespace diptych {
 namespace {
 
 constexpr std::size_t longestFolder = 40;
-constexpr std::size_t longestFile = 160;  // a file system allows 255 bytes, endings included
+constexpr std::size_t longestFile = 160;  // a file system allows 255 bytes, including suffixes
 constexpr std::size_t nowhere = ~std::size_t{0};
 
-// FNV-1a of 32 bits, of which a folder shows 24: a thousand scenes of one name have one chance in thirty of a
-// pair.
+// 32-bit FNV-1a, of which folders show 24 bits: a thousand scenes of one name collide with probability
+// 1/30.
 std::uint32_t hashOf(std::string_view text) {
     std::uint32_t hash = 2166136261u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
@@ -37,7 +37,7 @@ std::string sceneFolder(const std::string& scene) {
     return nameOfFolder(path.stem().string(), path.string());
 }
 
-// "0_5s" of 0.5 s: a folder's name has no dot and no plus sign.
+// "0_5s" for 0.5 s: folder names have no dots or plus signs.
 std::string timeFolder(double seconds) {
     std::string name = fmt::format("{}s", seconds);
     std::erase(name, '+');
@@ -45,11 +45,12 @@ std::string timeFolder(double seconds) {
     return name;
 }
 
-// The comparisons that share a Frame are of one scene, camera and time: its number, per frame and comparison.
+// Comparisons that share a Frame have the same scene, camera and time, a view. Stores view indices per
+// frame and comparison.
 struct Views {
     std::vector<std::size_t> frames, comparisons;
-    std::vector<const Frame*> shown;  // per view: a Frame that was drawn in this run
-    std::vector<std::size_t> sizes;   // per view: its comparisons
+    std::vector<const Frame*> shown;  // per view: a Frame rendered in this run
+    std::vector<std::size_t> sizes;   // per view: number of its comparisons
 };
 
 Views viewsOf(const Report& report) {

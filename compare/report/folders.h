@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The folders of a report that has several scenes, cameras or times.
+// Folders of a report with several scenes, cameras or times.
 #pragma once
 
 #include "compare/verdict/comparison.h"
@@ -11,34 +11,33 @@
 
 namespace diptych {
 
-// A name for a folder that depends on `text` alone: letters, digits, hyphens and underscores of it, at most
-// 40, and where that is not all of `identity` six hexadecimal digits of the latter. "gallery" of "gallery";
-// "Box-1c9f03" of "Box" of "scenes/Box.glb".
+// A folder name made from `text`: letters, digits and underscores stay, other characters become hyphens;
+// at most 40 characters. If the result differs from `identity`, six hexadecimal digits of identity's hash
+// follow. "gallery" stays "gallery"; "Box" of "scenes/Box.glb" becomes "Box-1c9f03".
 std::string nameOfFolder(const std::string& text, const std::string& identity);
 
-// A name for a channel's files and for its place in the page, which any name of a layer becomes, and no two
-// names become the same: letters, digits, "_", "-", "+" and dots but the first stay, any other byte is "~"
-// and two hexadecimal digits; of a long one the beginning stands before "~~" and 16 digits of the whole.
-// "beauty~2fleft".
+// A unique name for a channel's files and its anchor in the page. Letters, digits, "_", "-", "+" and dots
+// except a leading one stay; any other byte becomes "~" and two hexadecimal digits. A long name is cut,
+// and "~~" and 16 hash digits follow. Example: "beauty~2fleft".
 std::string nameOfFile(std::string_view name);
 
-// Where the files of frames and of comparisons stand, each empty or ending in a slash.
+// Folders of the files of frames and comparisons, each empty or ending in a slash.
 struct ReportFolders {
     std::vector<std::string> frames, comparisons;
 };
 
-// One scene, camera and time: all stands in the report's own folder. Otherwise every scene has a folder,
-// named after it alone, so that it is called the same whatever else is compared, and in it every camera that
-// was asked for has one, and in that every time that a title says: "entrance/0_5s/". Where these have several
-// comparisons, each has one of its own in there: "forward_plus-against-reference/". Who asks for one scene,
-// camera and time twice finds the second under "NAME-2/".
-// `scene_folder`: of a report of one scene among many, the folder that the scene has there, with a slash at
-// the end, or ""; nothing: the report is whole.
+// With one scene, camera and time, all files are in the report's own folder. Otherwise every scene has a
+// folder named after it alone, so the name does not depend on the other scenes. It contains a folder for
+// every requested camera, and in that one for every time named in a title: "entrance/0_5s/". If such a
+// folder has several comparisons, each has its own: "forward_plus-against-reference/". A repeated scene,
+// camera and time gets "NAME-2/".
+// `scene_folder`: the scene's folder in a report of many scenes, ending in a slash, or ""; unset: the
+// report is complete.
 ReportFolders reportFolders(const Report& report,
                             const std::optional<std::string>& scene_folder = std::nullopt);
 
-// The folder of each of many different scenes, with a slash at the end: called after the scene alone, but of
-// two that would be called the same the second has "-2" behind it.
+// The folder of each of many different scenes, ending in a slash. It is named after the scene alone;
+// repeated names get "-2", "-3".
 std::vector<std::string> sceneFolders(const std::vector<std::string>& scenes);
 
 }  // namespace diptych

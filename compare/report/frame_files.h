@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that `render` writes of a Frame.
+// The files that `render` writes for a Frame.
 #pragma once
 
 #include "compare/files/output.h"
@@ -13,19 +13,19 @@
 
 namespace diptych {
 
-// The channels that pictures show; at least one.
+// The channels to write as images; at least one.
 using ShownChannels = std::vector<const DebugMode*>;
 
-// Of an output of kind png: "x.png", or "x.CHANNEL.png" of each where there are several.
+// For an output of kind png: "x.png", or "x.CHANNEL.png" for each of several channels.
 std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png, const ShownChannels& shown);
 
-// Writes one Frame: an EXR of the requested channels, or pictureFiles(). Throws std::runtime_error naming the
-// file, or the channel where the Frame does not have it.
+// Writes one Frame: an EXR of the requested channels, or pictureFiles(). Throws std::runtime_error naming
+// the file, or the channel that the Frame lacks.
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
                 const ShownChannels& shown, const PictureChoice& choice);
 
-// Writes FRAME.exr, a CHANNEL.png each and frame.json, which lists all, into an existing folder; returns
-// their names.
+// Writes FRAME.exr, a CHANNEL.png for each channel, and frame.json, which lists all files, into an
+// existing folder; returns their names.
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
                                           const std::filesystem::path& folder, const ShownChannels& shown,
                                           const PictureChoice& choice);

@@ -32,7 +32,7 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
     const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
     std::string title =
         fmt::format("{} \u00b7 {}", inFolder(frame.scene, layout.folder), viewTitle(report, frame));
-    // Several comparisons of one scene, camera and time are told apart by their pair.
+    // The pair distinguishes comparisons of one scene, camera and time.
     if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }
@@ -77,12 +77,12 @@ std::string listBox(const char* style, const char* heading, const std::string& i
                                        heading, items);
 }
 
-// "builtin:gallery \u00b7 entrance: ", where there are others.
+// "builtin:gallery \u00b7 entrance: ", if there are several comparisons.
 std::string whereOf(const Report& report, const ReportLayout& layout, const Comparison& comparison) {
     return report.comparisons.size() > 1 ? isolated(titleOf(report, layout, comparison)) + ": " : "";
 }
 
-// The first of `items` as a list; if there are more, their number and where to find them.
+// The first of `items` as a list, then the number of the rest and where to find them.
 std::string firstOf(const std::vector<std::string>& items, const char* elsewhere) {
     constexpr std::size_t most = 40;
     std::string out;
@@ -98,15 +98,14 @@ std::string firstNotes(const Report& report) {
     return listBox("notes", "Read first", firstOf(items, "report.json has all of them"));
 }
 
-// What another renderer said before it failed, to be opened.
+// An external renderer's output before it failed, collapsed.
 std::string saidBefore(const SceneError& error) {
     if (error.output.empty()) return {};
     return fmt::format("<details><summary>output of {}</summary><pre>{}</pre></details>",
                        isolated(error.renderer), isolated(error.output));
 }
 
-// The failures of all comparisons: where to look first. Channels of a single comparison have their cards
-// here.
+// The failures of all comparisons. Channels of a single comparison have their cards here.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const auto* unpaired : {&report.errors, &report.failures})
@@ -125,7 +124,6 @@ std::string failures(const Report& report, const ReportLayout& layout) {
                    firstOf(items, "the comparisons below start with the failed ones"));
 }
 
-// The warnings of all rules.
 std::string warnings(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order)
@@ -136,7 +134,7 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
-// Each note once, with the scenes that it is about where there are others.
+// Each note once, with its scenes if there are several.
 std::string notes(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> all, items;
     for (const Comparison& comparison : report.comparisons) {
@@ -156,7 +154,7 @@ std::string notes(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
 }
 
-// Links to the visual checks: what passes may still be wrong in both paths.
+// Links to the visual checks: a feature may be wrong in both paths and still pass.
 std::string checksLinks(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
@@ -172,7 +170,6 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
                    firstOf(items, "each comparison lists its own"));
 }
 
-// What has changed since an earlier report.
 std::string sinceBox(const Report& report, const ReportTexts& texts) {
     if (!texts.since) return {};
     std::string items;
@@ -202,7 +199,7 @@ std::string usedText(const ChannelDiff& channel) {
                        nameOf(channel.verdict), 100 * share);
 }
 
-// The figure that decides, as measured, and its limit.
+// The deciding metric as measured, and its limit.
 std::string criterionCells(const ChannelDiff& channel) {
     if (!channel.criterion)
         return "<td class=\"soft by\">nothing</td><td class=\"n\"></td><td class=\"n\"></td>";
@@ -211,21 +208,21 @@ std::string criterionCells(const ChannelDiff& channel) {
                        markup(c.figure), number(c.measured), c.least ? "\u2265 " : "", number(c.limit));
 }
 
-// The same under the channel's name, where a page is too narrow for a column of its own.
+// The deciding metric under the channel's name, for pages too narrow for its column.
 std::string judgedBelow(const ChannelDiff& channel) {
     return channel.criterion
                ? fmt::format("<span class=\"soft judged\">{}</span>", markup(channel.criterion->figure))
                : std::string();
 }
 
-// Of a channel that fails: the share of the pixels that do, or that differ where the figure is of all.
+// For a failing channel: the fraction of pixels that fail, or that differ if the metric covers all pixels.
 std::string beyondText(const ChannelDiff& channel) {
     if (channel.verdict != Verdict::fail || !channel.criterion || channel.criterion->pixels == 0) return {};
     return fmt::format("<span class=\"beyond\">{} of the pixels{}</span>",
                        percentText(channel.criterion->share), channel.criterion->differing ? " differ" : "");
 }
 
-// "angle, °": what the figures of the channel's row are, and in which unit, where they have one.
+// "angle, °": pixel error and unit of the channel's row.
 std::string metricAndUnit(const DebugMode& mode) {
     const std::string unit = page::unitOf(mode);
     return std::string(nameOf(mode.metric)) + (unit.empty() ? "" : ", " + unit);
@@ -305,7 +302,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
 
 namespace {
 
-// With --single-file the later sections are text, from which the browser builds nothing until one is opened.
+// With --single-file, later sections are text; the browser parses one only when it is opened.
 std::string laterSections(const ReportLayout& layout, const ReportTexts& texts) {
     std::string out;
     if (layout.single_file)

@@ -10,38 +10,40 @@
 
 namespace diptych {
 
-// Of a report that has its Frames; report and layout must outlive them.
+// Needs the report's Frames; report and layout must outlive the result.
 ReportTexts textsOf(const Report& report, const ReportLayout& layout);
 
-// `texts` stand for what the report's Frames hold of pixels, which they need not have then.
+// The second overload takes everything that depends on pixels from `texts`, so it needs no Frames.
 std::string reportHtml(const Report& report, const ReportLayout& layout);
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
 
-// One comparison, and its title, empty where there is one alone; of a part with numberLater and titleLater in
-// their places.
+// One comparison and its title, which is empty if there is only one comparison. In a part of a report,
+// numberLater and titleLater replace number and title.
 std::string section(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index);
 
-// One comparison as a script that adds it to the page: the contents of a file of layout.sections. That of a
-// part says which file it is and not which comparison.
+// One comparison as a script that adds it to the page: the contents of a file of layout.sections. In a
+// part, the script names its file instead of the comparison.
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 
-// A channel's place in the page, "c0-lit", and a link to it that shows its name; of ReportLayout::ids.
+// A channel's anchor in the page, "c0-lit", and a link to it that shows the channel's name. `comparison`:
+// from ReportLayout::ids.
 std::string cardId(const std::string& comparison, const DebugMode& mode);
 std::string cardLink(const std::string& comparison, const DebugMode& mode);
 
-// Parts of the page. `index` is the number of the comparison.
+// Parts of the page; `index` is the index of the comparison.
 std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index);
 // Empty for one comparison.
 std::string indexTable(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
-// The cards of leadingChannels(), and those of the others.
+// The cards of leadingChannels(), and those of the other channels.
 std::string leadingCards(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string otherCards(const Report& report, const ReportLayout& layout, std::size_t index);
 // Histogram and worst pixels for the card with this `id`.
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id);
 // Empty without a reference.
 std::string closerPathSection(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
-std::string closerPathBox(const Report& report, const ReportLayout& layout, std::size_t index);  // one of it
+// One box of closerPathSection().
+std::string closerPathBox(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string frameTables(const Report& report, const Comparison& comparison);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The visual checks: a table of links, and for each a detail of the pictures that the report already has.
+// The visual checks: a table of links, and for each a detail of the report's images.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/contract/debug_mode.h"
@@ -15,13 +15,13 @@ using page::markup;
 
 namespace {
 
-// Part of the picture, in pixels.
+// Part of an image, in pixels.
 struct Region {
     double x, y, width, height;
 };
 
-// The region around the box with a margin of a third, in the picture's aspect ratio and inside it, enlarged
-// up to eight times.
+// The region around the box with a margin of a third, with the image's aspect ratio and inside it; zoomed
+// at most eight times.
 Region regionAround(const PixelBox& box, const Size& size) {
     const double width = size.width, height = size.height;
     const double share =
@@ -75,7 +75,7 @@ private:
     bool hasBoth(std::size_t channel) const {
         return !pictures_[channel].baseline.empty() && !pictures_[channel].test.empty();
     }
-    // The channel that has the number, or `other` where it was not compared.
+    // The channel with this number, or `other` if it was not compared.
     std::size_t channelOr(gpu::uint mode, std::size_t other) const {
         for (std::size_t i = 0; i < pictures_.size(); ++i)
             if (comparison_.channels[i].mode->number == static_cast<int>(mode) && hasBoth(i)) return i;
@@ -87,15 +87,16 @@ private:
         return npos;
     }
 
-    // Where no light falls, the base colour is shown instead of lit.
+    // Base colour replaces lit where no light falls.
     std::size_t channelFor(const VisualCheck& check) const { return isDark(check.box) ? dark_ : lit_; }
 
-    // Whether less than a tenth of the box reaches a hundredth of white in the picture of lit.
+    // Whether less than a tenth of the box reaches a hundredth of white in the image of lit.
     bool isDark(const PixelBox& box) const {
         const auto lit = left_.channels.find(gpu::DEBUG_lit);
         if (lit == left_.channels.end()) return false;
         const double least = 0.01 / pictures_[lit_].scale.exposure.factor;
-        const auto step = [](int extent) { return std::max(extent / 32, 1); };  // a thousand pixels will do
+        // About a thousand pixels suffice
+        const auto step = [](int extent) { return std::max(extent / 32, 1); };
         int bright = 0, looked = 0;
         for (int y = box.y0; y < box.y1; y += step(box.y1 - box.y0))
             for (int x = box.x0; x < box.x1; x += step(box.x1 - box.x0), ++looked)
@@ -104,7 +105,7 @@ private:
         return bright * 10 < looked;
     }
 
-    // The pictures as SVG definitions, each once; every view refers to them.
+    // The images as SVG definitions, each once; every view refers to them.
     std::string sources() const {
         if (lit_ == npos) return {};
         std::string images;
@@ -167,7 +168,7 @@ private:
             channel == lit_ ? "" : " \u00b7 no light falls there, so its base colour is shown");
     }
 
-    // Places of one row that share a name are distinguished by a number.
+    // Numbers distinguish links of one row with the same name.
     struct Place {
         std::string name, links;
         int count = 0;
@@ -183,7 +184,7 @@ private:
                             : fmt::format("<span title=\"{}\">{}</span>", markup(check.where), markup(text));
     }
 
-    // One row for all checks of a feature that share a sentence.
+    // One row for all checks of a feature with the same sentence.
     std::string rowsOf(const FeatureChecks& feature, std::size_t number) const {
         std::vector<Row> rows;
         for (const VisualCheck& check : feature.checks) {
@@ -215,7 +216,7 @@ private:
     const Frame &left_, &right_;
     const ReportLayout& layout_;
     const std::vector<ChannelPictures>& pictures_;  // per channel
-    const std::string& id_;                         // of the comparison in the page
+    const std::string& id_;                         // the comparison's id in the page
     std::size_t lit_, dark_;                        // dark_: the channel shown where lit is black
     static constexpr std::size_t npos = ~std::size_t{0};
 };

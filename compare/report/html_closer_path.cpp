@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths' errors against the reference, and their difference from each other: which path is closer,
-// where, and by how much.
+// Both paths' errors against the reference and their difference from each other: which path has the lower
+// error, where, and by how much.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 
@@ -18,7 +18,7 @@ std::string cell(const std::string& text, bool best) {
     return fmt::format("<td class=\"n\">{}{}{}</td>", best ? "<b>" : "", text, best ? "</b>" : "");
 }
 
-// One figure of both paths and of their difference, the closer path's in bold.
+// One metric of both paths and of their difference; the lower error is bold.
 template <class Value>
 std::string row(const char* name, const CloserPathChannel& channel, const Value& value) {
     const double first = value(channel.paths[0]), second = value(channel.paths[1]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the errors of a channel are distributed: a histogram, and links to the worst pixels.
+// The distribution of a channel's errors: a histogram, and links to the worst pixels.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
@@ -17,7 +17,7 @@ using page::unitOf;
 
 namespace {
 
-// The bars are stretched over the figure's width; words stand beside them, at percentages of it.
+// The bars are stretched over the figure's width; labels are placed at percentages of it.
 class Histogram {
 public:
     Histogram(const ChannelDiff& channel, const ChannelPictures& pictures)
@@ -39,8 +39,8 @@ public:
 private:
     std::string size(double error) const { return number(error) + unitOf(mode_); }
 
-    // If an error is beyond the limit, the bin that holds the limit is split at it: the part on the right is
-    // coloured as beyond.
+    // If an error exceeds the limit, the bin that contains the limit is split at it. The right part is
+    // coloured as out of tolerance.
     std::string bars() const {
         const std::uint64_t most = std::ranges::max(errors_.bins);
         const double line = drawn() ? binAt(*limit_) : 0;
@@ -78,7 +78,7 @@ private:
     // Whether a logarithmic axis can show the limit.
     bool drawn() const { return limit_ && *limit_ > 0; }
 
-    // A limit outside of the plot is marked at its edge; words() says its size.
+    // A limit outside the plot is marked at its edge; words() states its value.
     std::string limit() const {
         if (!drawn()) return {};
         return fmt::format("<i class=\"limit\" style=\"left:{:.2f}%\"></i>",
@@ -87,7 +87,7 @@ private:
 
     std::string axis() const {
         const int decades = static_cast<int>(errors_.bins.size()) / errors_.bins_per_decade,
-                  step = (decades + 4) / 5;  // six labels at most have room on a phone
+                  step = (decades + 4) / 5;  // at most six labels fit on a phone
         std::string out;
         for (int d = 0; d <= decades; d += step)
             out += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100.0 * d / decades,
@@ -113,7 +113,7 @@ private:
         return out;
     }
 
-    // Of error, in a word or two.
+    // The kind of error, in a word or two.
     std::string kind() const {
         if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
             return channel_.shown_error_name;

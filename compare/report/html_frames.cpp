@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Times, memory, counters, Settings and camera of both Frames, side by side.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/text/json.h"
@@ -127,14 +126,14 @@ std::string camera(const Report& report, const Frame& frame) {
         c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
 }
 
-// What another renderer is granted.
+// The corrections of an external renderer's input.
 std::string grantsOf(const FrameOrigin& origin) {
     return origin.granted.empty()
                ? std::string("external renderer, no corrections")
                : fmt::format("external renderer, corrections: {}", fmt::join(origin.granted, "; "));
 }
 
-// The files of pictures that were not drawn by this program in this run, and the devices of two.
+// The files of images not rendered in this run, and the devices of a cross-device comparison.
 std::string origins(const Frame& a, const Frame& b) {
     std::string rows;
     for (const Frame* frame : {&a, &b}) {

@@ -47,7 +47,7 @@ std::string timeCell(double ms, bool timed) {
     return numberCell(ms, timed ? fmt::format("{:.1f}", ms) : "");
 }
 
-// Of a comparison among others of its scene.
+// The title of a comparison among others of its scene.
 std::string rowTitle(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
     if (!hasSeveralPairs(report)) return viewTitle(report, frame);
@@ -55,7 +55,7 @@ std::string rowTitle(const Report& report, const Comparison& comparison) {
     return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
 }
 
-// The first figure that moved, and all of them where the pointer is.
+// The first metric that moved; a tooltip lists all.
 std::string sinceCell(const Trend& trend) {
     std::string all;
     for (const MovedFigure& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
@@ -99,9 +99,8 @@ std::string line(const Report& report, const ReportLayout& layout, const ReportT
     return fmt::format("<tr data-comparison=\"{}\"{}>{}</tr>\n", layout.ids[index], data, cells);
 }
 
-// The figures of every comparison by channel, from which the page fills a column: { "lit": [failed, used,
-// max, mean, rmse, p99, p999, flip], ... }. A channel that is equal on both sides is left out, and a number
-// has four digits.
+// The metrics of every comparison by channel, which fill the page's columns: { "lit": [failed, used, max,
+// mean, rmse, p99, p999, flip], ... }. Channels equal on both sides are omitted; numbers have four digits.
 std::string figuresOf(const ReportLayout& layout, const ReportTexts& texts) {
     std::string out = "{";
     for (std::size_t i = 0; i < texts.rows.size(); ++i) {
@@ -121,13 +120,13 @@ std::string figuresOf(const ReportLayout& layout, const ReportTexts& texts) {
             channels);
     }
     std::string text = out + "}";
-    // No text ends its element early.
+    // Escapes "</" so that no text ends the script element early.
     for (std::size_t at = text.find("</"); at != text.npos; at = text.find("</", at + 3))
         text.insert(at + 1, "\\");
     return text;
 }
 
-// A choice of what any line has, where they have several: of one there is nothing to choose.
+// A selection among the rows' values; empty if they have a single one.
 std::string choiceOf(const char* name, std::vector<std::string> values) {
     std::ranges::sort(values);
     values.erase(std::ranges::unique(values).begin(), values.end());
@@ -138,7 +137,7 @@ std::string choiceOf(const char* name, std::vector<std::string> values) {
     return fmt::format("<label>{0} <select data-by=\"{0}\"><option></option>{1}</select></label>", name, out);
 }
 
-// What can be chosen: channels in the order of their numbers, as the rows have them.
+// The selectable channels, in the order of the rows.
 std::string channelOptions(const ReportTexts& texts) {
     std::vector<std::string> names;
     for (const IndexRow& row : texts.rows)

@@ -16,11 +16,11 @@
 
 namespace diptych {
 
-// report.json, schema 1. JSON has no infinity: a statistic that is infinite is null, and infinite_pixels then
-// says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
+// report.json, schema 1. JSON has no infinity: infinite statistics are null, and infinite_pixels counts
+// their pixels. A forward-only channel's statistics are all null. `layout` may be nullptr.
 std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since = nullptr);
 
-// The three arrays of it that Frames are needed for, and the text of one's elements as it stands in there,
+// The three arrays of report.json that need Frames; innerJson() returns the text of an array's elements
 // without brackets.
 nlohmann::ordered_json framesJson(const Report& report, const ReportLayout* layout);
 nlohmann::ordered_json comparisonsJson(const Report& report);
@@ -29,8 +29,8 @@ std::string innerJson(const nlohmann::ordered_json& array);
 
 nlohmann::ordered_json jsonOf(const ReportDevice& device);
 
-// The same from pieces: each function gives all that there is of its array, element by element or several at
-// once, to a sink that it is given.
+// Writes report.json in pieces: each function passes all elements of its array to the sink, one or several
+// at once.
 using JsonSink = std::function<void(std::string_view)>;
 struct JsonArrays {
     std::function<void(const JsonSink&)> frames, comparisons, truth;
@@ -38,13 +38,14 @@ struct JsonArrays {
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
                      const Trends* since, const JsonArrays& arrays, const JsonSink& sink);
 
-// One test case per scene x camera x channel; one more where a comparison fails for another reason than a
-// channel. The pictures of a failing channel are named as attachments in `folder`. CI servers resolve them
-// against the working directory of the job, so a relative folder stays relative.
+// One test case per scene, camera and channel, and one more if a comparison fails for another reason. A
+// failing channel's images are attachments in `folder`. CI servers resolve them against the job's working
+// directory, so a relative folder stays relative.
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder);
 
-// One comparison's suite; `folder` with a slash at the end, escaped, or folderLater. And the whole of suites.
+// One comparison's suite, and the document of all suites. `folder`: escaped, ending in a slash, or
+// folderLater.
 JunitSuite junitSuite(const Report& report, const ReportLayout& layout, const std::string& folder,
                       std::size_t index);
 std::string junitFolder(const std::filesystem::path& folder);

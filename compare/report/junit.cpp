@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// In the form that Jenkins, GitLab and GitHub's test reporters read: the elements and attributes of
-// junit-10.xsd of Jenkins' xUnit plugin, and no others.
+// The format that Jenkins, GitLab and GitHub's test reporters read: only elements and attributes of
+// junit-10.xsd of Jenkins' xUnit plugin.
 #include "compare/report/json.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
@@ -25,7 +25,7 @@ std::string failure(const std::string& type, const std::string& message, const s
                        markup(text));
 }
 
-// Servers take what is behind the last dot of a class's name for the class and the rest for its package.
+// Servers split a class name at its last dot into package and class.
 std::string classNameOf(std::string title) {
     std::ranges::replace(title, '.', '_');
     return markup(title);
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    // All channels come from the same two Frames, so each case gets an equal share of their time.
+    // All channels come from the same two Frames, so each case gets an equal part of their time.
     std::string testCase(std::string_view name, const std::string& outcome) const {
         const std::string open =
             fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", classNameOf(title_),
@@ -142,11 +142,11 @@ private:
                attachments(channel, pictures);
     }
 
-    // One a line, as GitLab and Jenkins' attachments plugin look for them. GitLab shows the first: the
-    // difference, where there is one.
+    // One per line, as GitLab and Jenkins' attachments plugin expect. GitLab shows the first: the
+    // difference, if there is one.
     std::string attachments(const ChannelDiff& channel, const ChannelPictures& pictures) const {
         std::string lines;
-        std::set<std::string> attached;  // both sides of equal channels share a picture
+        std::set<std::string> attached;  // both sides of equal channels share an image
         for (const std::string* picture : {&pictures.difference, &pictures.baseline, &pictures.test})
             if (!picture->empty() && attached.insert(*picture).second)
                 lines += fmt::format("[[ATTACHMENT|{}]]\n", folder_ + markup(*picture));

@@ -17,7 +17,7 @@ namespace diptych {
 
 namespace {
 
-// Whether `figure` of a rule is of single errors in the metric that is drawn: the largest, or a percentile.
+// Whether a rule's `figure` limits single errors of the metric in the image: the maximum, or a percentile.
 bool isDrawn(const ChannelDiff& channel, std::string_view figure) {
     const auto isOneOf = [&](std::initializer_list<std::string_view> names) {
         return std::ranges::count(names, figure) > 0;
@@ -39,8 +39,8 @@ std::optional<double> errorLimit(const ChannelDiff& channel) {
                                                        : std::nullopt;
 }
 
-// The error at the end of the colour map: the limit if there is one, so that the picture shows how much of it
-// is used and larger errors stand out; otherwise the largest finite error.
+// The error at the end of the colour map: the limit if there is one, so that larger errors stand out;
+// otherwise the largest finite error.
 double errorTop(const ChannelDiff& channel, const std::optional<double>& limit, const Image& baseline,
                 const Image& test, const Coverage& coverage) {
     if (limit && *limit > 0) return *limit;

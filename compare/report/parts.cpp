@@ -40,18 +40,18 @@ using Json = nlohmann::ordered_json;
 using Place = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
-// Arrays of report.json and the suites of junit.xml, as they stand there.
+// Arrays of report.json and suites of junit.xml, in their final form.
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
 
-// Of pixels, checks and tests: sums of several stay exact in 64 bits and in a double.
+// Limit for counts of pixels, checks and tests: sums stay exact in 64 bits and in a double.
 constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
 
 std::string partText(const Json& json) {
     return jsonText(json, 1) + "\n";
 }
 
-// Names of features are the program's own and live as long as it does; those of a file must, too.
+// Feature names are views of static strings; names from a file are interned to live as long.
 std::string_view kept(const std::string& name) {
     static std::set<std::string> names;
     return *names.insert(name).first;
@@ -154,7 +154,7 @@ Json jsonOf(const ReportPart& part) {
             {"junit", {part.junit.tests, part.junit.failures, part.junit.seconds}}};
 }
 
-// Files that the part names, each once and by one of our own names in the scene's folder.
+// Checks file names of the part: unique, in one of our own formats, and in the scene's folder.
 std::vector<std::string> namesFrom(const Place& json, const std::string& scene_folder,
                                    std::set<std::string>& taken) {
     for (const Place& place : json.each()) {
@@ -167,14 +167,14 @@ std::vector<std::string> namesFrom(const Place& json, const std::string& scene_f
     return json.texts();
 }
 
-// As many as `count`, one for each `of`.
+// Checks that the list has `count` elements, one for each `of`.
 template <class List>
 void checkCount(const Place& json, const char* key, const List& list, std::size_t count, const char* of) {
     if (list.size() != count)
         json.at(key).fail(fmt::format("has {} elements, but there are {} {}", list.size(), count, of));
 }
 
-// Everything that is an index or belongs to a comparison is checked here: what joins parts relies on it.
+// Checks every index and everything that belongs to a comparison; joining parts relies on it.
 ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     ReportPart part;
     part.scene_folder = scene_folder;
@@ -218,7 +218,6 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     return part;
 }
 
-// A text of a part.
 std::string readText(const fs::path& root, const std::string& name) {
     return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
 }
@@ -237,7 +236,7 @@ void replaceAll(std::string& text, std::string_view what, const std::string& by)
         text.replace(at, what.size(), by);
 }
 
-// The section that a part's script holds.
+// The section inside a part's script.
 std::string sectionIn(const fs::path& root, const std::string& script) {
     return named((root / script).string(), [&]() -> std::string {
         const std::string text = textBelow(root, script, json_bytes);
@@ -249,13 +248,12 @@ std::string sectionIn(const fs::path& root, const std::string& script) {
     });
 }
 
-// Whether what the part consists of is there and is what a report is put together of: from here on nothing
-// in it ends a command.
+// Checks that all files of the part exist and are valid, so that joining cannot fail on them later.
 void checkFiles(const fs::path& root, const ReportPart& part) {
     for (const std::vector<std::string>& names : {part.files, part.sections})
         for (const std::string& name : names)
             named((root / name).string(), [&] {
-                // The joined page runs these, as data alone.
+                // The joined page runs these scripts, so they must be data.
                 if (name.ends_with(".js") && !isDataScript(textBelow(root, name, json_bytes)))
                     fail("is a script that contains more than data");
                 return InputFile(root, name).size();
@@ -268,7 +266,7 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
     }
 }
 
-// The parts' devices, in their order.
+// The parts' devices, in order of first use.
 std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
     std::vector<DrawnOn> devices;
     for (const PlacedPart& placed : whole.parts) {
@@ -307,7 +305,7 @@ ReportLayout layoutOf(const WholeReport& whole, const Report& summary, const Rep
             for (const std::string& name : placed.part.texts()) files.push_back(name);
         files.emplace_back(shardManifest);
     }
-    layout.exr = std::move(files);  // whatever there is: files() lists it
+    layout.exr = std::move(files);  // order does not matter: files() lists them
     return layout;
 }
 
@@ -365,7 +363,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
                                          junit};
     for (std::size_t i = 0; i < std::size(partTexts); ++i)
         writeFile(root / (part.scene_folder + partTexts[i]), texts_of_part[i]);
-    // The summary is written from the report itself and read back, so that both ways give the same.
+    // Serializes the full report and reads it back, so that both ways give the same result.
     ReportPart whole = part;
     whole.report = report;
     const Json json = jsonOf(whole);
@@ -447,7 +445,7 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         replaceAll(text, titleLater, sectionTitle(summary, layout, index));
         return text;
     };
-    // A text of each part, one after the other; `inner`: as it stands in there.
+    // Reads one text of each part, one after the other.
     const auto each = [&](std::size_t text, const std::function<void(std::string)>& give) {
         for (const PlacedPart& placed : whole.parts)
             give(readText(placed.root, placed.part.scene_folder + partTexts[text]));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A report of many scenes is put together of parts, one for each scene, which are written as soon as it is
-// compared: what is drawn of one scene is let go before the next, a command that is cut short goes on behind
-// its last part, and parts that were made on several machines make the report that one machine makes of them
-// all.
+// Builds a report of many scenes from parts, one per scene. Each part is written as soon as its scene is
+// compared, so that its Frames can be freed before the next scene. An interrupted command resumes after
+// its last part. Parts from several machines form the same report as one machine would.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -19,9 +18,9 @@
 namespace diptych {
 
 struct ReportPart {
-    std::string scene_folder;  // ReportOptions::scene_folder
-    // What titles, lists and verdicts say of the scene: without pixels, figures and times, but with the time
-    // of comparing.
+    std::string scene_folder;
+    // The scene's titles, lists and verdicts, without pixels, metrics and times except the comparison
+    // time.
     Report report;
     double encode_ms = 0;
     std::vector<std::string> tables;         // per comparison, for a terminal
@@ -30,49 +29,50 @@ struct ReportPart {
     std::vector<IndexRow> rows;         // per comparison
     std::vector<std::string> sections;  // per comparison: its file
     std::vector<Exposure> exposures;    // per comparison
-    std::vector<std::string> files;     // pictures, values and EXRs
-    JunitSuite junit;                   // numbers alone
+    std::vector<std::string> files;     // images, values and EXRs
+    JunitSuite junit;                   // only its counts
 
-    std::vector<std::string> texts() const;  // its files that a report put together needs and does not keep
+    std::vector<std::string> texts() const;  // files that only joining the parts needs
 };
 
-// Writes all files of one scene's report into `root`: those that a whole report has of it, each comparison's
-// section, and the part's own. `part.json` comes last and at once, so that a part which has it is complete.
-// The options have a scene_folder. Throws std::runtime_error naming the file.
+// Writes all files of one scene's report into `root`: those of the final report, each comparison's
+// section, and the part's own. `part.json` is written last and atomically, so a part that has it is
+// complete. `options.scene_folder` must be set. Throws std::runtime_error naming the file.
 ReportPart writePart(const Report& report, const std::filesystem::path& root, const ReportOptions& options);
 
-// Reads it back. Throws std::runtime_error naming the file where it is missing, cut short or not ours.
+// Reads it back. Throws std::runtime_error naming the file if it is missing, truncated or of another
+// format.
 ReportPart readPart(const std::filesystem::path& root, const std::string& scene_folder);
 bool isPartThere(const std::filesystem::path& root, const std::string& scene_folder);
 
-// A part, and the folder that its files are in.
+// A part, and the folder of its files.
 struct PlacedPart {
     ReportPart part;
     std::filesystem::path root;
-    bool kept = false;  // by this command, in a folder of its own: not by a shard, whose owner may change it
+    // Written by this command, in its own folder; false for a shard, whose owner may change it.
+    bool kept = false;
 };
 
 struct WholeReport {
     std::vector<PlacedPart> parts;  // in the order of the report
     std::vector<SceneError> errors;
-    // Of a shard: the text of its manifest, and that the parts stay in the report, which is joined with
-    // others.
+    // For a shard: the text of its manifest. Its parts stay in the report so that shards can be joined.
     std::string shard;
 };
 inline constexpr const char* shardManifest = "shard.json";
 
-// The rows of all its comparisons, in order.
+// The rows of all comparisons, in order.
 std::vector<IndexRow> rowsOf(const WholeReport& whole);
 
-// Put together, without pixels: for titles, lists and the verdict.
+// The joined report without pixels, for titles, lists and the verdict.
 Report summaryOf(const WholeReport& whole);
 
-// Writes the report into `folder` as writeReport() does. Files of parts that are `kept` are linked, or copied
-// where that is impossible; those of others are copied. Throws std::runtime_error naming the file.
+// Writes the report into `folder` as writeReport() does. Files of `kept` parts are linked if possible,
+// otherwise copied; files of other parts are copied. Throws std::runtime_error naming the file.
 void writeWhole(const WholeReport& whole, const Report& summary, const std::filesystem::path& folder,
                 const ReportOptions& options);
 
-// reportTable() of it, and exposureLine(). `all`: else comparisons that pass are left out.
+// reportTable() and exposureLine() of the whole report. `all` false: omits comparisons that pass.
 std::string wholeTable(const WholeReport& whole, const Report& summary, bool all);
 std::string wholeExposureLine(const WholeReport& whole);
 

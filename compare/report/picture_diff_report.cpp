@@ -20,7 +20,8 @@ const PictureChannelDiff& deciding(const PictureDiff& diff) {
     return **std::ranges::max_element(diff.channels, {}, [](const auto& c) { return c->decision.level; });
 }
 
-// Describes the channels as debug modes outside the table; their names refer to strings of the PictureDiff.
+// Describes the channels as debug modes outside the table; their names refer to strings of the
+// PictureDiff.
 std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     std::vector<DebugMode> modes;
     for (const auto& channel : diff.channels) {
@@ -47,7 +48,7 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     return modes;
 }
 
-// Moves the pictures out of the PictureDiff: nothing can be measured after this.
+// Moves the images out of the PictureDiff, which cannot be measured afterwards.
 Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
     Frame frame;
     frame.name = test ? "test" : "reference";
@@ -87,7 +88,7 @@ ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel
     return row;
 }
 
-// Adds both pictures and their comparison; `modes` describes their channels as long as the report lives.
+// Adds both images and their comparison; `modes` must live as long as the report.
 void addTo(Report& report, PictureDiff& diff, const std::vector<DebugMode>& modes,
            std::vector<std::string> command) {
     Comparison& comparison = report.comparisons.emplace_back();

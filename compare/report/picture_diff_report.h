@@ -11,14 +11,13 @@
 
 namespace diptych {
 
-// Writes an EXR of every channel's errors (FLIP's for colours that FLIP judges, else those of the channel's
-// metric), a picture of the errors of the deciding channel, or a folder with the same report as for two
-// paths. Throws std::runtime_error naming the file. `words`: the options of the command line, for commands
-// that repeat it.
+// Writes an EXR of every channel's errors (FLIP for colours with a FLIP rule, else the channel's pixel
+// error), an error image of the deciding channel, or the same report folder as for two paths. Throws
+// std::runtime_error naming the file. `words`: command-line options, for the commands shown in the report.
 void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
                       const std::vector<std::string>& words);
 
-// The same report of several pairs, those of two folders. Throws as writePictureDiff().
+// The same report for several pairs, those of two folders. Throws as writePictureDiff().
 void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
                        const ReportOptions& options, const std::vector<std::string>& words,
                        const std::vector<SceneError>& errors, const std::vector<SceneError>& failures);

@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using TextRow = std::array<std::string, 9>;
 
-// JSON has no infinity: an identical pair's PSNR, an error against a NaN.
+// JSON has no infinity, as in an identical pair's PSNR or an error against a NaN.
 Json finiteOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }

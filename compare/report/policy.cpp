@@ -66,8 +66,8 @@ std::string scriptSource(std::string_view script) {
     return fmt::format("'sha256-{}'", base64(sha256(script)));
 }
 
-// strict-dynamic: the script may add others, and no file is trusted for where it is. Pictures stand beside
-// the page, on disk or on a server, or in it.
+// strict-dynamic: only the script may add scripts; a file's location grants nothing. Images are beside the
+// page, on disk or on a server, or embedded in it.
 std::string pagePolicy(std::string_view script) {
     return fmt::format(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {} "

@@ -17,14 +17,15 @@ double sortable(double value) {
     return std::isfinite(value) ? value : 1e300;
 }
 
-// The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
-// channels judged by what the encoding explains, whose tolerance is each pixel's own.
+// The failing channel that uses the largest fraction of its tolerance. If none fails, the passing one,
+// except channels judged by encoding attribution, which have a tolerance per pixel.
 const ChannelDiff* worstOf(const Comparison& comparison) {
     const ChannelDiff* worst = nullptr;
     for (const bool failing : {true, false}) {
         for (const ChannelDiff& channel : comparison.channels) {
             if ((channel.verdict == Verdict::fail) != failing || !isCompared(channel.verdict)) continue;
-            if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
+            // Their largest error equals the tolerance
+            if (!failing && channel.unexplained_pixels) continue;
             if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
         }
         if (worst) return worst;
@@ -32,7 +33,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
     return nullptr;
 }
 
-// The first of the causes, which are ranked.
+// The causes are ranked; returns the first.
 std::string firstCause(const Comparison& comparison) {
     if (!comparison.explained) return {};
     const Json json = parseOrderedJson(comparison.explained->json);

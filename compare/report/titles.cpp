@@ -34,7 +34,7 @@ std::string viewTitle(const Report& report, const Frame& frame) {
 
 std::string folderOfAll(const Report& report) {
     std::vector<std::string> paths;
-    const bool files = report.device.name.empty();  // diff draws nothing
+    const bool files = report.device.name.empty();  // diff renders nothing
     for (const Frame& frame : report.frames) paths.push_back(files ? frame.origin.file : frame.scene);
     return page::commonFolder(paths);
 }
@@ -118,11 +118,11 @@ std::string withoutNumbers(const std::string& text) {
 std::vector<GroupedNote> groupedNotes(const Report& report) {
     std::vector<GroupedNote> grouped;
     std::vector<std::map<std::string, std::string>> texts;  // of each group, by scene
-    std::map<std::string, std::vector<std::size_t>> alike;  // the groups of a text without numbers
+    std::map<std::string, std::vector<std::size_t>> alike;  // groups with equal text apart from numbers
     for (const Comparison& comparison : report.comparisons)
         for (const std::string& note : notesOf(report, comparison)) {
             const std::string& scene = report.baseline(comparison).scene;
-            // Two texts of one scene are two notes, whatever they differ in.
+            // Two texts of one scene stay two notes.
             std::vector<std::size_t>& groups = alike[withoutNumbers(note)];
             const auto groupOf = [&](bool same) {
                 const auto found = std::ranges::find_if(groups, [&](std::size_t i) {
@@ -163,31 +163,31 @@ void addOnce(std::vector<std::string>& words, const std::string& word) {
     if (std::ranges::count(words, word) == 0) words.push_back(word);
 }
 
-// Scenes named in a line; more are counted.
+// Maximum number of scenes named in a line; the rest are counted.
 constexpr std::size_t scenesNamed = 8;
 
 std::string errorsText(const Report& report) {
     std::vector<std::string> scenes;
-    bool pictures = false;  // not the scene, but one renderer's picture of it
+    bool pictures = false;  // an external renderer's image failed, not the scene
     for (const SceneError& error : report.errors) {
         pictures = pictures || !error.renderer.empty();
         scenes.push_back(error.renderer.empty() ? error.scene
                                                 : fmt::format("{} of {}", error.scene, error.renderer));
     }
-    const bool files = report.device.name.empty();  // diff draws nothing
+    const bool files = report.device.name.empty();  // diff renders nothing
     return fmt::format("{} could not be {}: {}",
                        counted(scenes.size(), files || pictures ? "picture" : "scene"),
                        files ? "compared" : "rendered", listed(scenes, scenesNamed));
 }
 
-// A place, and which of its pairs where it has several: "Box.glb b.exr/deferred".
+// placeOf(), and the pair if the place has several: "Box.glb b.exr/deferred".
 std::string pairPlaceOf(const Report& report, const Comparison& comparison) {
     const std::string place = placeOf(report, comparison);
     if (!hasSeveralPairs(report)) return place;
     return fmt::format("{} {}/{}", place, report.baseline(comparison).name, report.test(comparison).name);
 }
 
-// What a verdict about hardly anything must not be read without.
+// A warning that belongs to a verdict about nearly empty images.
 std::string hardlyAnything(const Report& report) {
     std::vector<std::string> places, why;
     for (const Comparison& comparison : report.comparisons) {
@@ -233,7 +233,7 @@ std::string verdictLine(const Report& report) {
                                            counted(informative, "channel")),
             alone_on_a_side == 0 ? "" : fmt::format(" ({} more exist on one side only)", alone_on_a_side),
             hardlyAnything(report));
-    // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.
+    // A single comparison gets one sentence; several are counted, with the details in parentheses.
     std::string what = others.empty() ? "" : all == 1 ? listed(others, 1) : others.front();
     if (!channels.empty())
         what += fmt::format("{}{} beyond tolerance", what.empty() ? "" : "; ", fmt::join(channels, ", "));

@@ -11,51 +11,51 @@
 
 namespace diptych {
 
-// Whether one scene, camera and time have several comparisons: with an earlier Frame, the reference or
+// Whether one scene, camera and time has several comparisons: with an earlier Frame, the reference or
 // another device.
 bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
 
-// Whether titles and folders say at which time of its animations the Frame is: at any but 0 s, and wherever
-// the report has several times.
+// Whether titles and folders name the Frame's animation time: if it is not 0 s, or the report has several
+// times.
 bool saysTime(const Report& report, const Frame& frame);
-// Camera and, where saysTime(), time: "default view", "entrance, 0.5 s".
+// Camera and, if saysTime(), time: "default view", "entrance, 0.5 s".
 std::string viewTitle(const Report& report, const Frame& frame);
 
-// The folder that all scenes are in, or the two files that diff compared: pages leave it out.
+// The common folder of all scenes, or of the files that diff compared; pages omit it.
 std::string folderOfAll(const Report& report);
 
-// The numbers of the comparisons, failing ones first.
+// The indices of the comparisons, failing ones first.
 std::vector<std::size_t> failingFirst(const Report& report);
 
-// The channels in the order in which people read them: failures, then passes, then forward-only.
+// The channels in reading order: failures, then passes, then forward-only.
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
 
-// The channels whose pictures stand above the table: every one that fails, and lit, which comes second at the
-// latest. Without lit and failures, the first that is compared.
+// The channels whose images are above the table: every failing one, and lit, first or second. Without lit
+// and failures, the first compared channel.
 std::vector<const ChannelDiff*> leadingChannels(const Comparison& comparison);
 
-// The comparison's notes and those of its two Frames, each once.
+// The notes of the comparison and its two Frames, without duplicates.
 std::vector<std::string> notesOf(const Report& report, const Comparison& comparison);
 
-// "3 places to check by eye: texture transforms 2, alpha masks 1"; empty where there are none.
+// "3 places to check by eye: texture transforms 2, alpha masks 1"; empty if there are none.
 std::string checksLine(const Comparison& comparison);
 
-// The text with every number made one and the same: of notes that say it with other numbers.
+// Replaces every number by the same placeholder, to group notes that differ in numbers alone.
 std::string withoutNumbers(const std::string& text);
 
-// Scene, and camera and time where the report has several of that scene: "Box.glb", "Box.glb, camera 1",
+// Scene, and camera and time if the report has several for that scene: "Box.glb", "Box.glb, camera 1",
 // "Box.glb, default view, 0.5 s".
 std::string placeOf(const Report& report, const Comparison& comparison);
 
-// A note and the scenes that it is about, in the report's order.
+// A note and its scenes, in the report's order.
 struct GroupedNote {
     std::string text;  // of the first scene
     std::vector<std::string> scenes;
-    bool varies = false;  // other scenes have other numbers in it
+    bool varies = false;  // its numbers differ between scenes
 };
-// The notes of all comparisons, each once; of several scenes, whatever numbers are in it.
+// The notes of all comparisons, without duplicates; notes of several scenes may differ in numbers.
 std::vector<GroupedNote> groupedNotes(const Report& report);
 
 // "bad.glb: is cut short", whether or not the message begins with the name.
@@ -64,8 +64,9 @@ std::string errorText(const SceneError& error);
 // "a, b and 3 more": at most `most` of the names.
 std::string listed(const std::vector<std::string>& names, std::size_t most);
 
-// "pass: all 14 channels are within tolerance", "FAIL: lit, normals beyond tolerance", "FAIL: 20 of 26
-// comparisons failed: Box.glb, ... (lit beyond tolerance)"; scenes that could not be drawn come first.
+// "pass: all 14 compared channels are within tolerance", "FAIL: lit, normals beyond tolerance", "FAIL: 20
+// of 26 comparisons failed: Box.glb, ... (lit beyond tolerance)". Scenes that could not be rendered come
+// first.
 std::string verdictLine(const Report& report);
 
 }  // namespace diptych

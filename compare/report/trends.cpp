@@ -26,16 +26,16 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Place = JsonAt<nlohmann::json>;
 
-// Of a comparison in the earlier report.
+// A comparison in the earlier report.
 struct Earlier {
     std::string scene, verdict;
-    std::map<std::string, std::map<std::string, double>> channels;  // figures by name
+    std::map<std::string, std::map<std::string, double>> channels;  // metrics by name
 };
 
 struct EarlierReport {
     std::string device;
     std::map<std::string, Earlier> comparisons;
-    std::map<std::string, double> noise;  // by scene and channel: of both paths, the largest of all views
+    std::map<std::string, double> noise;  // by scene and channel: twice the largest of any frame
 };
 
 constexpr std::pair<const char*, double IndexChannel::*> judged[] = {{"max", &IndexChannel::max},
@@ -44,7 +44,7 @@ constexpr std::pair<const char*, double IndexChannel::*> judged[] = {{"max", &In
                                                                      {"p99", &IndexChannel::p99},
                                                                      {"p999", &IndexChannel::p999}};
 
-// Members of a report that are large and say nothing here: a report of thousands is read without them.
+// Large members of a report that are not needed here; skipping them keeps reports of thousands readable.
 bool isLeftOut(const std::string& key) {
     static const std::set<std::string> names{
         "settings", "passes",     "figures", "explanation",  "marks", "notes", "marks_found",
@@ -53,7 +53,7 @@ bool isLeftOut(const std::string& key) {
     return names.contains(key);
 }
 
-// JSON has null for what is infinite.
+// JSON has null for infinity.
 double figureIn(const Place& json, const char* name) {
     return json.has(name) && json.at(name).json().is_number() ? json.at(name).number() : 1e300;
 }

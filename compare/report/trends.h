@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has changed since an earlier report.
+// Changes since an earlier report.
 #pragma once
 
 #include "compare/report/texts.h"
@@ -15,7 +15,7 @@ namespace diptych {
 enum class TrendKind { same, fails_now, mended, moved, fresh };
 std::string_view nameOf(TrendKind kind);  // "same", "new failure", "mended", "moved", "new"
 
-// A figure of a channel that is further from what it was than two runs of one path are from each other.
+// A channel's metric that changed by more than the noise between two runs.
 struct MovedFigure {
     std::string channel, figure;
     double from = 0, to = 0, noise = 0;  // 1e300: infinite
@@ -23,26 +23,26 @@ struct MovedFigure {
 
 struct Trend {
     TrendKind kind = TrendKind::same;
-    std::vector<MovedFigure> moved;  // whatever the kind
+    std::vector<MovedFigure> moved;  // for every kind
 };
 
 struct Trends {
-    std::string report;  // as it was given
-    std::string device;  // of the earlier report, where it is another; else empty
+    std::string report;  // as given by the user
+    std::string device;  // of the earlier report if it differs; else empty
     std::vector<Trend> comparisons;
-    std::vector<std::string> gone;  // scenes of comparisons that the earlier report alone has
+    std::vector<std::string> gone;  // scenes whose comparisons only the earlier report has
 };
 
-// Of the comparisons of a report, whose rows these are. The largest error, mean, root mean square and
-// percentiles of a channel change by no more than its errors do at any pixel, so that a figure has moved
-// where it is off by more than the largest differences of two runs, of both paths and both reports, added up:
-// by anything on a CPU, where runs are the same. FLIP, which is no such figure, and times are not judged.
-// `earlier`: a report.json or the folder that it is in. Throws std::runtime_error naming it where it is none.
+// Trends of a report's comparisons; `rows` are its rows. Maximum, mean, RMSE and percentiles change by no
+// more than the error of any pixel. So a metric has moved if it changed by more than the noise: the
+// largest differences of two runs, summed over both paths and both reports. On a CPU runs are identical,
+// and any change counts. FLIP, which has no such bound, and times are not judged. `earlier`: a report.json
+// or its folder. Throws std::runtime_error naming it if it is not a report.
 Trends trendsSince(const std::filesystem::path& earlier, const Report& report,
                    const std::vector<IndexRow>& rows);
 
 nlohmann::ordered_json jsonOf(const Trends& trends, const Report& report);
-// Lines for people: how many of each kind, and which scenes.
+// Lines for people: the count of each kind, and its scenes.
 std::vector<std::string> trendLines(const Trends& trends, const Report& report);
 std::string movedText(const MovedFigure& moved);  // "lit max 0.01 -> 0.02"
 

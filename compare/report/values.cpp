@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t mostExactBytes = std::size_t{1} << 20;
 
-// The largest finite magnitude; 0 where there is none.
+// The largest finite magnitude; 0 if there is none.
 double largestOf(const Image& image) {
     float largest = 0;
     for (const float v : image.data)
@@ -27,7 +27,7 @@ double largestOf(const Image& image) {
     return double{largest};
 }
 
-// 2^result x `largest` is in [2^14, 2^15): below the largest half, 65504.
+// 2^result x `largest` is in [2^14, 2^15), below the largest half, 65504.
 int exponentFor(double largest) {
     return largest > 0 ? 14 - std::ilogb(largest) : 0;
 }
@@ -46,10 +46,10 @@ bool holdsExactly(const Image& image, int exponent) {
 using Write = std::function<void(std::string_view)>;
 
 char base91Letter(unsigned digit) {
-    return static_cast<char>('#' + digit + ('#' + digit >= '\\'));  // without the backslash
+    return static_cast<char>('#' + digit + ('#' + digit >= '\\'));  // skips the backslash
 }
 
-// Whole groups of 13 bytes are whole characters, so that pieces of them join.
+// 13 bytes encode to whole characters, so groups of 13 bytes can be encoded separately.
 constexpr std::size_t base91Group = 13;
 std::string base91(std::string_view bytes) {
     std::string out;
@@ -75,7 +75,7 @@ std::string base91(std::string_view bytes) {
     return out;
 }
 
-// Writes planes split into bytes, each deflated by itself and in base 91; the page reverses this.
+// Writes planes split into bytes, each deflated separately and in base 91; the page reverses this.
 class Planes {
 public:
     Planes(int width, std::size_t pixels, int bits, const Write& write)
@@ -88,8 +88,8 @@ public:
         deflated_.resize(libdeflate_zlib_compress_bound(compressor_.get(), plane_.size()));
     }
 
-    // wordOf(i): the word of pixel i. `smooth`: neighbours are alike, so that their differences are stored;
-    // those of noise, as errors are, would be noisier.
+    // wordOf(i): the word of pixel i. `smooth`: stores differences of neighbours; noisy data such as
+    // errors compresses better without.
     template <class Word>
     void add(bool smooth, const Word& wordOf) {
         std::uint32_t left = 0, any = 0;
@@ -108,14 +108,14 @@ public:
     }
 
 private:
-    // Level 6 takes a quarter longer than level 4 and saves a twentieth; zlib's level 6 takes three times as
-    // long for the same size.
+    // Level 6 takes a quarter longer than level 4 and saves a twentieth; zlib's level 6 takes three times
+    // as long for the same size.
     static constexpr int level = 6;
 
     void deflate() {
         const std::size_t bytes = libdeflate_zlib_compress(compressor_.get(), plane_.data(), plane_.size(),
                                                            deflated_.data(), deflated_.size());
-        // In pieces, so that the text, which is larger, need not be there as a whole.
+        // Written in pieces, so that the whole text, which is larger, is never in memory.
         constexpr std::size_t piece = base91Group << 13;
         const std::string_view all(deflated_.data(), bytes);
         for (std::size_t at = 0; at < bytes; at += piece) write_(base91(all.substr(at, piece)));
@@ -130,7 +130,7 @@ private:
     bool first_ = true;
 };
 
-// One word of a component; 32 bits are not scaled. A double holds every float times every scale exactly.
+// One word of a component; 32 bits are not scaled. A double stores every scaled float exactly.
 struct WordOf {
     int bits;
     double scale;
@@ -162,7 +162,7 @@ void valuesScript(const std::string& name, const ChannelValues& values, const Wr
                                       {"exponent", word.bits == 32 ? 0 : exponent},
                                       {"errorUnit", unit > 0 ? unit : 1.0}};
     std::string begin = "diptychValues(" + nlohmann::json(name).dump() + "," + head.dump();
-    begin.pop_back();  // the brace, since `data` belongs to it
+    begin.pop_back();  // the brace: `data` follows
     write(begin + ",\"data\":[");
 
     Planes planes(first.width, first.pixels(), word.bits, write);

@@ -14,14 +14,13 @@ Placement placementIn(const CanvasRect& rect, const Size& size, const CanvasView
     placement.scale = view.zoom > 0 ? view.zoom : fits;
     const double x = view.zoom > 0 ? view.centre_x : 0.5 * size.width;
     const double y = view.zoom > 0 ? view.centre_y : 0.5 * size.height;
-    // On whole pixels of the window, so that a whole factor makes each pixel equally large.
+    // Snaps to window pixels, so that an integer zoom makes all image pixels equally large.
     placement.left = std::round(rect.x + 0.5 * rect.width - x * placement.scale);
     placement.top = std::round(rect.y + 0.5 * rect.height - y * placement.scale);
     return placement;
 }
 
-// What a row or column of the window shows: a pixel of the picture, -1 beside it, and whether a grid line
-// lies there.
+// Content of a window row or column: an image pixel, or -1 outside, and whether a grid line is there.
 struct Sample {
     int pixel = -1;
     bool line = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the panels lie in the window, and their pixels there. Exact: a display value is that of the picture,
-// whatever the zoom. No window and no device.
+// Places the panels in the window and composes their pixels. Exact: display values equal the image's at
+// any zoom. Needs no window or device.
 #pragma once
 
 #include "compare/viewer/order.h"
@@ -23,42 +23,44 @@ struct CanvasRect {
     }
 };
 
-// How the panels are looked at.
+// View of the panels.
 struct CanvasView {
     Layout layout = Layout::wipe;
-    double wipe = 0.5;   // share of the canvas that shows the left panel
-    bool other = false;  // flicker: the panels change places; over a difference the right one is shown
-    double zoom = 0;     // window pixels a pixel; 0: as large as fits
-    double centre_x = 0, centre_y = 0;  // zoomed: the picture's place in the middle, pixels
+    double wipe = 0.5;  // fraction of the canvas for the left panel
+    // Flicker: the panels are swapped; instead of a difference, the right one is shown.
+    bool other = false;
+    double zoom = 0;                    // window pixels per image pixel; 0: as large as fits
+    double centre_x = 0, centre_y = 0;  // zoomed: the image position at the panel's centre, pixels
     bool operator==(const CanvasView&) const = default;
 };
 
-// From the picture to the window: x at left + x * scale, y likewise.
+// Maps image to window: x to left + x * scale, y likewise.
 struct Placement {
     double left = 0, top = 0, scale = 1;
 };
 
-// A panel's place in the window, `canvas` being the part that has pictures.
+// A panel's position in the window; `canvas` is the part of the window for images.
 struct PanelPlace {
-    std::size_t panel = 0;  // into Shown::panels; 2: the difference
-    CanvasRect rect;        // that shows it, in the window
+    std::size_t panel = 0;  // index into Shown::panels; 2: the difference
+    CanvasRect rect;        // visible part of the panel, in the window
     Placement placement;
 };
 
-// Of pictures of `size`, which is that of the order: a smaller picture fills the same place.
+// For images of the requested `size`; a smaller image is scaled to the same rectangle.
 std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
                                  bool difference);
 
 struct PixelUnder {
     std::size_t panel = 0;
-    PixelPlace pixel;  // of a picture of the order's size
+    PixelPlace pixel;  // of an image of the requested size
 };
-// The pixel at a place of the window; nothing beside the pictures.
+// The pixel at a window position; empty outside the images.
 std::optional<PixelUnder> pixelUnder(const std::vector<PanelPlace>& places, const Size& size, double x,
                                      double y);
 
-// The canvas's pixels, 4 bytes each, alpha 255, row 0 on top. Around each pixel a line from `gridFrom` on.
-inline constexpr double gridFrom = 8, valuesFrom = 64;  // window pixels a pixel
+// The canvas's pixels, 4 bytes each, alpha 255, row 0 on top. From `gridFrom` on, lines separate image
+// pixels.
+inline constexpr double gridFrom = 8, valuesFrom = 64;  // window pixels per image pixel
 std::vector<std::uint8_t> composed(const Shown& shown, const CanvasRect& canvas,
                                    const std::vector<PanelPlace>& places, bool bgr);
 

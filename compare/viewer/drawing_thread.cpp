@@ -38,23 +38,22 @@ constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), depthMode = static_cast<i
                ids = static_cast<int>(gpu::DEBUG_material_id),
                counts = static_cast<int>(gpu::DEBUG_light_count);
 
-// Frames of both paths of a picture that moves; with what the host does beside them some 15 pictures a
-// second, and a key is seen within two of them.
+// Target for rendering both paths while moving, ms. With the host's work that gives about 15 images a
+// second, and a key takes effect within two of them.
 constexpr double movingMs = 40;
-constexpr int leastShadowSize = 256;  // texels, while it moves
-// A still picture that takes longer is preceded by a smaller one.
+constexpr int leastShadowSize = 256;  // texels, while moving
+// A still image that takes longer is preceded by a smaller one.
 constexpr double patienceMs = 250;
-// How often what is done of the reference is shown.
+// Interval between updates of the reference.
 constexpr std::chrono::milliseconds referencePause{200};
-// So many times a lost device is made anew, one after the other, before that is given up until something else
-// is asked for.
+// Number of consecutive recoveries from a lost device before giving up until the next request.
 constexpr int mostRecoveries = 3;
 
 double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Thrown out of work that nobody wants any more.
+// Aborts work that is no longer needed.
 struct Superseded {};
 
 double durationOf(const Animation& animation) {
@@ -70,8 +69,8 @@ std::vector<int> everyChannel() {
     return modes;
 }
 
-// While it moves, pixels that no light reaches count as background, which only a capture tells apart: the
-// pipelines that are timed write light alone. The depth is 1 or 0, for coverage().
+// While moving, unlit pixels count as background, because timed pipelines write only light. The depth
+// becomes 1 or 0, for coverage().
 void guessBackground(Frame& frame) {
     const Image& light = frame.channels.at(lit);
     Image near(light.width, light.height, 1);
@@ -109,7 +108,7 @@ struct DrawingThread::State {
         thread.join();
     }
 
-    // ---- shared with the interface, under `mutex` ----------------------------------------------------
+    // ---- shared with the interface, under `mutex` -----------------------------------------------------
 
     const DrawingOptions options;
     mutable std::mutex mutex;
@@ -128,21 +127,21 @@ struct DrawingThread::State {
     std::uint64_t validation_messages = 0;
     std::string first_validation_message;
 
-    // ---- of the drawing thread alone -------------------------------------------------------------------
+    // ---- used by the drawing thread alone -------------------------------------------------------------
 
-    Order order;   // that is being worked on
-    Subject both;  // of it, whichever path is the right panel's
+    Order order;   // the current request
+    Subject both;  // the same, independent of the right panel's path
     std::atomic<bool> more_of_reference{false};
     std::optional<Device> device;
     std::shared_ptr<PipelineSet> pipelines;
     std::shared_ptr<const Scene> scene;
-    std::string scene_error;        // why the scene that was asked for last is not the one that is shown
-    std::optional<Subject> loaded;  // scene, reading and environment of what is loaded, or could not be
+    std::string scene_error;        // why the last requested scene is not shown
+    std::optional<Subject> loaded;  // scene, reading and environment that were loaded, or failed to load
     std::unique_ptr<SceneViews> views;
     std::unique_ptr<Renderer> renderer;
-    // Deferred, forward+, of `drawn`; those of a verdict are its report's.
+    // Deferred, forward+, of `drawn`; those of a verdict point into its report.
     std::array<std::shared_ptr<const Frame>, 2> frames;
-    std::optional<Subject> drawn;  // still and whole
+    std::optional<Subject> drawn;  // still and at full size
     std::vector<int> drawn_channels;
     std::optional<std::uint64_t> shown_order, failed_order;
     std::optional<Subject> timed, judged_of;
@@ -150,21 +149,21 @@ struct DrawingThread::State {
     std::optional<std::pair<Subject, PixelPlace>> told;
     std::optional<std::pair<std::filesystem::path, std::shared_ptr<const Frame>>> stored;
     std::array<PathFacts, 2> paths;
-    PictureCost cost;                  // of pictures that move, once their pipelines are there
-    std::size_t compiled = 0;          // pipelines after the last picture
-    std::optional<Exposure> exposure;  // of the last still picture
+    PictureCost cost;                  // of moving images, once their pipelines exist
+    std::size_t compiled = 0;          // number of pipelines after the last image
+    std::optional<Exposure> exposure;  // of the last still image
     Look exposure_of;
     Clock::time_point reference_shown{};
     int recoveries = 0;
-    std::uint64_t of_lost_devices = 0;  // messages of the layers
+    std::uint64_t of_lost_devices = 0;  // messages of the validation layers
     bool loading = false;
-    std::shared_ptr<const Scene> reference_scene;  // that the reference is of
+    std::shared_ptr<const Scene> reference_scene;  // the reference's scene
     ReferenceThread reference;
-    Progress progress;   // throws Superseded where nobody wants the work any more
-    Progress comparing;  // of parallel work, and of reading a scene, which are seen to their end
+    Progress progress;   // throws Superseded if the work is no longer needed
+    Progress comparing;  // of parallel work and of reading a scene, which always finish
     std::thread thread;
 
-    // ---- the loop --------------------------------------------------------------------------------------
+    // ---- the loop -------------------------------------------------------------------------------------
 
     void run() {
         yieldToInterface();
@@ -185,7 +184,7 @@ struct DrawingThread::State {
         device.reset();
     }
 
-    // Waits until there is something to do; false: the end.
+    // Waits for work; false: stop.
     bool next() {
         std::unique_lock lock(mutex);
         for (;;) {
@@ -198,11 +197,11 @@ struct DrawingThread::State {
                 waiting = false;
                 return true;
             }
-            // What the reference still draws is part of what was asked for.
+            // A reference in progress is part of the request.
             waiting = !drawsReference();
             status.doing.clear();
             if (more_of_reference && order.look.against == Against::reference && !order.moving) {
-                // What is done of a reference is shown now and then.
+                // Shows partial references at intervals.
                 signal.wait_until(lock, reference_shown + referencePause);
             } else {
                 options.wake();
@@ -225,14 +224,14 @@ struct DrawingThread::State {
         return order.look.against == Against::reference && more_of_reference &&
                (reference.done() >= 1 || Clock::now() >= reference_shown + referencePause);
     }
-    // Whether the picture that is being drawn is that of this view.
+    // Whether the reference in progress belongs to this view.
     bool wantsReference() const {
         return order.look.against == Against::reference && !order.moving &&
                reference.settings() == referenceSettings(order.subject.settings);
     }
-    // Not while the reference takes the processors.
+    // Not while the reference uses all cores.
     bool wantsTimes() const { return timed != both && !drawsReference(); }
-    // What the verdict is against: the reference once it is there.
+    // The baseline of the verdict: the reference once it is finished.
     Against judgedAgainst() const {
         return order.look.against == Against::reference && reference.done() < 1 ? Against::paths
                                                                                 : order.look.against;
@@ -240,7 +239,7 @@ struct DrawingThread::State {
     bool wantsVerdict() const { return judged_of != both || judged_against != judgedAgainst(); }
     bool wantsStory() const { return order.pixel && told != std::pair(both, *order.pixel); }
 
-    // One piece; the most urgent first.
+    // One step; the most urgent first.
     void work() {
         if (const auto folder = takeSave()) return write(*folder);
         if (reference.done() < 1 && !wantsReference()) reference.stop();
@@ -288,7 +287,7 @@ struct DrawingThread::State {
         options.wake();
     }
 
-    // ---- device and scene --------------------------------------------------------------------------------
+    // ---- device and scene -----------------------------------------------------------------------------
 
     void dropRenderer() {
         renderer.reset();
@@ -296,7 +295,7 @@ struct DrawingThread::State {
         pipelines.reset();
     }
 
-    // Of the layers, by all devices so far.
+    // Counts validation messages of all devices so far.
     void countMessages() {
         if (!device || device->validationMessages() == 0) return;
         const std::lock_guard lock(mutex);
@@ -323,7 +322,7 @@ struct DrawingThread::State {
         timed.reset();
     }
 
-    // Whether the device was lost, and there is a new one to try with.
+    // Recreates a lost device; false if there was no loss, or too many.
     bool recovered(const std::string& why) {
         const bool lost = why.find("lost") != std::string::npos;
         if (!lost || ++recoveries > mostRecoveries) return false;
@@ -341,7 +340,7 @@ struct DrawingThread::State {
                loaded->settings.env == subject.settings.env;
     }
 
-    // A scene that cannot be read leaves the one before it where it is.
+    // If a scene cannot be read, the previous one stays.
     void readScene() {
         if (isLoaded(order.subject)) {
             if (!scene) throw std::runtime_error(scene_error);
@@ -386,24 +385,23 @@ struct DrawingThread::State {
         paths = {};
     }
 
-    // ---- pictures ----------------------------------------------------------------------------------------
+    // ---- images ---------------------------------------------------------------------------------------
 
     Settings settingsOf(Path path, const Size& size) const {
         const Size& full = order.subject.settings.size;
         Settings settings = order.subject.sides.of(withoutReference(order.subject.settings), path);
         settings.size = size;
-        // Shadow maps cost what they cost however small the picture is, so they shrink with it.
+        // The cost of shadow maps does not depend on the image size, so they shrink with it.
         settings.shadow_size = std::max(std::min(settings.shadow_size, leastShadowSize),
                                         settings.shadow_size * size.width / std::max(1, full.width));
         if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
         return settings;
     }
 
-    // Views of the cameras that were passed on the way are of no more use.
+    // Views of intermediate cameras are not needed again.
     void forgetViews() { views->clear(); }
 
-    // lit alone, by the pipelines that are timed: nothing needs to be compiled for it, and little is read
-    // back.
+    // Renders lit alone by the timed pipelines: nothing is compiled for it, and little is read back.
     std::array<Frame, 2> drawLit(const Size& size) {
         const std::array settings{settingsOf(drawn_paths[0], size), settingsOf(drawn_paths[1], size)};
         PreparedFrames prepared = renderer->prepare(settings);
@@ -435,7 +433,7 @@ struct DrawingThread::State {
         return render;
     }
 
-    // A picture that moves is seen to its end: the next order comes before it is done, and so would none be.
+    // A moving image always finishes; otherwise the next request would abort every one.
     std::array<Frame, 2> drawChannels(const Size& size, const std::vector<int>& channels, bool passing) {
         RenderOptions render = channelOptions(channels);
         std::array<Frame, 2> result;
@@ -476,7 +474,7 @@ struct DrawingThread::State {
         }
     }
 
-    // A still picture that takes long is shown smaller first.
+    // Shows a smaller image first if a still one takes long.
     void drawSmallerFirst() {
         const Size full = order.subject.settings.size;
         if (drawn == both) return;
@@ -514,8 +512,8 @@ struct DrawingThread::State {
         const std::array<const Frame*, 2> now{passing ? &passed[0] : frames[0].get(),
                                               passing ? &passed[1] : frames[1].get()};
         if (!known) {
-            // The first frame of each pipeline compiles it, and says little of the next. What the host does
-            // beside the frames is left out, as it is of those that are timed.
+            // The first frame of each pipeline includes compilation, so it is ignored. Like timed frames,
+            // this excludes the host's own work.
             const double frames_ms = now[0]->time.median + now[1]->time.median;
             if (passing && compiled == renderer->pipelines())
                 cost.add(double(size.width) * size.height, frames_ms > 0 ? frames_ms : msSince(start));
@@ -525,7 +523,7 @@ struct DrawingThread::State {
         show(now, size, passing, start);
     }
 
-    // The Frame that stands left; nothing where it is another path's.
+    // The left panel's Frame; nullptr if that is the other path's.
     std::shared_ptr<const Frame> leftFrame(bool passing, const Frame& under, Shown& into) {
         if (order.look.against == Against::file) return storedFrame();
         if (order.look.against != Against::reference || passing) return nullptr;
@@ -564,7 +562,7 @@ struct DrawingThread::State {
         const std::size_t right = order.subject.settings.path == drawn_paths[0] ? 0 : 1;
         const std::shared_ptr<const Frame> left = leftFrame(passing, *now.at(right), *next);
         const Frame& baseline = left ? *left : *now.at(1 - right);
-        // An exposure that is found anew for every smaller picture would flicker.
+        // Recomputing the exposure for every smaller image would flicker.
         if (!passing || !exposure || exposure_of.picture().exposure != order.look.exposure ||
             exposure_of.ev100 != order.look.ev100 || exposure_of.tonemap != order.look.tonemap) {
             exposure = exposureOf(*now.at(1 - right), *now.at(right), order.look);
@@ -591,7 +589,7 @@ struct DrawingThread::State {
         options.wake();
     }
 
-    // ---- what a still picture has besides --------------------------------------------------------
+    // ---- results beside a still image -----------------------------------------------------------------
 
     void time() {
         const std::array settings{settingsOf(drawn_paths[0], order.subject.settings.size),
@@ -624,7 +622,7 @@ struct DrawingThread::State {
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
             if (judged_of == both && drawn == both && has(everyChannel())) {
-                pair.push_back(*frames.at(i));  // against something else this time
+                pair.push_back(*frames.at(i));  // only the baseline changed
                 continue;
             }
             render.progress =
@@ -657,7 +655,7 @@ struct DrawingThread::State {
         }
         judged_of = both;
         judged_against = against;
-        // Every channel is there from now on.
+        // Every channel exists from now on.
         for (std::size_t i = 0; i < 2; ++i)
             for (const Frame& frame : next->report.frames)
                 if (frame.settings.path == drawn_paths.at(i))
@@ -695,8 +693,7 @@ struct DrawingThread::State {
         story = std::move(next);
     }
 
-    // ---- files
-    // -----------------------------------------------------------------------------------------------
+    // ---- files ----------------------------------------------------------------------------------------
 
     std::optional<std::filesystem::path> takeSave() {
         const std::lock_guard lock(mutex);
@@ -727,7 +724,7 @@ struct DrawingThread::State {
             }
             line = fmt::format("written: {}.*, .exr and .png of both paths", stem.string());
         } catch (const Superseded&) {
-            // A newer order comes first.
+            // A newer request comes first.
             const std::lock_guard lock(mutex);
             if (!save_to) save_to = folder;
             throw;

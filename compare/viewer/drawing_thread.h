@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws what the interface asks for, so that the interface never waits: the scene, both paths' pictures,
-// their times, the verdict, a pixel's story and the reference, each as soon as nothing more urgent is asked
-// for.
+// Renders requests in the background, so that the interface never waits: the scene, both paths' images,
+// their times, the verdict, a pixel breakdown and the reference, the most urgent first.
 #pragma once
 
 #include "compare/verdict/comparison.h"
@@ -19,37 +18,37 @@ namespace diptych::viewer {
 struct DrawingOptions {
     DeviceOptions device;
     CompareOptions compare;  // rules and pixels of the verdict
-    // Called from another thread whenever there is something new to show.
+    // Called from another thread whenever there is a new result.
     std::function<void()> wake;
-    // For tests: called before each picture; what it throws is taken for the device's.
+    // For tests: called before each image; its exceptions count as the device's.
     std::function<void()> before_picture{};
 };
 
-// The interface's side. Every function returns at once and may be called from one thread.
+// The interface's side. Every function returns at once; call them from one thread.
 class DrawingThread {
 public:
     explicit DrawingThread(DrawingOptions options);
-    ~DrawingThread();  // waits for the frame that is being drawn
+    ~DrawingThread();  // waits for the current frame
     DrawingThread(const DrawingThread&) = delete;
     DrawingThread& operator=(const DrawingThread&) = delete;
 
-    // What is wanted from now on. Work for an earlier order that nobody wants any more ends at its next step.
-    // An order is numbered here; the number is returned.
+    // Replaces the request. Work for an earlier request that is no longer needed stops at its next step.
+    // Returns the number given to the request.
     std::uint64_t ask(Order order);
 
-    // Writes the shown channel of both paths as PNG and all channels as EXR, NAME.deferred.png and so on, of
-    // the order asked for last; writes nothing over files that are there.
+    // Writes the visible channel of both paths as PNG and all channels as EXR, NAME.deferred.png and so
+    // on, for the last request. Never overwrites files.
     void save(const std::filesystem::path& folder);
-    std::string saved();  // what save() wrote, or why it could not, in one line, once; empty: nothing new
+    std::string saved();  // one line, once: files written by save(), or its error; empty: nothing new
 
-    std::shared_ptr<const Shown> shown() const;  // nullptr before the first picture
+    std::shared_ptr<const Shown> shown() const;  // nullptr before the first image
     std::shared_ptr<const Judged> judged() const;
     std::shared_ptr<const Story> story() const;
-    std::shared_ptr<const SceneFacts> facts() const;  // of the scene that is loaded; nullptr: none is
+    std::shared_ptr<const SceneFacts> facts() const;  // of the loaded scene; nullptr: none
     Status status() const;
-    bool idle() const;  // all that was asked for is there
+    bool idle() const;  // the request is complete
     std::string device() const;
-    // Messages of the validation layers, of all devices so far.
+    // Number of validation-layer messages from all devices so far.
     std::uint64_t validationMessages() const;
     std::string firstValidationMessage() const;
 

@@ -12,7 +12,7 @@
 namespace diptych::viewer {
 namespace {
 
-// As far as the camera looks up and down: short of straight, where right and left have no meaning.
+// Pitch limit, rad: straight up and down have no right and left.
 constexpr double steepest = 89.5 * std::numbers::pi / 180;
 
 double pitchOf(const glm::dvec3& unit) {
@@ -58,7 +58,7 @@ void FlyCamera::move(const glm::dvec3& by) {
     eye_ += right() * by.x + glm::dvec3(0, by.y, 0) + forward() * by.z;
 }
 
-// The eye in the camera's own axes, seen from the pivot, stays the same.
+// The eye's position relative to the pivot, in the camera's axes, stays the same.
 void FlyCamera::orbit(const glm::dvec3& pivot, double right, double up) {
     const auto upOf = [this] { return glm::cross(this->right(), forward()); };
     const glm::dvec3 from = eye_ - pivot;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A camera that a person steers, in the words of --camera: what is drawn is what those words ask for.
+// An interactive camera, expressed as --camera text so that any view can be reproduced.
 #pragma once
 
 #include "compare/viewer/order.h"
@@ -16,26 +16,26 @@ namespace diptych::viewer {
 
 class FlyCamera {
 public:
-    // Takes over the camera of a picture. Upright from then on: a camera that is rolled about its view, which
-    // --camera has no words for, stands up when it is moved.
+    // Takes over an image's camera. Roll about the view direction is lost at the first movement, because
+    // --camera has no roll.
     void take(const FrameCamera& camera);
-    // Whether it has a camera that --camera can describe: not an orthographic one.
+    // Whether --camera can describe the camera: false for an orthographic one.
     bool canMove() const { return known_ && fov_ > 0; }
 
-    // Turns about the world's up and the camera's right, radians; up and down end short of straight.
+    // Rotates about the world's up and the camera's right, rad; stops just short of straight up and down.
     void look(double right, double up);
-    // Along the camera's right, the world's up and where it looks, m.
+    // Moves along the camera's right, the world's up and the view direction, m.
     void move(const glm::dvec3& right_up_forward);
-    // Turns about a point in world space, which stays where it is in the picture, radians.
+    // Rotates about a world-space point, which stays at its image position, rad.
     void orbit(const glm::dvec3& pivot, double right, double up);
 
-    // "eye=x,y,z target=x,y,z fov=deg near=m far=m", with 9 digits, which tell a millimetre in a megametre.
+    // "eye=x,y,z target=x,y,z fov=deg near=m far=m"; 9 digits resolve a millimetre in a megametre.
     std::string words() const;
 
     const glm::dvec3& eye() const { return eye_; }
     glm::dvec3 forward() const;  // unit, world
     glm::dvec3 right() const;    // unit, world
-    // How far the camera's target was when it was taken over, m: a scale for speeds.
+    // Distance to the camera's target when it was taken over, m: a scale for speeds.
     double reach() const { return reach_; }
 
 private:
@@ -45,8 +45,8 @@ private:
     double fov_ = 0, near_ = 0.1, far_ = 1000, reach_ = 1;
 };
 
-// The place in the world that a pixel shows, by its depth (m along the view's direction, 0: background);
-// nothing where there is none. Of a perspective camera: others do not orbit.
+// The world position at a pixel, from its depth (m along the view direction, 0: background); empty in the
+// background. Perspective cameras only.
 std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPlace& pixel);
 
 }  // namespace diptych::viewer

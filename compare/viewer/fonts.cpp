@@ -11,7 +11,7 @@ namespace {
 
 constexpr double textHeight = 16, evenHeight = 15, builtinHeight = 13;  // pixels, at scale 1
 
-// Latin, Greek and Cyrillic: scenes name their lights and cameras.
+// Latin, Greek and Cyrillic, for names of lights and cameras.
 constexpr ImWchar glyphs[] = {0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2044, 0};
 
 void add(const char* file, double height, double scale) {

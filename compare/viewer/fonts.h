@@ -6,10 +6,10 @@ struct ImFont;
 
 namespace diptych::viewer {
 
-// Text in DejaVu Sans, of Debian's fonts-dejavu-core; in Dear ImGui's own font where that is not installed.
+// DejaVu Sans from Debian's fonts-dejavu-core, or Dear ImGui's built-in font if that is not installed.
 void loadFonts(double scale);
 
-// All letters equally wide, for text that stands in columns.
+// Monospaced, for text in columns.
 ImFont* evenFont();
 
 }  // namespace diptych::viewer

@@ -21,7 +21,7 @@ namespace {
 constexpr ImU32 white = IM_COL32(255, 255, 255, 255), black = IM_COL32(0, 0, 0, 255),
                 grey = IM_COL32(190, 190, 190, 255);
 
-// ---- the bar ---------------------------------------------------------------------------------------------
+// ---- the bar ------------------------------------------------------------------------------------------
 
 template <class Value, class Name>
 void combo(const char* label, float width, Value& value, std::initializer_list<Value> values,
@@ -131,7 +131,7 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
     ImGui::End();
 }
 
-// ---- the foot --------------------------------------------------------------------------------------------
+// ---- the footer ---------------------------------------------------------------------------------------
 
 void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places, int width,
           int height, float scale) {
@@ -156,7 +156,7 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
     const ImVec4 color = is_error     ? ImVec4{1, 0.45f, 0.4f, 1}
                          : is_message ? ImVec4{0.6f, 0.9f, 0.6f, 1}
                                       : ImGui::GetStyleColorVec4(ImGuiCol_Text);
-    // A long line is cut off before what is being done; all of it is under the cursor.
+    // A long line is clipped before the status; the tooltip shows all of it.
     ImGui::BeginChild("words", {std::max(1.0f, static_cast<float>(width) - room), ImGui::GetTextLineHeight()},
                       false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
@@ -170,7 +170,7 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
     ImGui::PopStyleVar();
 }
 
-// ---- over the pictures -----------------------------------------------------------------------------------
+// ---- over the images ----------------------------------------------------------------------------------
 
 void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places,
             float scale) {
@@ -218,7 +218,7 @@ void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::
                             {x + 4 * scale, middle - 6 * scale}, white);
 }
 
-// A bar of colours with the values at its ends and in its middle, and what they are.
+// A colour bar with values at its ends and middle, and a description.
 template <class Color>
 void legend(const CanvasRect& canvas, float scale, const Color& color,
             const std::array<std::string, 3>& values, const std::string& words) {
@@ -277,7 +277,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
     }
 }
 
-// The values of large pixels, written into them.
+// Writes values into large pixels.
 void values(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
@@ -308,7 +308,7 @@ void values(const Contents& contents, const std::vector<PanelPlace>& places, flo
     }
 }
 
-// Where a point of the world lies in a panel; nothing behind the camera.
+// Projects a world point to a panel; empty behind the camera.
 struct Projected {
     float x = 0, y = 0;
     double depth = 0;
@@ -323,7 +323,7 @@ std::optional<Projected> project(const View& view, const glm::dvec3& world, cons
         clip.w};
 }
 
-// A circle as large as the sphere of the light's range, and where the light is.
+// A circle of the light's range, and the light's position.
 void lights(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
@@ -417,7 +417,7 @@ void help(InterfaceState& state, int width, int height, float scale) {
     ImGui::End();
 }
 
-// How far the scene is read, while nothing can be drawn yet.
+// Progress of reading the scene, while there is nothing to show yet.
 void loading(const Contents& contents, const CanvasRect& canvas, float scale) {
     if (contents.shown && !contents.status.loading) return;
     const float width = std::min(420 * scale, 0.8f * static_cast<float>(canvas.width));

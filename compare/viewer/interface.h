@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that Dear ImGui draws: the bar, titles, legends and values over the pictures, the foot and the help.
+// Everything that Dear ImGui draws: the bar, titles, legends and values over the images, the footer and
+// the help.
 #pragma once
 
 #include "compare/viewer/interface_state.h"
@@ -10,11 +11,11 @@
 
 namespace diptych::viewer {
 
-// Draws all of it and changes the state by what was done in it. `places`: of the panels in the canvas.
+// Draws the interface and applies user actions to the state. `places`: the panels in the canvas.
 void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                    const std::vector<PanelPlace>& places, double scale);
 
-// Text over a picture, with a dark edge, so that it can be read on any.
+// Text over an image, outlined so that it is readable on any background.
 void drawOutlined(float x, float y, std::uint32_t color, const std::string& text);
 
 }  // namespace diptych::viewer

@@ -46,7 +46,7 @@ CanvasRect canvasOf(const InterfaceState& state, int width, int height, double s
     const int rows = barRows(width, scale).back();
     const int top = static_cast<int>((barHeight + barRow * rows) * scale),
               bottom = static_cast<int>(footHeight * scale);
-    // A narrow window keeps some of its width for pictures.
+    // A narrow window keeps half of its width for images.
     const double beside = state.panels ? sideWidth : state.information ? timesWidth : 0;
     const int side = std::min(static_cast<int>(beside * scale), width / 2);
     return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};

@@ -61,9 +61,10 @@ std::span<const KeyBinding> keyBindings() {
 }
 
 std::optional<KeyPress> actionOf(int key, bool control) {
-    // The digits of a number pad are the same digits.
+    // The digits of the number pad count as digits.
     if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) key += GLFW_KEY_0 - GLFW_KEY_KP_0;
-    // Ctrl is a key of its own too, which sinks: with it down, only what names it or is held acts.
+    // Ctrl is also a key that moves down. While it is pressed, only bindings with `control` and held keys
+    // act.
     for (const KeyBinding& binding : bindings)
         if (isOf(binding, key) && binding.control == control && !(control && binding.held))
             return KeyPress{binding.action, key - binding.key};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of keys: the window obeys it, its help and the README print it.
+// The table of keys, used by the window, the help and the README.
 #pragma once
 
 #include <optional>
@@ -45,11 +45,11 @@ enum class Action {
 
 struct KeyBinding {
     Action action;
-    int key;                // GLFW_KEY_*, which stands for a place on a US keyboard
-    std::string_view name;  // as the key is called
+    int key;                // GLFW_KEY_*: a position on a US keyboard
+    std::string_view name;  // displayed name
     std::string_view does;
-    bool held = false;     // acts as long as it is down
-    int last = 0;          // of a row of keys: the last one; 0: one key
+    bool held = false;     // acts while it is down
+    int last = 0;          // last key of a row of keys; 0: one key
     bool control = false;  // with Ctrl
 };
 
@@ -57,14 +57,14 @@ std::span<const KeyBinding> keyBindings();
 
 struct KeyPress {
     Action action;
-    int number = 0;  // of the key in its row
+    int number = 0;  // index of the key in its row
 };
-// What a key that goes down does; nothing: none of ours. `control`: Ctrl is down as well.
+// The action of a pressed key; empty for other keys. `control`: Ctrl is down too.
 std::optional<KeyPress> actionOf(int key, bool control);
-// Whether one of the keys of an action that is held is down, by a function that tells of each key.
+// Whether a key of a held action is down; isDown(key, of) tells the state of a key.
 bool isHeld(Action action, bool (*isDown)(int key, void* of), void* of);
 
-// The table in Markdown, as the README has it, and in columns, as --help prints it. Ends in a newline.
+// The table as Markdown for the README, and in columns for --help. Ends in a newline.
 std::string keyTable();
 std::string keyColumns();
 

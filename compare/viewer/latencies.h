@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How long keys and the first pictures took to be seen, and what the interface's own frames take.
+// Measures the time from key press to visible image, to the first images, and of the interface's own
+// frames.
 #pragma once
 
 #include "compare/viewer/shown.h"
@@ -13,34 +14,36 @@
 
 namespace diptych::viewer {
 
-// Whether a picture is as large as was asked for: smaller ones are drawn while something moves.
+// Whether an image has the requested size; images are smaller while something moves.
 bool isWhole(const Shown& shown);
 
 class Latencies {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // `say` takes each line that tells a time; times of pictures count from `begun`.
+    // `say` receives each timing as a line; times of the first images count from `begun`.
     Latencies(std::function<void(const std::string&)> say, Clock::time_point begun);
 
-    // A key was pressed while `order` had been asked for last; 0: none.
+    // A key was pressed; `order` is the latest request, 0: none.
     void pressed(std::string_view key, std::uint64_t order);
-    // What was pressed before this order shows in its picture.
+    // Earlier key presses become visible with this request's image.
     void asked(std::uint64_t order);
-    // The picture is in the window; `order` was asked for last.
+    // The image is in the window; `order` is the latest request.
     void seen(const Shown& shown, std::uint64_t order);
 
-    // The interface's own frame took so long.
+    // Duration of one frame of the interface.
     void frame(double ms);
-    double percentile() const { return percentile_; }  // the 99th of its frames, ms; 0 before the first 30
+    // 99th percentile of its frames, ms; 0 before the first 30.
+    double percentile() const { return percentile_; }
     void sayFrames() const;
 
 private:
     struct Waiting {
         std::string key;
         Clock::time_point pressed;
-        std::uint64_t order = 0;   // that shows it; 0: none was asked for yet
-        std::uint64_t before = 0;  // the order of that time: a key that asks for nothing is seen at once
+        std::uint64_t order = 0;  // request that shows it; 0: none yet
+        // Latest request at the press; a key without a request is visible at once.
+        std::uint64_t before = 0;
     };
     double percentileOf(double share) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the interface asks to be drawn.
+// The interface's requests.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -15,39 +15,39 @@
 
 namespace diptych::viewer {
 
-// What stands in the left panel.
+// Content of the left panel.
 enum class Against { paths, reference, file };
 std::string_view nameOf(Against against);  // "the other path"
 
-// How two pictures are shown as one. Values: test - baseline where it is largest; its size; the channel's
-// relative error; FLIP.
+// How to compare two images: test - baseline of the component where it is largest; its magnitude; the
+// channel's relative error; FLIP.
 enum class Difference { none, signed_difference, absolute, relative, flip };
 std::string_view nameOf(Difference difference);  // "signed"
 
 struct PixelPlace {
-    int x = 0, y = 0;  // of the picture, from the top left
+    int x = 0, y = 0;  // in the image, from the top left
     bool operator==(const PixelPlace&) const = default;
 };
 
-// What is drawn. The path of the Settings is that of the right panel.
+// Rendering input. The Settings' path is the right panel's.
 struct Subject {
     std::string scene;  // as on the command line
-    int reading = 0;    // rises when the scene is to be read again
+    int reading = 0;    // incremented to read the scene again
     Settings settings;
-    SideSettings sides;  // what one path has on top of them
+    SideSettings sides;  // settings of one path only
     bool operator==(const Subject&) const = default;
 };
 
-// The same whichever path is the right panel's: what both paths draw.
+// Normalises the path of the right panel: the input of both paths.
 inline Subject ofBothPaths(Subject subject) {
     subject.settings.path = drawn_paths[0];
     return subject;
 }
 
-// What of it is shown.
+// View options.
 struct Look {
     int mode = static_cast<int>(gpu::DEBUG_lit);
-    bool heat = false;  // the light-count heat map, whichever channel is chosen
+    bool heat = false;  // light-count heat map instead of the chosen channel
     Against against = Against::paths;
     std::filesystem::path file;  // Against::file
     Difference difference = Difference::none;
@@ -55,16 +55,17 @@ struct Look {
     std::optional<double> ev100{};
     bool tonemap = true;
     bool operator==(const Look&) const = default;
-    int channel() const { return heat ? static_cast<int>(gpu::DEBUG_light_count) : mode; }  // that is shown
+    // The visible one.
+    int channel() const { return heat ? static_cast<int>(gpu::DEBUG_light_count) : mode; }
     PictureChoice picture() const { return {exposure, ev100, tonemap}; }
 };
 
 struct Order {
-    std::uint64_t number = 0;  // rises with each
+    std::uint64_t number = 0;  // increases
     Subject subject;
     Look look;
-    bool moving = false;              // drawn smaller, and nothing else
-    std::optional<PixelPlace> pixel;  // whose story is wanted
+    bool moving = false;              // smaller images, and nothing else
+    std::optional<PixelPlace> pixel;  // the pixel to break down
 };
 
 }  // namespace diptych::viewer

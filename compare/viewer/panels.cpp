@@ -31,8 +31,8 @@ void wrapped(const std::string& text, const ImVec4* color = nullptr) {
     if (color) ImGui::PopStyleColor();
 }
 
-// A table whose columns are as wide as what they hold, but for one, which has the rest and wraps its text:
-// none is cut off.
+// A table whose columns fit their contents, except column `wraps`, which takes the rest and wraps its
+// text.
 bool beginTable(const char* id, std::initializer_list<const char*> heads, int wraps,
                 ImGuiTableFlags flags = 0, const ImVec2& size = {0, 0}) {
     if (!ImGui::BeginTable(id, static_cast<int>(heads.size()),
@@ -44,13 +44,13 @@ bool beginTable(const char* id, std::initializer_list<const char*> heads, int wr
     return true;
 }
 
-// ---- verdict ---------------------------------------------------------------------------------------------
+// ---- verdict ------------------------------------------------------------------------------------------
 
 std::string figure(double value) {
     return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "infinite";
 }
 
-// Puts the comparison's pictures into the panels.
+// Shows the comparison's images in the panels.
 void showComparison(InterfaceState& state, const Report& report, const Comparison& comparison) {
     const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
     for (Settings* settings : {&state.subject.settings, &state.edited}) settings->path = test.settings.path;
@@ -95,7 +95,7 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
     }
-    // What decided, as the terminal and the page say it.
+    // The criterion, as on the terminal and the page.
     const auto& decided = channel.criterion;
     ImGui::TableNextColumn();
     wrapped(decided ? decided->figure : "");
@@ -146,7 +146,7 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
     if (ImGui::SmallButton("copy as diptych compare")) state.requests.copy = compareCommand(state);
 }
 
-// ---- settings --------------------------------------------------------------------------------------------
+// ---- settings -----------------------------------------------------------------------------------------
 
 std::vector<std::string> wordsOf(const std::string& accepted) {
     std::vector<std::string> words;
@@ -172,7 +172,7 @@ void textInput(InterfaceState& state, const std::string& option, const std::stri
     } else if (ImGui::IsItemActive()) {
         state.typed[option] = text.data();
     } else if (typed != state.typed.end()) {
-        // Left with Esc, what was typed is forgotten.
+        // Esc discards the typed text.
         if (typed->second != value && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
             setOption(state, option, typed->second);
         state.typed.erase(option);
@@ -246,7 +246,7 @@ void settingsTab(InterfaceState& state) {
     ImGui::EndTable();
 }
 
-// ---- scene -----------------------------------------------------------------------------------------------
+// ---- scene --------------------------------------------------------------------------------------------
 
 void animationRows(InterfaceState& state, const SceneFacts& facts) {
     if (facts.animations.empty()) return;
@@ -288,7 +288,7 @@ void lightRows(InterfaceState& state, const Contents& contents) {
             const Light& light = contents.shown->lights[static_cast<std::size_t>(i)];
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            ImGui::Text("%d %s", i, light.name.c_str());  // one line: a clipper needs rows of one height
+            ImGui::Text("%d %s", i, light.name.c_str());  // one line: a clipper needs rows of equal height
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", light.name.c_str());
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(std::string(nameOf(light.kind)).c_str());
@@ -353,7 +353,7 @@ void sceneTab(InterfaceState& state, const Contents& contents) {
     planRows(contents);
 }
 
-// ---- pixel -----------------------------------------------------------------------------------------------
+// ---- pixel --------------------------------------------------------------------------------------------
 
 void pixelTab(InterfaceState& state, const Contents& contents) {
     if (!state.pixel) {
@@ -381,7 +381,7 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     ImGui::EndChild();
 }
 
-// ---- cost ------------------------------------------------------------------------------------------------
+// ---- cost ---------------------------------------------------------------------------------------------
 
 void passTable(const PathFacts& facts, const History& history, float scale) {
     double sum = 0;
@@ -427,7 +427,7 @@ void costTab(const Contents& contents, float scale) {
 
 namespace {
 
-// ---- times -----------------------------------------------------------------------------------------------
+// ---- times --------------------------------------------------------------------------------------------
 
 // The lines below the paths' times.
 std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents) {

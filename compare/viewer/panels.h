@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tabs at the side: verdict, settings, scene, pixel, cost; below them times and memory of both paths.
+// The tabs at the side: verdict, settings, scene, pixel, cost; below them both paths' times and memory.
 #pragma once
 
 #include "compare/viewer/interface_state.h"

@@ -7,7 +7,7 @@
 namespace diptych::viewer {
 
 void PictureCost::add(double pixels, double ms) {
-    // A machine that is busy for a moment says little of the next picture: what is known rises slowly.
+    // A briefly busy machine must not affect the estimate much, so it rises slowly.
     constexpr double slowly = 1.15;
     const auto take = [&](Point& point) {
         const bool same = point.pixels > 0 && pixels <= point.pixels * 1.5 && pixels * 1.5 >= point.pixels;
@@ -36,7 +36,7 @@ double PictureCost::of(double pixels) const {
 Size movingSize(const Size& full, double milliseconds, const PictureCost& cost) {
     const double room = std::max(0.5 * milliseconds, milliseconds - cost.fixed());
     const double expected = cost.perPixel() * full.width * full.height;
-    // Beyond 8 a picture says nothing any more.
+    // An image reduced by more than 8 is useless.
     const int divisor =
         cost.known() ? std::clamp(static_cast<int>(std::ceil(std::sqrt(expected / room) - 0.05)), 1, 8) : 3;
     Size size = full;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How large a picture that moves may be.
+// Chooses the size of moving images.
 #pragma once
 
 #include "shared/frame/settings.h"
 
 namespace diptych::viewer {
 
-// What a picture of both paths takes, by its pixels: `fixed` + `per_pixel` times these, ms. Learned from
-// pictures of two sizes; what shadow maps and triangles cost does not shrink with the picture.
+// Time to render both paths, ms: `fixed` + `per_pixel` times the pixels. Fitted to images of two sizes;
+// the cost of shadow maps and triangles does not depend on the size.
 class PictureCost {
 public:
     void add(double pixels, double ms);
@@ -20,12 +20,11 @@ private:
     struct Point {
         double pixels = 0, ms = 0;
     };
-    Point small_, large_;  // the last picture, and the last one of at least twice its pixels
+    Point small_, large_;  // the last image, and the last one of at least twice its pixels
 };
 
-// The size at which a picture that moves is drawn: `full` divided by a whole number, so that it takes about
-// `milliseconds`, of which at least half goes into pixels: beyond that a smaller picture would be hardly
-// faster.
+// The size of a moving image: `full` divided by an integer, so that it takes about `milliseconds`. At
+// least half of that is spent on pixels; a smaller image would hardly be faster.
 Size movingSize(const Size& full, double milliseconds, const PictureCost& cost);
 
 }  // namespace diptych::viewer

@@ -42,7 +42,7 @@ Panel panelOf(const Frame& frame, const DebugMode& mode, const PictureScale& sca
     return panel;
 }
 
-// The error below which all but one in a thousand of the pixels lie, so that a few do not hide all others.
+// The 99.9th percentile of the errors, so that a few outliers do not hide the rest.
 double topOf(const Image& errors) {
     std::vector<double> sizes;
     double largest = 0;
@@ -58,7 +58,7 @@ double topOf(const Image& errors) {
     return sizes[static_cast<std::size_t>(place)];
 }
 
-// test - baseline of the component where its size is largest.
+// test - baseline of the component where its magnitude is largest.
 Image signedErrors(const Image& baseline, const Image& test, const Coverage& covered) {
     Image errors(baseline.width, baseline.height, 1);
     for (std::size_t i = 0; i < errors.pixels(); ++i) {
@@ -91,7 +91,7 @@ std::string unitOf(const DebugMode& mode) {
     return {};
 }
 
-// Every figure is of the channel's images, over the pixels that show a surface in either.
+// Difference images of the channel, over the pixels that show a surface in either image.
 DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Image& test,
                          const Coverage& covered, Difference kind) {
     DifferencePanel panel;

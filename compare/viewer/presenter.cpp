@@ -21,10 +21,10 @@
 namespace diptych::viewer {
 namespace {
 
-// Two frames in flight: one is recorded while the other is drawn.
+// Two frames in flight: one is recorded while the GPU renders the other.
 constexpr std::size_t frames_in_flight = 2;
 
-// Thrown where the device is lost, so that a frame ends wherever it is.
+// Thrown if the device is lost, to leave the frame.
 struct Lost {};
 
 void check(VkResult result, const char* what) {
@@ -72,13 +72,13 @@ std::span<const char* const> windowExtensions() {
     return {names, count};
 }
 
-// A buffer that the host writes to and an image of the window is copied from.
+// A host-visible buffer that is copied to an image of the window.
 struct Staging {
     OwnedDeviceMemory memory;
     OwnedBuffer buffer;
     void* mapped = nullptr;
     VkDeviceSize bytes = 0;
-    std::uint64_t version = 0;  // of the pixels in it
+    std::uint64_t version = 0;  // of its pixels
 };
 
 struct FrameInFlight {
@@ -132,9 +132,9 @@ struct Presenter::State {
     std::vector<WindowImage> images;
     bool stale = true;  // the swapchain no longer fits the window
 
-    // ---- once --------------------------------------------------------------------------------------------
+    // ---- initialization -------------------------------------------------------------------------------
 
-    // The first device with a queue that draws and shows.
+    // The first device with a queue for graphics and presentation.
     void choosePhysical() {
         for (const VkPhysicalDevice candidate : instance.devices()) {
             DeviceSupport asked(candidate);
@@ -177,7 +177,7 @@ struct Presenter::State {
         vkGetDeviceQueue(device.handle, family, 0, &queue);
     }
 
-    // 8 bits without encoding: the pixels are display values already.
+    // 8 bits without encoding: the pixels are display values.
     void chooseFormat() {
         constexpr std::array wanted{VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
         std::uint32_t count = 0;
@@ -312,8 +312,7 @@ struct Presenter::State {
 #endif
     }
 
-    // ---- as the window changes
-    // -----------------------------------------------------------------------------
+    // ---- as the window changes ------------------------------------------------------------------------
 
     VkPresentModeKHR presentMode() const {
         std::uint32_t count = 0;
@@ -327,7 +326,7 @@ struct Presenter::State {
                    : VK_PRESENT_MODE_FIFO_KHR;
     }
 
-    // False where the window has no area.
+    // False if the window has no area.
     bool makeSwapchain() {
         VkSurfaceCapabilitiesKHR can{};
         check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical, surface.handle, &can),
@@ -409,8 +408,7 @@ struct Presenter::State {
         return image;
     }
 
-    // ---- each frame
-    // ------------------------------------------------------------------------------------------
+    // ---- each frame -----------------------------------------------------------------------------------
 
     void grow(Staging& staging, VkDeviceSize bytes) {
         if (staging.bytes >= bytes) return;
@@ -431,7 +429,7 @@ struct Presenter::State {
         const VkPhysicalDeviceMemoryProperties& memory = support.memory();
         constexpr VkMemoryPropertyFlags wanted =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-        std::uint32_t type = 0;  // Vulkan promises that there is one
+        std::uint32_t type = 0;  // Vulkan guarantees one
         while ((needs.memoryTypeBits >> type & 1) == 0 ||
                (memory.memoryTypes[type].propertyFlags & wanted) != wanted)
             ++type;
@@ -461,7 +459,7 @@ struct Presenter::State {
         vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &info);
     }
 
-    // The part of the pixels that lies in the window; nothing of a window that has become smaller meanwhile.
+    // Copies the pixels that lie in the window, which may have become smaller meanwhile.
     void copyPixels(VkCommandBuffer commands, FrameInFlight& now, const WindowPixels& pixels, VkImage image) {
         const auto windowWidth = static_cast<int>(extent.width),
                    windowHeight = static_cast<int>(extent.height);
@@ -490,7 +488,7 @@ struct Presenter::State {
         const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                              VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
         check(vkBeginCommandBuffer(now.commands, &begin), "vkBeginCommandBuffer");
-        // The semaphore of the acquired image is waited for at the copy.
+        // The copy waits for the acquired image's semaphore.
         barrier(now.commands, image.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
                 VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -535,7 +533,7 @@ struct Presenter::State {
             if (!makeSwapchain()) return;
             acquired = vkAcquireNextImageKHR(device.handle, swapchain, UINT64_MAX, now.acquired,
                                              VK_NULL_HANDLE, &index);
-            if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {  // it changes once more: the next frame
+            if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {  // it changed again: try the next frame
                 stale = true;
                 return;
             }

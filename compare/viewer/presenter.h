@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Puts pixels and Dear ImGui's drawing into a window, by a Vulkan device of its own: what the paths' device
-// is busy with never delays it.
+// Shows pixels and Dear ImGui's draw data in a window, on its own Vulkan device, so that the paths' device
+// never delays it.
 #pragma once
 
 #include "shared/vulkan/instance.h"
@@ -19,24 +19,24 @@ namespace diptych::viewer {
 struct WindowPixels {
     int x = 0, y = 0, width = 0, height = 0;  // framebuffer pixels
     std::vector<std::uint8_t> data;
-    std::uint64_t version = 0;  // rises whenever anything above changes
+    std::uint64_t version = 0;  // increases with every change of the above
 };
 
 class Presenter {
 public:
-    // `log`, where validation is wanted, outlives this. Throws std::runtime_error, one line, where no device
-    // shows anything in the window.
+    // `log`, for validation, must outlive this. Throws std::runtime_error, one line, if no device can
+    // present to the window.
     Presenter(GLFWwindow* window, ValidationLog* log);
     ~Presenter();
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    // Whether pixels are stored blue, green, red, alpha; else red first.
+    // Whether pixels are BGRA; otherwise RGBA.
     bool isBgr() const;
-    // Begins a frame of Dear ImGui's renderer. The text is that of the atlas when this was made.
+    // Begins a frame of Dear ImGui's renderer. Uses the font atlas of construction time.
     void beginFrame();
-    // Shows the pixels and, over them, Dear ImGui's drawing. In a window without area it does nothing. False
-    // where the device is lost: this must be made anew.
+    // Shows the pixels, and over them Dear ImGui's draw data. Does nothing in a window without area.
+    // Returns false if the device is lost; this must then be recreated.
     bool show(const WindowPixels& pixels, ImDrawData* drawing);
 
     std::string device() const;

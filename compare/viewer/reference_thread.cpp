@@ -21,20 +21,20 @@ struct Stopped {};
 
 }  // namespace
 
-// A batch thread has its full share of the processors, but does not take one from a thread that has just
-// woken up, as the interface does for each event. Threads that it starts, a driver's or a pool's, inherit
-// that.
+// A batch thread has its full share of the cores, but does not preempt a thread that has just woken up, as
+// the interface does for each event. Threads that it starts, such as a driver's or a pool's, inherit the
+// policy.
 void yieldToInterface() {
     const sched_param usual{};
     sched_setscheduler(0, SCHED_BATCH,
-                       &usual);  // 0: this thread; where it may not, nothing is lost but smoothness
+                       &usual);  // 0: this thread; if it fails, the interface is only less smooth
 }
 
 void ReferenceThread::stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
     stop_ = false;
-    if (done_ < 1) settings_.reset();  // what is half done is of no more use
+    if (done_ < 1) settings_.reset();  // a partial result is useless
 }
 
 void ReferenceThread::begin(std::shared_ptr<const Scene> scene, const Settings& settings,
@@ -67,7 +67,7 @@ void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Setti
     try {
         Progress progress([this](const std::string&, double fraction, const std::string&) {
             if (stop_) throw Stopped();
-            done_ = std::min(fraction, 0.999);  // 1 once the Frame is there
+            done_ = std::min(fraction, 0.999);  // 1 once the Frame exists
         });
         RenderOptions options;
         options.runs = 0;

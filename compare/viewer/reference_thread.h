@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the reference in the background, and hands out what is done of it.
+// Renders the reference in the background and returns partial results.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -25,18 +25,18 @@ public:
     ReferenceThread(const ReferenceThread&) = delete;
     ReferenceThread& operator=(const ReferenceThread&) = delete;
 
-    // Begins a picture, in the place of any that is being drawn. `surfaces`: as drawReferenceFrame() has it,
-    // nothing in mode scene.
+    // Starts an image and stops any current one. `surfaces`: as for drawReferenceFrame(); empty in mode
+    // scene.
     void begin(std::shared_ptr<const Scene> scene, const Settings& settings, std::optional<Frame> surfaces);
-    void stop();  // returns once the thread has ended: within the time of a few tiles
+    void stop();  // returns once the thread has ended, within the time of a few tiles
 
-    // The Settings of the picture that is drawn, or was last.
+    // The Settings of the current or last image.
     const std::optional<Settings>& settings() const { return settings_; }
     double done() const { return done_; }  // 0 to 1; 1: finished
-    // lit as far as it is drawn, elsewhere that of `under`, W x H x 3, and of the channels of the surfaces
-    // these; all channels once it is finished.
+    // lit as far as it is rendered, `under` (W x H x 3) elsewhere, and the surface channels `modes`; all
+    // channels once finished.
     std::shared_ptr<const Frame> frame(std::initializer_list<int> modes, const Image* under) const;
-    std::string error() const;  // why it ended without a picture; empty: it did not
+    std::string error() const;  // why it ended without an image; empty: no error
 
 private:
     void run(const std::shared_ptr<const Scene>& scene, const Settings& settings,
@@ -49,12 +49,12 @@ private:
     std::atomic<double> done_{0};
     mutable std::mutex mutex_;
     Frame partial_;
-    std::vector<bool> drawn_;  // by pixel of lit
+    std::vector<bool> drawn_;  // per pixel of lit
     std::shared_ptr<const Frame> finished_;
     std::string error_;
 };
 
-// From now on what this thread does, and the threads that it starts, yields to the interface.
+// Lowers the priority of this thread, and of threads that it starts, below the interface.
 void yieldToInterface();
 
 }  // namespace diptych::viewer

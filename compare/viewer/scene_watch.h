@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells when the files of a scene change on disk.
+// Detects changes of a scene's files on disk.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@ namespace diptych::viewer {
 
 class SceneWatch {
 public:
-    // The files of a scene: its own, those that a .gltf names, and `others`, an environment or a file of
-    // lights. A built-in scene has none.
+    // Watches a scene's file, the files that a .gltf names, and `others`: an environment or a file of
+    // lights. A built-in scene has no files.
     void watch(const std::string& scene, const std::vector<std::filesystem::path>& others);
-    // True once after a change, as soon as nothing more has changed since the last call: a program may still
-    // be writing. To be called a few times a second.
+    // True once after a change, when nothing changed since the last call: a program may still be writing.
+    // Call it a few times a second.
     bool changed();
     const std::vector<std::filesystem::path>& files() const { return files_; }
 

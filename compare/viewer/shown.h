@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was drawn for the interface.
+// Results for the interface.
 #pragma once
 
 #include "compare/explain/pixel_story.h"
@@ -24,51 +24,51 @@ struct Panel {
     std::string name;     // "deferred"
     Image8 picture;       // RGB, as `render` writes it
     Image values;         // of the channel
-    std::string missing;  // why there is no picture; empty where there is one
+    std::string missing;  // why there is no image; empty if there is one
 };
 
 struct DifferencePanel {
     Image8 picture;
     Image values;    // W x H x 1
-    double top = 0;  // the value at the end of the colours; at their other end 0 or, signed, -top
+    double top = 0;  // the value at the end of the colours; the other end is 0 or, if signed, -top
     bool is_signed = false;
-    std::string words;    // what the values are, with their unit
-    std::string missing;  // why there is no picture
+    std::string words;    // description of the values, with their unit
+    std::string missing;  // why there is no image
 };
 
-// What a path's last frames were.
+// Times and memory of a path's last frames.
 struct PathFacts {
     std::string name;
-    double ms = 0;  // the whole frame: of a picture that moves the sum of its passes
+    double ms = 0;  // of the whole frame; while moving, the sum of its passes
     std::vector<PassTime> passes;
-    std::uint64_t measurement = 0;  // rises with each of these two
+    std::uint64_t measurement = 0;  // increases with every new time
     FrameBytes bytes;
     FrameCounters counters;
     std::vector<std::string> notes;
     std::optional<double> mean_lights,
-        most_lights;  // that a pixel evaluates; known once light_count is drawn
+        most_lights;  // lights that a pixel evaluates; known once light_count is rendered
 };
 
-// Never changes once it is handed out.
+// Immutable once published.
 struct Shown {
-    Order order;                  // that it answers
-    Size size;                    // of the pictures: smaller than order's while it moves
+    Order order;                  // the request
+    Size size;                    // of the images; smaller than requested while moving
     std::array<Panel, 2> panels;  // left, right
     std::optional<DifferencePanel> difference;
-    std::string scale;    // how numbers became colours
-    double heat_top = 0;  // of light_count, the count at the end of the colours; 0: no heat map
+    std::string scale;    // how values map to colours
+    double heat_top = 0;  // light_count: the count at the end of the colours; 0: no heat map
     FrameCamera camera;
     View view;
     std::vector<Light> lights;             // of the view, world
-    std::vector<Requirements::Line> plan;  // what is modelled of it and what is left out
-    Image depth;  // W x H x 1, m along the view's direction, 0: background; none while it moves
+    std::vector<Requirements::Line> plan;  // modelled and omitted features
+    Image depth;  // W x H x 1, m along the view direction, 0: background; empty while moving
     std::array<PathFacts, 2> paths;    // deferred, forward+
-    double reference_done = 1;         // share of the left panel that is drawn
-    std::string words_of_uncertainty;  // of a reference that was sampled
-    double made_in_ms = 0;             // from taking the order to handing it out
+    double reference_done = 1;         // finished fraction of the left panel
+    std::string words_of_uncertainty;  // of a sampled reference
+    double made_in_ms = 0;             // from request to publication
 };
 
-// The verdict on both paths, and on both against what stands in the left panel.
+// The verdict on both paths, or on both compared with the left panel's image.
 struct Judged {
     Subject subject;
     Report report;
@@ -81,7 +81,7 @@ struct Story {
     std::string words;
 };
 
-// What is known of the scene that is loaded.
+// Properties of the loaded scene.
 struct SceneFacts {
     std::string scene;  // as on the command line
     std::string name;
@@ -92,11 +92,11 @@ struct SceneFacts {
     std::vector<std::string> notes;
 };
 
-// What the drawing thread is at.
+// Current activity of the drawing thread.
 struct Status {
-    std::string doing;    // "read images"; empty: nothing
-    double fraction = 0;  // of it, 0 to 1
-    std::string error;    // of the last thing that failed, until it succeeds; one line
+    std::string doing;    // "read images"; empty: none
+    double fraction = 0;  // 0 to 1
+    std::string error;    // the last error, until that step succeeds; one line
     bool loading = false;
 };
 

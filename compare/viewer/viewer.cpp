@@ -37,22 +37,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int usualWidth = 1280, usualHeight = 760;  // of the window, at scale 1
-// Between two frames of the interface, s: 60 a second while something moves, and not more than 125.
+// Interval between frames of the interface, s: 60 frames a second while something moves, at most 125.
 constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.25;
-// A view stands still once nothing has moved for so long, s.
+// A view is still once nothing has moved for this time, s.
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
-// Window pixels a pixel: of Z, which shows values, and of a pixel in its surroundings.
+// Window pixels per image pixel: for Z, which shows values, and for a pixel in its surroundings.
 constexpr double zoomed = 80, flown = 32;
 constexpr double least_zoom = 1, most_zoom = 128;
-constexpr double wipeReach = 7;    // window pixels around the wipe's line that take hold of it
-constexpr int mostPresenters = 3;  // made anew one after the other where devices are lost
+constexpr double wipeReach = 7;    // window pixels around the wipe's line where the cursor grabs it
+constexpr int mostPresenters = 3;  // number of consecutive recreations after lost devices
 
 double secondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// Dear ImGui's context, and what feeds it with the window's events.
+// Dear ImGui's context and its event source.
 struct ImGuiContextOf {
     explicit ImGuiContextOf(GLFWwindow* window) {
         IMGUI_CHECKVERSION();
@@ -78,7 +78,6 @@ void setScale(double scale) {
     loadFonts(scale);
 }
 
-// What the cursor drags.
 enum class Drag { none, look, wipe, picture };
 
 class Viewer {
@@ -92,7 +91,7 @@ public:
         if (state_.subject.settings.path == Path::reference) state_.subject.settings.path = drawn_paths[1];
         state_.look = options.look;
         state_.stored = options.look.file;
-        // But the left panel's, which the interface chooses.
+        // Without --baseline, which the interface chooses.
         const std::vector<std::string>& words = options.compare.words;
         for (std::size_t i = 0; i < words.size(); ++i)
             if (words[i] == "--baseline")
@@ -145,8 +144,7 @@ public:
     }
 
 private:
-    // ---- time
-    // ----------------------------------------------------------------------------------------------
+    // ---- time -----------------------------------------------------------------------------------------
 
     bool isMoving() const {
         return now_ < moving_until_ || state_.playing || flight_.isFlying() || isHeldMoving();
@@ -169,10 +167,9 @@ private:
         say(message);
     }
 
-    // ---- what comes from the drawing thread
-    // ------------------------------------------------------------------
+    // ---- results of the drawing thread ----------------------------------------------------------------
 
-    // Whether there is anything new to show.
+    // Takes new results; false if there are none.
     bool takeNews() {
         Contents next = contents_;
         next.shown = drawing_.shown();
@@ -209,10 +206,9 @@ private:
         }
     }
 
-    // ---- what is asked of it
-    // -----------------------------------------------------------------------------------
+    // ---- requests -------------------------------------------------------------------------------------
 
-    // Of what is drawn and of what the settings' panel shows alike.
+    // Changes both the rendered Settings and those in the settings panel.
     template <class Change>
     void change(const Change& change) {
         change(state_.subject.settings);
@@ -234,7 +230,7 @@ private:
         if (state_.pixel && (state_.pixel->x >= state_.subject.settings.size.width ||
                              state_.pixel->y >= state_.subject.settings.size.height))
             state_.pixel.reset();
-        // What changes again and again, as by a slider, moves.
+        // Repeated changes, as from a slider, count as movement.
         if (order_.subject != state_.subject) {
             if (now_ - changed_ < resizedAfter) moving_until_ = std::max(moving_until_, now_ + stillAfter);
             changed_ = now_;
@@ -277,8 +273,7 @@ private:
         readAgain();
     }
 
-    // ---- input
-    // -----------------------------------------------------------------------------------------------
+    // ---- input ----------------------------------------------------------------------------------------
 
     static bool isKeyDown(int key, void* of) { return static_cast<const Window*>(of)->isDown(key); }
     bool isHeld(Action action) const {
@@ -297,7 +292,8 @@ private:
         handleRequests();
         const ImGuiIO& io = ImGui::GetIO();
         for (const KeyDown& key : input.keys) press(key, io.WantTextInput);
-        // What Dear ImGui says is of the frame before: only what may lie over the pictures is asked about.
+        // Dear ImGui reports the previous frame, so only windows that may cover the images are asked
+        // about.
         const bool covered = state_.help || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         handleMouse(input, covered && io.WantCaptureMouse);
         move();
@@ -314,7 +310,7 @@ private:
         if (const double scale = window_.contentScale(); scale != scale_) {
             scale_ = scale;
             setScale(scale);
-            makePresenter();  // with the text of that size
+            makePresenter();  // with fonts of that size
         }
     }
 
@@ -351,7 +347,7 @@ private:
         }
     }
 
-    // `typing`: a field has the focus, which all other keys are for.
+    // `typing`: a text field has the focus and takes all other keys.
     void press(const KeyDown& key, bool typing) {
         const std::optional<KeyPress> found = actionOf(key.key, key.control);
         if (!found || (typing && found->action != Action::quit && found->action != Action::leave)) return;
@@ -388,7 +384,7 @@ private:
                 tell(state_.orbiting ? "dragging orbits what is under the cursor" : "dragging looks around");
                 break;
             case Action::wipe:
-                // While a difference is shown there are no panels to arrange.
+                // A difference has no panels to arrange.
                 if (std::exchange(state_.look.difference, Difference::none) != Difference::none) break;
                 cycle(state_.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single});
                 break;
@@ -498,7 +494,7 @@ private:
             window_.toggleFullScreen();
     }
 
-    // Of those beyond 9, in the order of their numbers.
+    // Steps through the channels above 9, by number.
     void nextChannel(int step) {
         std::vector<int> beyond;
         for (const DebugMode& mode : debugModes())
@@ -514,7 +510,7 @@ private:
         const std::string& now = state_.subject.settings.camera;
         std::size_t next = 0;
         if (now.empty() && count > 1)
-            next = 1;  // the first is what is seen
+            next = 1;  // the first is the current one
         else if (!now.empty() && now.find('=') == now.npos)
             next = (static_cast<std::size_t>(std::atoi(now.c_str())) + 1) % std::max<std::size_t>(count, 1);
         const std::string words = count == 0 ? "" : std::to_string(next);
@@ -534,8 +530,7 @@ private:
         tell(fmt::format("no pixel of {} differs", debugMode(state_.look.channel()).name));
     }
 
-    // ---- moving
-    // ------------------------------------------------------------------------------------------------
+    // ---- moving ---------------------------------------------------------------------------------------
 
     void moved() {
         moving_until_ = now_ + stillAfter;
@@ -615,7 +610,7 @@ private:
                               : std::nullopt;
     }
 
-    // The cursor has come to a place.
+    // The cursor moved.
     void drag(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double x, double y) {
         const double dx = x - cursor_x_, dy = y - cursor_y_;
         cursor_x_ = x;
@@ -636,7 +631,7 @@ private:
                 return;
             case Drag::look: {
                 if (!camera_.canMove() || !contents_.shown || places.empty()) return;
-                // As if the picture were dragged: its height is the field of view.
+                // As if the image were dragged: its height is the field of view.
                 const double tall = state_.subject.settings.size.height * places.front().placement.scale;
                 const double angle =
                     contents_.shown->camera.fov_degrees * std::numbers::pi / 180 / std::max(tall, 1.0);
@@ -659,7 +654,7 @@ private:
             if (state_.canvas.zoom == before && input.wheel > 0)
                 state_.canvas.zoom = std::min(before + 1, most_zoom);
             if (!under || places.empty()) return;
-            // What is under the cursor stays there.
+            // The point under the cursor stays there.
             const double x = under->pixel.x + 0.5, y = under->pixel.y + 0.5,
                          ratio = before / state_.canvas.zoom;
             state_.canvas.centre_x = x + (state_.canvas.centre_x - x) * ratio;
@@ -670,7 +665,7 @@ private:
         tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.reach()));
     }
 
-    // Where in the world the pixel is, once this view is drawn whole; else what the camera was aimed at.
+    // The world position of the pixel, once this view is rendered at full size; else the camera's target.
     glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
         const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
         const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
@@ -681,8 +676,7 @@ private:
         return seenAt(shown->view, shown->depth, under->pixel).value_or(ahead);
     }
 
-    // ---- drawing the window
-    // --------------------------------------------------------------------------------------
+    // ---- drawing the window ---------------------------------------------------------------------------
 
     std::vector<PanelPlace> placesNow(const CanvasRect& canvas) const {
         return placesOf(canvas, state_.subject.settings.size, state_.canvas,
@@ -728,7 +722,7 @@ private:
                                      debugMode(state_.look.channel()).name));
     }
 
-    // What the pixels in the window are of.
+    // Identifies the content of the window's pixels.
     struct Composed {
         std::shared_ptr<const Shown> shown;
         CanvasRect canvas;
@@ -760,14 +754,14 @@ private:
     int presenters_ = 0;
     DrawingThread drawing_;
     Contents contents_;
-    std::array<std::array<History, 2>, 2> histories_;  // of smaller pictures, of whole ones
+    std::array<std::array<History, 2>, 2> histories_;  // of reduced images, of full ones
     FlyCamera camera_;
-    std::string own_camera_ = "none taken yet";  // the words that camera_ stands for
+    std::string own_camera_ = "none taken yet";  // --camera text of camera_
     SceneWatch watch_;
-    Order order_;                                                 // asked for last
-    std::uint64_t said_still_ = 0;                                // of which it was said that all is drawn
+    Order order_;                                                 // the latest request
+    std::uint64_t said_still_ = 0;                                // the last request reported as complete
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
-    double changed_ = -1;                                         // when what is drawn changed last
+    double changed_ = -1;                                         // time of the last change of the subject
     double scale_ = 1;
     int width_ = 0, height_ = 0, frames_left_ = 3;
     bool quit_ = false, held_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window: both paths live. It draws nothing that another command does not: pictures, verdicts and a
-// pixel's story are made by the libraries of `render`, `compare` and `compare --pixel`.
+// The interactive window. It shows only results of the libraries of `render`, `compare` and `compare
+// --pixel`: images, verdicts and pixel breakdowns.
 #pragma once
 
 #include "compare/verdict/comparison.h"
@@ -15,20 +15,20 @@
 namespace diptych::viewer {
 
 struct ViewerOptions {
-    Subject subject;  // what is shown first
+    Subject subject;  // shown first
     Look look;
-    bool size_given = false;          // else pictures are as large as the window has room for
-    std::optional<PixelPlace> pixel;  // whose story is told, and that is zoomed to
-    bool watch = false;               // reads a scene again when its files change on disk
-    std::filesystem::path out;        // folder of screenshots; empty: the current one
+    bool size_given = false;          // false: images fill the window
+    std::optional<PixelPlace> pixel;  // the pixel to break down and zoom to
+    bool watch = false;               // reload a scene when its files change
+    std::filesystem::path out;        // folder for screenshots; empty: the current one
     DeviceOptions device;
-    CompareOptions compare;  // what counts for the verdict
-    // Told in a line each what was done and how long it took; empty: nobody is.
+    CompareOptions compare;  // rules of the verdict
+    // Receives a line for each action and its duration; may be empty.
     std::function<void(const std::string&)> say;
 };
 
-// Shows the window until it is closed. Returns the number of messages of the validation layers, 0 without
-// them, and the first one. Throws std::runtime_error, one line, where there is no display.
+// Shows the window until it is closed. Returns the number of validation-layer messages (0 without layers)
+// and the first one. Throws std::runtime_error, one line, if there is no display.
 struct ViewerResult {
     std::uint64_t validation_messages = 0;
     std::string first_validation_message;

@@ -15,7 +15,7 @@
 namespace diptych::viewer {
 namespace {
 
-// What GLFW says of its last error; it calls back in the thread that made the call.
+// GLFW's last error; it calls back on the thread that made the call.
 std::string& lastError() {
     thread_local std::string text;
     return text;
@@ -55,10 +55,10 @@ Window::~Window() {
     glfwTerminate();
 }
 
-// Dear ImGui hears everything first; who takes an event is decided by what it wants.
+// Dear ImGui receives every event first; its WantCapture flags decide who handles it.
 void Window::listen() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        // Tab swaps the paths; in a text it goes to the next one.
+        // Tab swaps the paths; in a text field it moves the focus.
         if (key != GLFW_KEY_TAB || ImGui::GetIO().WantTextInput)
             ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
         Input& input = inputOf(w);
@@ -72,7 +72,7 @@ void Window::listen() {
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
         ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
-        // Where the cursor was then: of a quick drag it is elsewhere by now.
+        // The cursor's position at the event: in a quick drag it has moved since.
         Input& input = inputOf(w);
         input.any = true;
         input.buttons.push_back({button, action == GLFW_PRESS, input.x, input.y});
@@ -174,7 +174,7 @@ void Window::toggleFullScreen() {
     }
     glfwGetWindowPos(window_, &restored_[0], &restored_[1]);
     glfwGetWindowSize(window_, &restored_[2], &restored_[3]);
-    // The monitor that has the window's middle.
+    // The monitor that contains the window's centre.
     const int x = restored_[0] + restored_[2] / 2, y = restored_[1] + restored_[3] / 2;
     int count = 0;
     GLFWmonitor** const monitors = glfwGetMonitors(&count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One GLFW window, and what people did in it since it was asked last.
+// A GLFW window and its input events.
 #pragma once
 
 #include <filesystem>
@@ -15,45 +15,44 @@ struct KeyDown {
     bool control = false, shift = false;
 };
 
-// Since the last poll(); positions in framebuffer pixels.
+// Events since the last poll(); positions in framebuffer pixels.
 struct Input {
     std::vector<KeyDown> keys;
-    double wheel = 0;  // notches, up positive
+    double wheel = 0;  // notches, up is positive
     struct Button {
         int button = 0;  // GLFW_MOUSE_BUTTON_*
         bool down = false;
         double x = 0, y = 0;
     };
     std::vector<Button> buttons;
-    double x = 0, y = 0;                         // of the cursor
+    double x = 0, y = 0;                         // cursor
     std::vector<std::filesystem::path> dropped;  // files
     bool closed = false;
-    bool any = false;  // whether anything happened at all
+    bool any = false;  // whether there was any event
 };
 
 class Window {
 public:
-    // Throws std::runtime_error, one line that says how to do without, where there is no display or no Vulkan
-    // for it.
+    // Throws std::runtime_error, one line with a workaround, if there is no display or no Vulkan for it.
     Window(int width, int height, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
     GLFWwindow* handle() const { return window_; }
-    // Waits for something to happen, at most `seconds`.
+    // Waits for an event, at most `seconds`.
     Input poll(double seconds);
     bool isDown(int key) const;
     bool isButtonDown(int button) const;
-    void size(int& width, int& height) const;  // framebuffer, pixels; 0 while it is minimised
+    void size(int& width, int& height) const;  // framebuffer, pixels; 0 while minimised
     double pixelsPerUnit() const;              // framebuffer pixels per unit of window coordinates
-    double contentScale() const;               // how much larger than usual text should be, of its monitor
+    double contentScale() const;               // text scale of its monitor
     void setTitle(const std::string& title);
     void toggleFullScreen();
     bool isFullScreen() const { return full_screen_; }
     void copy(const std::string& text);  // to the clipboard
 
-    static void wake();  // ends a poll() from any thread
+    static void wake();  // ends a poll(); callable from any thread
 
 private:
     void listen();

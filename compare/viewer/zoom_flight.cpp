@@ -29,7 +29,7 @@ void ZoomFlight::move(double now, CanvasView& view) {
     if (!flight_) return;
     const double t = std::clamp((now - flight_->begun) / flightTime, 0.0, 1.0), eased = t * t * (3 - 2 * t);
     view.zoom = flight_->from_zoom * std::pow(flight_->to_zoom / flight_->from_zoom, eased);
-    // The place moves as the zoom's inverse does, so that the target nears the middle evenly.
+    // The position moves with the inverse zoom, so that the target approaches the centre evenly.
     const double share =
         flight_->to_zoom == flight_->from_zoom
             ? eased

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A zoom on its way to a pixel.
+// An animated zoom to a pixel.
 #pragma once
 
 #include "compare/viewer/canvas.h"
@@ -10,12 +10,13 @@ namespace diptych::viewer {
 
 class ZoomFlight {
 public:
-    // From `view` to a zoom of at least `zoom` window pixels a pixel with `pixel` in the middle. `now`: s.
+    // Animates from `view` to at least `zoom` window pixels per image pixel, with `pixel` at the centre.
+    // `now`: s.
     void begin(double now, const CanvasView& view, const CanvasRect& canvas, const Size& size,
                const PixelPlace& pixel, double zoom);
     void stop() { flight_.reset(); }
     bool isFlying() const { return flight_.has_value(); }
-    // Where it is by now.
+    // Updates `view` for time `now`.
     void move(double now, CanvasView& view);
 
 private:

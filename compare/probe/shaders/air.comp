@@ -5,7 +5,7 @@
 #include "shaders/lib/air.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-// Haze (20), direction, air -> transmittance, scattered
+// haze (20), direction, equivalent metres at height 0 -> transmittance, in-scattered radiance
 void hazed() {
     Haze h = HAZE_OF_TEXELS(in4(0), in4(4), in4(8), in4(12), in4(16));
     Hazed hazed = hazeOfAir(h, in1(23), in3(20));

@@ -29,14 +29,14 @@ float lobeOf(Surface s, vec3 v, vec3 l) {
     return specularLobe(makeBrdf(s, v), s.normal, sum, dot(sum, sum), clamp(dot(s.normal, l), 0.0, 1.0));
 }
 
-// roughness, n, v, l -> the lobe, and with both exchanged
+// roughness, n, v, l -> the lobe; second output with v and l exchanged
 void lobes() {
     Surface s = surfaceOf(0);
     out1(0, lobeOf(s, in3(4), in3(7)));
     if (outs > 1) out1(1, lobeOf(s, in3(7), in3(4)));
 }
 
-// The same, metallic, albedo, F0, F90 -> diffuse and specular radiance for 1 W/m^2
+// roughness, n, v, l, metallic, albedo, F0, F90 -> diffuse and specular radiance for 1 W/m^2
 void light() {
     Surface s = surfaceOf(0);
     s.metallic = in1(10);

@@ -6,11 +6,11 @@
 #include "shaders/lib/packing.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-// Bits are constants wherever the product packs, so they are here: by the function's number.
+// The product packs with constant bit counts, so the index of the function selects the count.
 const uint OCTAHEDRAL_ENCODE = 0, OCTAHEDRAL_DECODE = 100, UNORM_PACK = 200, UNORM_UNPACK = 300, ROOT = 400,
            ROOT_BACK = 401, SHARED_EXPONENT = 402;
 
-// A unit vector -> x and y of its code, what comes back
+// unit vector -> x and y of its code, decoded vector
 void octahedral(uint bits) {
     uint code = encodeOctahedral(in3(0), bits);
     out1(0, float(bitfieldExtract(int(code), 0, int(bits))));
@@ -18,7 +18,7 @@ void octahedral(uint bits) {
     out3(2, decodeOctahedral(code, bits));
 }
 
-// x and y of a code -> a unit vector
+// x and y of a code -> unit vector
 void decoded(uint bits) {
     uint mask = (1u << bits) - 1u;
     uint code = (uint(int(in1(0))) & mask) | ((uint(int(in1(1))) & mask) << bits);

@@ -5,8 +5,8 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-// Normals, albedo, emission, lightmap, F0, roughness, metallic, occlusion, F90, material -> the same from
-// the G-buffer
+// normals, albedo, emission, lightmap, F0, roughness, metallic, occlusion, F90, material -> the same
+// values read back from the G-buffer
 void main() {
     if (beyondRows()) return;
     Surface s;

@@ -4,7 +4,7 @@
 
 #include "compare/probe/shaders/rows.glsl"
 
-// A row's own lights and texels, instead of a frame's: texel i of an environment is at 4 i.
+// A row's lights and texels replace a frame's; texel i of an environment is at 4 i.
 #define LIGHT_LISTS_GLSL
 #include "shaders/lib/contract.glsl"
 struct OneDraw {
@@ -22,10 +22,10 @@ vec4 rowTexel(sampler2D texels, ivec2 p, int level) { return vec4(0.0); }
 #define texelFetch rowTexel
 #include "shaders/lib/environment.glsl"
 
-// The texels of an environment, normal -> irradiance over pi
+// texels of an environment, normal -> irradiance / pi
 void ofEnvironment() { out3(0, environmentIrradiance(in3(32))); }
 
-// Nine coefficients, normal -> irradiance
+// nine coefficients, normal -> irradiance
 void ofObject() {
     object_lights[0].irradiance = ObjectIrradiance(in3(0), in3(3), in3(6), in3(9), in3(12), in3(15), in3(18),
                                                    in3(21), in3(24));

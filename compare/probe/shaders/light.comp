@@ -5,7 +5,7 @@
 #include "shaders/lib/lights.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-// light's position from the surface, 1 / range^2, cone: direction, scale, offset -> irradiance, direction
+// light's position from the surface, 1 / range^2; cone: direction, scale, offset -> irradiance, direction
 void main() {
     if (beyondRows()) return;
     Light light;

@@ -13,7 +13,7 @@ void main() {
             out1(1, angleRatio(in1(0), in1(1)));
             break;
         case 1: out3(0, edgeFactor(in3(0), in3(3))); break;  // two directions
-        case 2:  // M^-1, centre, both half sides -> factor
+        case 2:  // M^-1, centre, both half-side vectors -> form factor
             out3(0, parallelogramFactor(Ltc(in1(0), in1(1), in1(2)), in3(3), in3(6), in3(9)));
             break;
     }

@@ -5,7 +5,7 @@
 #include "shaders/lib/msm.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-// exponent, the other warp's, nearest depth, bleed, least variance, bias of moments
+// exponent, the other warp's, nearest depth, bleed, smallest variance, moment bias
 ShadowLight lightAt(uint i) {
     ShadowLight light;
     light.exponent = in1(i);

@@ -4,7 +4,7 @@
 
 #include "compare/probe/shaders/rows.glsl"
 
-// What everything else is made of.
+// The operations that all other functions use.
 void main() {
     if (beyondRows()) return;
     float a = in1(0), b = ins > 1 ? in1(1) : 0.0, c = ins > 2 ? in1(2) : 0.0;

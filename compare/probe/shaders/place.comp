@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The view and the light grid of a row, instead of a frame's.
+// A row's view and light grid replace a frame's.
 #define VIEW_GLSL
 #include "shaders/lib/contract.glsl"
 View view;
@@ -17,7 +17,7 @@ void setDepths(uint i) {
     view.depth_denominator = vec2(in1(i + 2), in1(i + 3));
 }
 
-// The depth's four numbers, z; direction_0, _x, _y, origin_0, _x, _y, pixel -> position
+// four depth parameters, z; direction_0, _x, _y, origin_0, _x, _y, pixel -> position
 void position() {
     setDepths(0);
     view.direction_0 = in3(5);
@@ -29,8 +29,8 @@ void position() {
     out3(0, positionFromDepth(vec2(in1(23), in1(24)), in1(4)));
 }
 
-// Offset, shift, slices, tiles across and down, tile shift, depth, pixel -> slice, its nearest and farthest
-// depth, column and row of the tile
+// offset, shift, slices, tiles across and down, tile shift, depth, pixel -> slice, its nearest and
+// farthest depth, column and row of the tile
 void froxel() {
     grid.slice_offset = in1(0);
     grid.slice_shift = uint(in1(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One row of floats in, one row of floats out, as bits; see compare/probe/device_rows.h.
+// Reads and writes rows of floats as bits; see compare/probe/device_rows.h.
 #ifndef ROWS_GLSL
 #define ROWS_GLSL
 
@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer RowsIn { uint row_in[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer RowsOut { uint row_out[]; };
 layout(push_constant, scalar) uniform Rows { uint rows, ins, outs; };
 
-// Which function: one pipeline each. The number is above those of all features.
+// Index of the function: one pipeline each. The constant's id is above those of all features.
 layout(constant_id = 1000) const uint probed = 0;
 
 bool beyondRows() { return gl_GlobalInvocationID.x >= rows; }

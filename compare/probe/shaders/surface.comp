@@ -9,10 +9,10 @@
 void main() {
     if (beyondRows()) return;
     switch (probed) {
-        case 0:  // roughness, change of the normal in x and y, of which so much is rounding
+        case 0:  // roughness, change of the normal in x and y, part of it due to rounding
             out1(0, filteredRoughness(in1(0), in3(1), in3(4), in1(7)));
             break;
-        case 1: {  // F0, F90, albedo -> what is left of both, the lobe beside
+        case 1: {  // F0, F90, albedo -> factors of both, Lambertian lobe
             SpecularFactors s = specularFactors(vec3(in1(0)), in1(1), vec2(in1(2), in1(3)));
             out1(0, s.f0.x);
             out1(1, s.f90.x);
