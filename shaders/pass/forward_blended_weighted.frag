@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Weighted blended order-independent transparency (McGuire and Bavoil 2013): sums of radiance and opacity,
-// each layer weighted by how near it is.
+// with larger weights for nearer layers.
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/blended.glsl"
 #include "shaders/lib/optical_depth.glsl"
