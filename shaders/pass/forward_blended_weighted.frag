@@ -13,8 +13,8 @@ layout(location = 1) out float out_optical_depth;
 
 void main() {
     BlendedFragment f = blendedFragment();
-    // Falls to 1/20 over the range of blended surfaces: of exp(-k depth) the k with the least error over 2 to
-    // 8 layers of opacities from 0.2 to 0.9 (shared/transparent/MEASURED.md).
+    // Falls to 1/20 over the range of blended surfaces. Among exp(-k depth) this k has the smallest error
+    // for 2 to 8 layers with opacities of 0.2 to 0.9 (shared/transparent/MEASURED.md).
     float weight = exp(-3.0 * blendedDepth(middleDepth()));
     out_sums = vec4(f.radiance, f.opacity) * weight;
     out_optical_depth = opticalDepth(f.opacity, MOST_OPTICAL_DEPTH);

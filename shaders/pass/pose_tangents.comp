@@ -22,8 +22,9 @@ vec3 tangentAt(PosedInstance i, uint corner) {
     MorphedVertex a = morphed.at[indices.at[corner]];
     MorphedVertex b = morphed.at[indices.at[triangle + (at + 1) % 3]];
     MorphedVertex c = morphed.at[indices.at[triangle + (at + 2) % 3]];
-    // Of the two edges that follow from the corner at which the shortest begins: differences of products of
-    // long edges would leave nothing of a thin triangle. Twice the signed area, and the derivative times it.
+    // Uses the two edges that follow from the corner where the shortest edge begins. Differences of
+    // products of long edges would cancel for a thin triangle. `area` is twice the signed area in texture
+    // space, and `along` the direction of the derivative times it.
     vec3 ab = b.position - a.position, bc = c.position - b.position, ca = a.position - c.position;
     vec2 tab = mapped(i, b.texcoord - a.texcoord), tbc = mapped(i, c.texcoord - b.texcoord);
     vec2 tca = mapped(i, a.texcoord - c.texcoord);

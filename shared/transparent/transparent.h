@@ -17,8 +17,8 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view);
 // fragments have no partial sums that a second draw could continue.
 void checkLightsOfBlended(const FrameInputs& inputs);
 
-// Blends the view's blended draws over `lit`, which holds the opaque surfaces and the background, where
-// nothing opaque is in front of them: `depth`, which stays as it is. Adds no pass where there are none.
+// Draws blended surfaces over `lit`, which contains opaque surfaces and the background. Tests against
+// `depth` without writing it. Adds no pass without blended surfaces.
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);
 
 // The same for the lit of a capture that is the list's last pass. `images`: those of that pass are sorted
