@@ -19,7 +19,7 @@ namespace diptych {
 
 namespace {
 
-// Shades surfaces of channels into `targets` of a format, each cleared to 0.
+// Shades channels into `targets`, cleared to 0, which share a format.
 void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::shared_ptr<const DescriptorSets> channels, const char* name, Shader fragment,
                 std::span<const ImageRef> targets, VkFormat format) {

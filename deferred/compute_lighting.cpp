@@ -22,12 +22,12 @@ std::uint32_t lightingGroups(std::uint32_t pixels) {
     return (pixels + gpu::LIGHTING_GROUP - 1) / gpu::LIGHTING_GROUP;
 }
 
-// Shades group number `group` of every pixel to what is bound as the targets.
+// Shades sample group `group` of every pixel to the targets.
 struct LightingDispatch {
     Shader shader;
     gpu::uint group = 0;
-    std::array<ImageRef, 2> targets;  // the second of light batches alone
-    bool stores_all = true;           // whatever the targets held
+    std::array<ImageRef, 2> targets;  // the second is used by light batches alone
+    bool stores_all = true;           // overwrites the targets completely
 };
 void addDispatch(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                  const LightBatch& batch, const LightingDispatch& dispatch) {
@@ -56,7 +56,7 @@ void addDispatch(PassList& passes, Pass& pass, const FrameInputs& inputs, const 
 }
 static_assert(gpu::BINDING_SPECULAR_TARGET == gpu::BINDING_LIT_TARGET + 1);
 
-// Draws what was stored to an image of another format.
+// Converts a stored image to the format of `lit`.
 void addLitOf(PassList& passes, const FrameInputs& inputs, const FrameImages& frame, ImageRef stored,
               ImageRef lit) {
     Pass& pass = passes.draw("round lit")
@@ -95,7 +95,7 @@ void addComputeLighting(PassList& passes, const FrameInputs& inputs, const Frame
                                                    .format = litFormat,
                                                    .usage = VK_IMAGE_USAGE_STORAGE_BIT,
                                                    .life = Life::transient});
-    // Passes of one name are timed together. Groups of samples store to the samples that are theirs.
+    // Passes of one name are timed together. Each sample group stores to its own samples.
     if (several) passes.draw("shade").color(lit, Load::clear);
     for (gpu::uint group = 0; group < groups; ++group)
         addDispatch(passes, passes.compute("shade"), inputs, frame, last,

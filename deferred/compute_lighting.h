@@ -6,11 +6,12 @@
 
 namespace diptych {
 
-// Adds the passes that shade the first `groups` groups of samples of every pixel to `lit`, light batches
-// among them; nothing drawn is 0. A workgroup is a square of pixels in one tile of the light lists. `frame`:
-// with the groups in depth's place, where there are any. `lit`: of FrameInputs::lit_format, with storage
-// where that is litFormat; what has fewer bits is drawn to from what is stored, as a device rounds the two
-// differently.
+// Adds the passes, light batches included, that shade the first `groups` sample groups of every pixel to
+// `lit`. Pixels without geometry become 0. A workgroup is a square of pixels in one tile of the light
+// lists.
+// `frame`: with sample groups in place of depth, if there are any. `lit`: of FrameInputs::lit_format. It
+// needs storage usage if that is litFormat. Smaller formats are drawn from a stored float32 image, because
+// devices round stores and attachment writes differently.
 void addComputeLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
                         gpu::uint groups, ImageRef lit);
 

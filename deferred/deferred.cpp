@@ -39,10 +39,9 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     return key;
 }
 
-// A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a
-// depth test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded. With
-// several samples a pixel the depth is that of addGroups(), and there is a triangle for each of the first
-// `groups` groups that a pixel may have.
+// A full-screen pass over the G-buffer. Its triangle lies at the smallest drawable depth, so a depth test
+// of LESS_OR_EQUAL skips pixels without geometry (depth 0) before shading. With MSAA the depth is
+// frame.groups of addGroups(), and there is a triangle for each of the first `groups` sample groups.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          Shader fragment, Variant variant, const std::vector<VkFormat>& colors,
                          const LightBatch& batch, gpu::uint groups) {
@@ -67,15 +66,14 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, groups));
 }
 
-// What lighting reads of a frame: its G-buffer and depth, or with several samples a pixel in the depth's
-// place which of them are shaded as one.
+// Inputs of lighting: G-buffer and depth. Under MSAA the sample-group image replaces depth.
 FrameImages forLighting(const FrameImages& frame) {
     FrameImages read = frame;
     if (frame.groups.valid()) read.depth = frame.groups;
     return read;
 }
 
-// Draws the scene into the depth and the attachments. `captured`: with what only channels need.
+// Draws the scene into depth and G-buffer. `captured`: with data that only channels need.
 void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
     Pass& pass = readGeometry(passes, passes.draw("G-buffer"), inputs).depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
@@ -91,7 +89,7 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
     });
 }
 
-// What is drawn over the solid surfaces that are lit, and what becomes of it.
+// Adds background, blended surfaces, resolve and shadow page marks to lit opaque surfaces.
 void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, ImageRef lit) {
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
@@ -100,7 +98,7 @@ void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, I
     inputs.shadow.addMarks(passes, inputs, images.depth);
 }
 
-// Whether nothing solid is in view: then there is no G-buffer, and nothing to light.
+// Whether no opaque surface is in view: then the frame has no G-buffer and no lighting pass.
 bool hasNothingSolid(const FrameInputs& inputs) {
     return inputs.draws.solids().empty();
 }
@@ -157,7 +155,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
     const bool solid = !hasNothingSolid(inputs);
-    // The frame's own G-buffer holds geometric normals only if shadows need them.
+    // The frame's own G-buffer stores geometric normals only if shadows need them.
     if (solid && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
                      request.modes.end())
         addGBuffer(passes, inputs, frame, true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The deferred path: surfaces go to a G-buffer, one full-screen pass shades what is left visible.
+// The deferred path: draws surfaces to a G-buffer and shades visible ones in a full-screen pass.
 #pragma once
 
 #include "shared/draw/captures.h"
@@ -9,11 +9,11 @@
 
 namespace diptych {
 
-// The passes of a frame as it is timed. `inputs` must outlive the list.
+// Adds the passes of a timed frame. `inputs` must outlive the list.
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs);
 
-// The passes that write channels, read from the G-buffer that the frame left and decoded: a difference to
-// forward+ is the encoding's error. The request must not hold channels that the G-buffer does not store.
+// Adds the passes that write channels, decoded from the frame's G-buffer: their difference from forward+
+// is the encoding's error. The request must not contain channels that the G-buffer does not store.
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request);
 

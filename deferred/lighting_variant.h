@@ -5,7 +5,7 @@
 
 namespace diptych {
 
-// The variant of shaders that read the G-buffer.
+// Variant of shaders that read the G-buffer.
 Variant lightingVariant(const FrameInputs& inputs);
 
 }  // namespace diptych

@@ -36,7 +36,7 @@ std::uint64_t mostFurther(const PassList& passes, const FrameInputs& inputs) {
     return std::uint64_t{passes.width()} * passes.height() * (static_cast<gpu::uint>(inputs.samples) - 1);
 }
 
-// Whether the further groups are listed. A picture whose list is larger than an image is drawn as without.
+// Whether secondary groups are listed. Not if the list would exceed the largest image.
 bool listsFurther(const PassList& passes, const FrameInputs& inputs) {
     const Device& device = inputs.device;
     const std::uint32_t most = std::min(device.support().mostPixels(), 1u << gpu::FURTHER_PIXEL_BITS);
@@ -50,7 +50,7 @@ bool listsFurther(const PassList& passes, const FrameInputs& inputs) {
            mostFurther(passes, inputs) <= std::uint64_t{most} << gpu::FURTHER_WIDTH_BITS;
 }
 
-// SET_GBUFFER with the list and, where it is stored to, `lit`.
+// SET_GBUFFER with the list and, if valid, `lit` as a storage image.
 std::shared_ptr<DescriptorSets> setOf(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
                                       const FurtherGroups& further, ImageRef lit) {
     auto sets = std::make_shared<DescriptorSets>(gbufferSet(passes, inputs, frame));
@@ -91,7 +91,7 @@ FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages
     pass.samples(frame.depth, inFragment);
     if (further.any()) {
         Access counts = access::storageImageWrite(inFragment);
-        counts.access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT;  // an atomic addition
+        counts.access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT;  // atomic add
         pass.uses(further.count, counts, onlyPart)
             .uses(further.list, access::storageImageWrite(inFragment), onlyPart, true);
     }
@@ -115,7 +115,7 @@ void addFurtherGroups(PassList& passes, const FrameInputs& inputs, const FrameIm
     if (!further.any()) return;
     constexpr std::uint64_t a_draw = std::uint64_t{gpu::FURTHER_WIDTH} * gpu::FURTHER_ROWS;
     const auto draws = static_cast<gpu::uint>((mostFurther(passes, inputs) + a_draw - 1) / a_draw);
-    // A pass of the same name is timed with the one before it.
+    // Passes of one name are timed together.
     Pass& pass = passes.draw("shade")
                      .covers({gpu::FURTHER_WIDTH, gpu::FURTHER_ROWS})
                      .takes(shadingMs(passes, inputs, {}));

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
-// With several samples a pixel: which of them are shaded as one, and how those after a pixel's first are
-// shaded.
+// MSAA in the deferred path: grouping samples that share shading, and shading of secondary sample groups.
 #pragma once
 
 #include "shared/draw/frame_inputs.h"
 
 namespace diptych {
 
-// A list of the groups of samples that are not their pixel's first (shared/contract/samples.h).
+// List of secondary sample groups: all but the first group of each pixel (shared/contract/samples.h).
 struct FurtherGroups {
     ImageRef count, list;
     bool any() const { return list.valid(); }
 };
 
-// Adds the pass that makes frame.groups, where the frame has several samples a pixel. Lists the further
-// groups where that takes less time than to draw for each group that a pixel may have: on devices that shade
-// what the depth test leaves nothing of, if they can store to samples, and not where every sample is shaded.
+// Adds the pass that computes frame.groups if the frame has MSAA. Secondary groups are listed if that is
+// faster than one draw per possible group: on devices that shade samples that failed the depth test, if
+// they support stores to samples, and unless every sample is shaded.
 FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages& frame);
 
-// Adds the pass that shades them and stores their samples to `lit`; none where there is no list. `frame`:
-// with the groups in depth's place. `lit`: an image with the frame's samples and storage.
+// Adds the pass that shades listed groups and stores their samples to `lit`; none without a list. `frame`:
+// with sample groups in place of depth. `lit`: an image with the frame's samples and storage usage.
 void addFurtherGroups(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
                       const FurtherGroups& further, ImageRef lit);
 

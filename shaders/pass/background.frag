@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The environment where nothing was drawn, behind endless haze.
+// Environment and infinite haze of pixels without geometry.
 #define FLAT_VIEW
 #include "shaders/lib/haze.glsl"
 #include "shaders/lib/sky.glsl"

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread a pixel: marks the page of the sun's clipmap that the surface at the pixel is read from; of
-// several samples the pages of all, as if each were shaded where the sample is.
+// One thread per pixel: marks the page of the sun's clipmap that the pixel's surface samples. With MSAA it
+// marks the pages of all samples, each as if shaded at its location.
 #include "shaders/lib/clipmap.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/reversed_depth.glsl"
@@ -14,13 +14,13 @@ layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2D dep
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS depth_samples;
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_MARKS, scalar) buffer Marks { uint marks[]; };
 
-// z: the reversed depth at a place of the picture, pixels.
+// `place`: position in the image, pixels. `z`: reversed depth there.
 void mark(vec2 place, float z) {
-    if (z == 0.0) return;  // nothing was drawn there
+    if (z == 0.0) return;  // no geometry
     vec3 position = positionFromDepth(place, z);
     Clipmap map = clipmap();
     uint page = pageAt(map, shadowLight(), levelAt(map, position), position);
-    // Most pixels find their page marked: atomic operations wait for each other.
+    // Most pixels find their page already marked, which avoids contention of atomics.
     if ((marks[page / 32u] & (1u << (page % 32u))) == 0u) atomicOr(marks[page / 32u], 1u << (page % 32u));
 }
 

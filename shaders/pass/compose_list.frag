@@ -2,15 +2,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A pixel's list from near to far, then the mean of what found no room in it, as if that were one layer
-// behind: radiance, and the share of what is behind them all that comes through.
+// Composites a pixel's fragment list near to far, then the mean of the overflowed fragments as one layer
+// behind it. Writes radiance, and in alpha the transmittance of all layers.
 #include "shaders/lib/fragment_list.glsl"
 
 layout(location = 0) out vec4 out_lit;
 
 void main() {
     uvec2 p = uvec2(gl_FragCoord.xy);
-    out_lit = vec4(vec3(0.0), 1.0);  // of a pixel without fragments
+    out_lit = vec4(vec3(0.0), 1.0);  // a pixel without fragments
     if (!isListed(p)) return;
     uint pixel = listedPixel(p), layer = 0;
     vec3 radiance = vec3(0.0);

@@ -4,9 +4,10 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 
-// A workgroup writes the indices of what may show of a part, in the order that the part has, and the draw of
-// them. Clusters in view first, a thread each; then their triangles, a thread each, of several clusters at a
-// time: a bit for each that may show, and how many bits are before it is its place.
+// A workgroup writes the indices of a part's triangles that may be visible, in the part's order, and their
+// indirect draw. It first tests meshlets against the view, one thread each, then the triangles of several
+// meshlets at a time, one thread each. The offset of a visible triangle is the number of set bits before
+// its own.
 #include "shaders/lib/culling.glsl"
 
 layout(local_size_x = CULLING_THREADS) in;
@@ -25,11 +26,11 @@ ARRAY_AT(IndirectArray, IndirectDraw)
 #undef ARRAY_AT
 
 const uint WORDS = CULLING_THREADS / 32u;
-const uint AT_A_TIME = CULLING_THREADS / CULLED_TRIANGLES;  // clusters
+const uint AT_A_TIME = CULLING_THREADS / CULLED_TRIANGLES;  // meshlets
 
-shared uint in_view[CULLED_CLUSTERS / 32u];  // a bit a cluster of the part
-shared uint clusters[CULLED_CLUSTERS];       // those in view, in order
-shared uint shown[WORDS];                    // a bit a triangle
+shared uint in_view[CULLED_CLUSTERS / 32u];  // one bit per meshlet of the part
+shared uint clusters[CULLED_CLUSTERS];       // visible ones, in order
+shared uint shown[WORDS];                    // one bit per triangle
 
 uint bitsBefore(uint lane) { return (1u << (lane & 31u)) - 1u; }
 

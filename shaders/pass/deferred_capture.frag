@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// ATTACHMENTS: 1 to 8 channels.
+// Output attachments: 1 to 8 images of channels.
 #define FLAT_VIEW
 #include "shaders/lib/capture.glsl"
 #include "shaders/lib/deferred.glsl"

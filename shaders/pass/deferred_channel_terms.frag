@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The terms that deferred_channels.frag adds up to lit, one an attachment, before anything is blended.
+// Terms whose sum is the lit of deferred_channels.frag, one per attachment, before blending.
 #define FLAT_VIEW
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/stored_depth.glsl"

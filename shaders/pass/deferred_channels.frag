@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Shades surfaces of float32 channels, whoever drew them, as deferred_shade.frag shades a G-buffer's.
+// Shades float32 channels of any renderer as deferred_shade.frag shades a G-buffer.
 #define FLAT_VIEW
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/stored_depth.glsl"

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Shades the groups that deferred_groups_list.frag has listed, one a fragment, and stores their samples. No
-// fragment is of the pixel that it shades: nothing here reads where it is but the list.
+// Shades the groups that deferred_groups_list.frag has listed, one per fragment, and stores their samples.
+// A fragment's own position only selects the list entry; it is not at the shaded pixel.
 #define FLAT_VIEW
 #include "shaders/lib/further_groups.glsl"
 #include "shaders/lib/gbuffer_read.glsl"

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// As many rows as the listed groups of samples take, two triangles: of the list's draw constants.group.
+// Two triangles that cover the rows of listed sample groups in draw constants.group.
 #define FLAT_VIEW
 #include "shaders/lib/further_groups.glsl"
 #include "shaders/lib/view.glsl"

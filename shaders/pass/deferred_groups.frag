@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Which samples of a pixel deferred lighting shades as one. The depth of every sample of the pixel says so
+// Determines a pixel's sample groups and writes them as the depth of all its samples
 // (lib/sample_groups.glsl).
 #define FLAT_VIEW
 #include "shaders/lib/sample_pairs.glsl"

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The same as deferred_groups.frag, and lists each pixel's groups after its first. Where in the list they
-// stand is by chance; what is shaded at a sample does not depend on it.
+// As deferred_groups.frag, and lists each pixel's secondary sample groups. Their order in the list varies
+// from run to run; the shaded values do not depend on it.
 #define FLAT_VIEW
 #include "shaders/lib/further_groups.glsl"
 #include "shaders/lib/sample_pairs.glsl"
@@ -12,7 +12,7 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     uint count;
     gl_FragDepth = groupsAt(p, count);
-    // A device may clip the full-screen triangle into two, which share pixels: lavapipe does.
+    // A device may clip the full-screen triangle into two that share pixels, as lavapipe does.
     bool once = (gl_SampleMaskIn[0] & 1) != 0;
     if (once && count > 1u) {
         uint first = imageAtomicAdd(further_count, ivec2(0), count - 1u), k = 1u;

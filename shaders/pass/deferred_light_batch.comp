@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// As deferred_light_batch.frag; stores nothing where nothing was drawn.
+// As deferred_light_batch.frag; stores nothing at pixels without geometry.
 #define TEXEL_VIEW
 #include "shaders/lib/deferred_lighting.glsl"
 #include "shaders/lib/shade.glsl"

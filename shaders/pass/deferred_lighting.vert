@@ -11,7 +11,7 @@
 
 void main() {
     gl_Position = fullScreenCorner(gl_VertexIndex);
-    // Where the draw of a group of samples passes the test: samples.h.
+    // Depth at which the draw of a sample group passes the depth test: samples.h.
     if (multisampled())
         gl_Position.z = uintBitsToFloat((GROUP_EXPONENT + constants.group + 1u) << GROUP_MANTISSA_BITS);
     passViewThrough();

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Draws what deferred_shade.comp has stored, the first of the partial sums, to images of fewer bits: a device
-// rounds what it draws to them in its own way, and what shaders store in another.
+// Draws the image that deferred_shade.comp has stored, bound as the first partial sum, to smaller formats.
+// Devices round attachment writes and shader stores differently.
 #define FLAT_VIEW
 #include "shaders/lib/partial_sums.glsl"
 

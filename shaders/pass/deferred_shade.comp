@@ -2,19 +2,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// As deferred_shade.frag; stores to every pixel, 0 where nothing was drawn; of several samples to those of
-// the groups of samples that the dispatch shades alone.
+// As deferred_shade.frag. Stores every pixel, 0 without geometry. With MSAA it stores only the samples of
+// the dispatch's sample group.
 #define TEXEL_VIEW
 #include "shaders/lib/deferred_lighting.glsl"
 #include "shaders/lib/shade.glsl"
 
 void main() {
     if (!isInPicture()) return;
-    uint mask = 0u;  // of no sample where the pixel has no such group
+    uint mask = 0u;  // 0 if the pixel has no such group
     if (multisampled()) mask = groupHere().mask;
     if (multisampled() && mask == 0u) return;
     vec4 texel = vec4(0.0);
-    if (multisampled() || isDrawnHere()) texel = litHere();  // once in the module
+    if (multisampled() || isDrawnHere()) texel = litHere();  // one call, to inline the code once
     if (!multisampled()) {
         imageStore(lit_target, pixelHere(), texel);
         return;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Depth of an alpha-masked material: holes write none.
+// Depth of an alpha-masked material; discards holes.
 #include "shaders/lib/material.glsl"
 
 void main() { cutOut(baseColor()); }

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Blended over what is there, in the order in which they are drawn.
+// Blended over the attachment in draw order.
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/blended.glsl"
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// To the place of its pixel's list that its key has found.
+// Stores the fragment at its key's index in the pixel's list, or adds it to the overflow sums.
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/blended.glsl"
 #include "shaders/lib/fragment_list.glsl"

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Sums of radiance and opacity, each layer weighted by what the layers before it let through.
+// Sums of radiance and opacity, each layer weighted by the transmittance of the layers in front.
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/blended.glsl"
 #include "shaders/lib/transparency_moments.glsl"

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Weighted blended order-independent transparency (McGuire and Bavoil 2013): sums of radiance and opacity,
-// each layer weighted by how near it is.
+// with larger weights for nearer layers.
 #include "shaders/lib/shade.glsl"
 #include "shaders/lib/blended.glsl"
 #include "shaders/lib/optical_depth.glsl"
@@ -13,8 +13,8 @@ layout(location = 1) out float out_optical_depth;
 
 void main() {
     BlendedFragment f = blendedFragment();
-    // Falls to 1/20 over the range of blended surfaces: of exp(-k depth) the k with the least error over 2 to
-    // 8 layers of opacities from 0.2 to 0.9 (shared/transparent/MEASURED.md).
+    // Falls to 1/20 over the range of blended surfaces. Among exp(-k depth) this k has the smallest error
+    // for 2 to 8 layers with opacities of 0.2 to 0.9 (shared/transparent/MEASURED.md).
     float weight = exp(-3.0 * blendedDepth(middleDepth()));
     out_sums = vec4(f.radiance, f.opacity) * weight;
     out_optical_depth = opticalDepth(f.opacity, MOST_OPTICAL_DEPTH);

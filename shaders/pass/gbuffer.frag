@@ -5,7 +5,7 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-// A scene has as many attachments as it needs; those that it lacks leave no gap.
+// A frame has only the attachments that its scene needs; their locations are contiguous.
 layout(location = 0) out uvec4 out_albedo;
 layout(location = 1) out uvec4 out_normals;
 layout(location = 2) out uvec4 out_params;
@@ -15,7 +15,7 @@ layout(location = 5) out uvec4 out_5;
 layout(location = 6) out uvec4 out_6;
 layout(location = 7) out uvec4 out_7;
 
-// Writes an attachment that only some scenes have, where this one does, to the first location that is free.
+// Writes an optional attachment, if present, to the first free location.
 void write(bool there, uvec4 texel, inout uint free) {
     if (!there) return;
     if (free == 3) out_3 = texel;

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Never run. Every struct of the contract is in a buffer of its own, so that the compiled SPIR-V holds the
-// offsets that the build proves equal to those in C++.
+// Never executed. Declares a buffer of every contract struct, so that the build can compare the offsets in
+// the SPIR-V with those in C++.
 #include "shaders/lib/contract.glsl"
 #include "shared/contract/culling.h"
 

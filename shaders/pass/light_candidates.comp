@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// LIGHT_THREADS threads for each light: they divide among them the slices and the rows of tiles that the
-// light's bounding sphere may reach, and mark the light as a candidate of each slice and of each tile.
+// LIGHT_THREADS threads per light share the slices and rows of tiles that the light's bounding sphere may
+// reach. They mark the light as a candidate of each slice and of each tile.
 #include "shaders/lib/light_walk.glsl"
 
 layout(local_size_x = 64) in;

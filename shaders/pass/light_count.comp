@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread for four lists, whose masks are one texel: counts the lights in each of their segments, marks
-// which words hold any, and counts the packets that they take.
+// One thread per four lists, whose masks share a texel. Counts the lights in each segment, marks the words
+// that are not empty, and counts the list entries.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = 64) in;
@@ -19,7 +19,7 @@ struct FourCounts {
     uvec4 all, points, points_and_spots;
 };
 
-// Packets of whole lists; 0 behind the last list.
+// Entries of four lists; 0 beyond the last list.
 uvec4 packetsOfFour(FourCounts sum, uint four) {
     uvec4 result = uvec4(0u);
     for (uint i = 0u; i < 4u; ++i) {
@@ -48,7 +48,7 @@ void main() {
         }
         for (uint i = 0u; i < 4u; ++i) used_words[maskWord(first / 32u, four * 4u + i)] = used[i];
         if (points_alone) sum.points = sum.points_and_spots = sum.all;
-        // A segment ends here.
+        // End of a segment.
         if (end % SEGMENT_WORDS == 0u || end == grid.words) {
             for (uint i = 0u; i < 4u; ++i) {
                 uint list = four * 4u + i;

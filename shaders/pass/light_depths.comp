@@ -3,10 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
-// the larger one where nothing was drawn. With lights_in_front also those of what is blended: from the viewer
-// on, and to any depth where a pixel shows the background. One workgroup for each tile, one thread for four
-// pixels.
+// Smallest and largest view depth in each tile, over all samples of its pixels; the smallest is the larger
+// one in a tile without geometry. With lights_in_front also the range of blended surfaces: from the viewer
+// on, and unbounded if a pixel shows the background. One workgroup per tile, one thread per four pixels.
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/reversed_depth.glsl"
@@ -19,9 +18,9 @@ layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2DMS depth
 ivec2 size() { return multisampled() ? textureSize(depth_samples) : textureSize(depth, 0); }
 
 const float NO_DEPTH = 2.0;
-// Reversed depths as the bits of floats; of floats that are not negative the bits order as the values do.
+// Reversed depths as the bits of floats, whose order is that of the values for non-negative floats.
 shared uint nearest, deepest;
-shared uint farthest;  // the same of all pixels: 0 where one shows the background
+shared uint farthest;  // over all pixels: 0 if one shows the background
 
 void add(float z, inout float near, inout float deep, inout float far) {
     near = max(near, z);
@@ -38,15 +37,15 @@ void main() {
     barrier();
     float near = 0.0, deep = NO_DEPTH, far = NO_DEPTH;
     uint side = 1u << grid.tile_shift;
-    // In a tile of more pixels than the workgroup covers at once, each thread steps by LIGHT_TILE pixels
+    // If a tile has more pixels than the workgroup covers at once, each thread steps by LIGHT_TILE pixels
     // along both axes.
     uint steps = side / LIGHT_TILE, i = 0u;
-    // A `for` loop would run its body once more on lavapipe.
+    // On lavapipe a `for` loop would run its body once more.
     do {
         uvec2 step = uvec2(i % steps, i / steps);
         ivec2 p = ivec2(gl_WorkGroupID.xy * side + step * LIGHT_TILE + 2u * gl_LocalInvocationID.xy);
         if (all(lessThan(p, size()))) {
-            // Beyond the picture's edge the last pixel is repeated.
+            // Pixels beyond the image's edge repeat the last pixel.
             if (multisampled()) {
                 ivec2 last = size() - 1;
                 ivec2 right = min(p + ivec2(1, 0), last), below = min(p + ivec2(0, 1), last);
@@ -66,7 +65,7 @@ void main() {
             }
         }
     } while (++i < steps * steps);
-    // One atomic operation for each subgroup, as those of single threads would wait for each other.
+    // One atomic per subgroup, to avoid contention.
     near = subgroupMax(near);
     deep = subgroupMin(deep);
     if (subgroupElect()) {

@@ -2,13 +2,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread for each list and segment: writes the numbers of its lights in order, each kind beginning a new
-// packet. The thread of the first segment also writes the list's head and pads its packets.
+// One thread per list and segment: writes the light indices in order, each light type in new entries. The
+// first segment's thread also writes the list's head and pads its entries.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = 64) in;
 
-// Pads the last packet of a kind, from the place behind its lights, with the null light.
+// Pads the last entry of a light type with the null light, starting after its lights.
 void pad(uint from, uint end) {
     for (uint i = 0u; i < feature_list_width; ++i)
         if (from + i < end) indices[from + i] = grid.null_light;
@@ -22,7 +22,7 @@ void main() {
     LightListCount count = countOf(list);
     LightListHead head = headOf(count);
     bool fits = head.end <= grid.capacity;
-    // Where the next light of each kind goes; earlier segments' lights come before it.
+    // Index of the next light of each type, after the lights of earlier segments.
     uint point = head.begin * grid.width, spot = head.point_end * grid.width,
          area = head.spot_end * grid.width;
     if (segment == 0u) {
@@ -51,8 +51,8 @@ void main() {
     }
     uint left = fits ? counts[place + segment].all : 0u;
     uint mask = 0u, word = 0u, used = 0u, next = segment * (SEGMENT_WORDS / 32u), first = 0u;
-    // One loop over words and bits, as nested loops would each run one body too many. Each iteration writes a
-    // light, except where it passes 32 words that are all empty.
+    // A single loop over words and bits, because nested loops would each run one iteration too many on
+    // lavapipe. Each iteration writes a light, unless it skips 32 empty words.
     while (left > 0u) {
         if (mask == 0u && used == 0u) {
             used = used_words[maskWord(next, list)];

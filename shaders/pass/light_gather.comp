@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread for each tile, 32 lights and a run of slices: the lights that are candidates of the tile and of
-// a slice are tested against the cell of both (after Drobot 2017, "Improved Culling for Tiled and Clustered
+// One thread per tile, 32 lights and range of slices. Tests lights that are candidates of both the tile
+// and a slice against their froxel (after Drobot 2017, "Improved Culling for Tiled and Clustered
 // Rendering").
 #include "shaders/lib/light_walk.glsl"
 
@@ -19,7 +19,7 @@ void main() {
     uint slice = gl_WorkGroupID.z * run, end = in_tile != 0u ? min(slice + run, grid.slices) : 0u;
     uint left = 0u, reached = 0u, in_front = 0u;
     while (slice < end) {
-        // A loop of its own, of a few instructions, passes slices without candidates.
+        // A separate short loop skips slices without candidates.
         while (slice < end && left == 0u) {
             left = in_tile & candidates[sliceWord(word, slice)];
             slice += left == 0u ? 1u : 0u;

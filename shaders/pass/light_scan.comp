@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One workgroup: an exclusive prefix sum turns the number of packets of each four lists into where they
-// begin, behind the list of all lights. Each thread sums a run of them, then the workgroup the runs (Hillis
-// and Steele 1986, "Data parallel algorithms").
+// One workgroup: an exclusive prefix sum turns the number of entries of each group of four lists into its
+// begin, after the list of all lights. Each thread sums a range of groups, then the workgroup sums the
+// ranges (Hillis and Steele 1986, "Data parallel algorithms").
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = LIST_GROUP) in;

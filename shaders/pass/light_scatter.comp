@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// LIGHT_THREADS threads for each light: they divide among them the rows of tiles that the light's bounding
-// sphere covers in each slice, and mark those tiles of a row that the light reaches.
+// LIGHT_THREADS threads per light share the rows of tiles that its bounding sphere covers in each slice,
+// and mark the tiles of a row that the light reaches.
 #include "shaders/lib/light_walk.glsl"
 
 layout(local_size_x = 64) in;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Poses the vertices of an instance into the buffers that draws read; a thread each.
+// Deforms the vertices of an instance into the buffers that draws read, one thread per vertex.
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {
@@ -17,7 +17,7 @@ void main() {
     if (i.groups > 0)
         attributes.at[vertex].tangent.w =
             i.bitangents * AttributesArray(i.attributes).at[vertex].tangent.w;
-    // What no target moves is there already.
+    // Attributes that no morph target changes are already there.
     if (has(POSED_TEXCOORDS0)) attributes.at[vertex].texcoord0 = morphedTexcoord0(i, vertex);
     if (has(POSED_TEXCOORDS1)) attributes.at[vertex].texcoord1 = morphedTexcoord1(i, vertex);
     if (has(POSED_COLORS)) attributes.at[vertex].color = morphedColor(i, vertex);

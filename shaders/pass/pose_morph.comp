@@ -2,8 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// What tangents are made of, of an instance whose tangents follow from its morphed vertices; a thread a
-// vertex.
+// Writes the morphed inputs of tangents, for an instance with recomputed tangents; one thread per vertex.
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {

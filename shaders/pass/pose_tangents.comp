@@ -2,19 +2,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The tangents of a morphed surface as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled
-// Surfaces Revisited", 2008, section 3): the angle-weighted mean over a group's corners of their triangles'
-// derivatives of position by s, in the plane of the vertex normal. The groups are those of the surface at
-// rest; a thread each.
+// Tangents of a morphed surface as in MikkTSpace (M. Mikkelsen, "Simulation of Wrinkled Surfaces
+// Revisited", 2008, section 3): the angle-weighted mean, over a group's corners, of the derivative of
+// position by s in the plane of the vertex normal. Groups are those of the rest pose. One thread per
+// group.
 #include "shaders/lib/angles.glsl"
 #include "shaders/lib/posing_thread.glsl"
 
 vec3 inPlaneOf(vec3 normal, vec3 v) { return unitVector(v - normal * dot(normal, v)); }
 
-// How the normal map's coordinates differ: t grows towards the top of the picture, v towards its bottom.
+// Differences of the normal map's coordinates: t grows towards the top of the image, v towards the bottom.
 vec2 mapped(PosedInstance i, vec2 uv) { return vec2(dot(i.map_u, uv), -dot(i.map_v, uv)); }
 
-// At a corner, times its angle.
+// Tangent at a corner, weighted by its angle.
 vec3 tangentAt(PosedInstance i, uint corner) {
     UintArray indices = UintArray(i.indices);
     MorphedArray morphed = MorphedArray(i.morphed);
@@ -22,8 +22,9 @@ vec3 tangentAt(PosedInstance i, uint corner) {
     MorphedVertex a = morphed.at[indices.at[corner]];
     MorphedVertex b = morphed.at[indices.at[triangle + (at + 1) % 3]];
     MorphedVertex c = morphed.at[indices.at[triangle + (at + 2) % 3]];
-    // Of the two edges that follow from the corner at which the shortest begins: differences of products of
-    // long edges would leave nothing of a thin triangle. Twice the signed area, and the derivative times it.
+    // Uses the two edges that follow from the corner where the shortest edge begins. Differences of
+    // products of long edges would cancel for a thin triangle. `area` is twice the signed area in texture
+    // space, and `along` the direction of the derivative times it.
     vec3 ab = b.position - a.position, bc = c.position - b.position, ca = a.position - c.position;
     vec2 tab = mapped(i, b.texcoord - a.texcoord), tbc = mapped(i, c.texcoord - b.texcoord);
     vec2 tca = mapped(i, a.texcoord - c.texcoord);

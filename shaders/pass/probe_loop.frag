@@ -3,7 +3,7 @@
 
 layout(location = 0) out vec4 out_count;
 
-// How many of 100,000 iterations one invocation is granted.
+// Number of iterations, out of 100,000, that one invocation completes.
 void main() {
     uint end = 99999u + uint(gl_FragCoord.x + 0.5);
     uint state = end, count = 0u;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #version 460
 
-layout(set = 0, binding = 0) uniform sampler2D places;  // a texel a pixel: texture coordinates
+layout(set = 0, binding = 0) uniform sampler2D places;  // one texel per pixel: texture coordinates
 layout(set = 0, binding = 1) uniform sampler2D picture;
 layout(location = 0) out vec4 out_value;
 
-// What the device's sampler makes of a picture at chosen places, in level 0.
+// Result of the device's sampler at given texture coordinates, level 0.
 void main() {
     vec4 place = texelFetch(places, ivec2(gl_FragCoord.xy), 0);
     out_value = textureLod(picture, place.xy, 0.0);

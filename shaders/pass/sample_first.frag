@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The first sample of each pixel of several images, those of feature_captures: the lowest bits of it.
+// First sample of each pixel of several images: the lowest bits of feature_captures select them.
 #include "shaders/lib/contract.glsl"
 
 layout(set = SET_GBUFFER, binding = 0) uniform sampler2DMS image_0;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The largest value of a pixel's samples.
+// Largest value over a pixel's samples.
 #include "shaders/lib/contract.glsl"
 
 layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform sampler2DMS samples;

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A pixel's samples to its radiance: their mean; with tonemapped_resolve weighted by 1 / (1 + the largest
-// component), which is what a tone curve c / (1 + c) leaves of each share of light, so that one bright sample
-// does not outshine the others (Karis, "High-quality temporal supersampling", SIGGRAPH 2014).
+// Resolves a pixel's samples to their mean radiance. With tonemapped_resolve the weight is 1 / (1 +
+// largest component), as if a tone curve c / (1 + c) were applied, so that one bright sample does not
+// dominate (Karis, "High-quality temporal supersampling", SIGGRAPH 2014).
 #include "shaders/lib/contract.glsl"
 
 layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform sampler2DMS samples;

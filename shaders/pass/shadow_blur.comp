@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A Gaussian of a layer of moments, feature_shadow_kernel texels across or down. The map's edge goes on
-// beyond it. One thread blurs BLUR_RUN texels, so that each is read by few. Weights add up to 1 before they
-// are multiplied with moments, whose sum may leave the range of float32.
+// Gaussian blur of a layer of moments over feature_shadow_kernel texels, horizontally or vertically,
+// clamped to the map's edge. One thread blurs BLUR_RUN texels, to reuse its reads. Weights are normalized
+// before the sum, because a sum of moments may exceed the range of float32.
 #include "shaders/lib/contract.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;
@@ -12,9 +12,9 @@ layout(push_constant, scalar) uniform MomentBlock { MomentConstants constants; }
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_SOURCE) uniform sampler2DArray source;
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_TARGET) uniform writeonly image2DArray target;
 
-const int REACH = int(feature_shadow_kernel / 2u), MOST_REACH = 3;  // texels on each side of the middle
+const int REACH = int(feature_shadow_kernel / 2u), MOST_REACH = 3;  // texels on each side of the centre
 
-// Half the side is two standard deviations, a little more for narrow ones.
+// Half the side is two standard deviations, slightly more for narrow kernels.
 float gaussian(int k) {
     float x = float(k) / (0.15 * float(feature_shadow_kernel) + 0.35);
     return exp(-0.5 * x * x);

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest reversed depth that is drawn in a picture, over all samples of all pixels. One
-// thread reads two columns of DEPTH_BOUNDS_ROWS rows.
+// Smallest and largest reversed depth of an image's geometry, over all samples of all pixels. One thread
+// reads two columns of DEPTH_BOUNDS_ROWS rows.
 #include "shaders/lib/reversed_depth.glsl"
 #include "shaders/lib/samples.glsl"
 
@@ -18,7 +18,7 @@ layout(set = SET_DEPTH_BOUNDS, binding = BINDING_DEPTH_BOUNDS, scalar) buffer De
 void add(float z, inout uint nearest, inout uint deepest) {
     uint bits = floatBitsToUint(z);
     nearest = max(nearest, bits);
-    deepest = z > 0.0 ? min(deepest, bits) : deepest;  // 0: nothing was drawn there
+    deepest = z > 0.0 ? min(deepest, bits) : deepest;  // 0: no geometry
 }
 
 void main() {
@@ -26,7 +26,7 @@ void main() {
     ivec2 size = multisampled() ? textureSize(depth_samples) : textureSize(depth, 0);
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * ivec2(2, DEPTH_BOUNDS_ROWS);
     for (int y = 0; y < int(DEPTH_BOUNDS_ROWS); y += 2) {
-        // Beyond the picture's edge its last pixels are repeated.
+        // Pixels beyond the image's edge repeat the last pixels.
         if (multisampled()) {
             int s = 0;
             do {
@@ -40,7 +40,7 @@ void main() {
             for (int i = 0; i < 4; ++i) add(reversedDepth(z[i]), nearest, deepest);
         }
     }
-    // One atomic operation for each subgroup, as those of single threads would wait for each other.
+    // One atomic per subgroup, to avoid contention.
     nearest = subgroupMax(nearest);
     deepest = subgroupMin(deepest);
     if (subgroupElect()) {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One thread a texel: a layer of depth to its moments.
+// Converts a layer of depth to moments, one thread per texel.
 #include "shaders/lib/msm.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;

@@ -17,7 +17,7 @@ layout(location = 11) in vec4 normal_from_object_z;  // w: handedness
 layout(location = 12) in mat3 world_from_object;
 layout(location = 15) in vec3 world_from_object_origin;
 
-// What the buffers hold of a vertex, or what its instance's pose makes of it.
+// Attributes from the buffers, or deformed by the instance's pose.
 struct Vertex {
     vec3 position, normal;
     vec4 tangent, texcoords, color;
@@ -40,7 +40,7 @@ Vertex vertexAt() {
 
 vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
 
-// KHR_texture_transform and the choice of the UV set.
+// Applies KHR_texture_transform and selects the UV set.
 vec2 slotTexcoord(uint slot, vec4 texcoords) {
     vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoords.zw : texcoords.xy);
     TextureTransform t = material.transforms[slot];
@@ -50,8 +50,7 @@ vec2 slotTexcoord(uint slot, vec4 texcoords) {
 void main() {
     Vertex v = vertexAt();
     gl_Position = clipFrom(v.position);
-    // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's
-    // normal.
+    // A node scale of zero makes vectors zero; the fragment shader then uses the triangle's normal.
     v_normal = unitVector(normal_from_object_x * v.normal.x + normal_from_object_y * v.normal.y +
                           normal_from_object_z.xyz * v.normal.z);
     v_texcoord = bounded(v.texcoords.xy);

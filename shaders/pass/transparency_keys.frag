@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Which fragments of each pixel are its nearest ones.
+// Finds the nearest fragments of each pixel.
 #include "shaders/lib/fragment_list.glsl"
 #include "shaders/lib/opacity.glsl"
 
@@ -12,7 +12,7 @@ void main() {
     uvec2 p = uvec2(gl_FragCoord.xy);
     vec4 base_color = baseColor();
     cutOut(base_color);
-    // What covers nothing takes no room.
+    // Invisible fragments take no list entry.
     if (coverageOf(base_color) == 0.0 || !isListed(p)) return;
     insertKey(listedPixel(p), fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
 }

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Sums of optical depth, and of it times powers of depth.
+// Sums of optical depth, and of optical depth times powers of depth.
 #include "shaders/lib/opacity.glsl"
 #include "shaders/lib/transparency_moments.glsl"
 

@@ -6,16 +6,17 @@
 
 CONTRACT_BEGIN
 
-// The shape of a rectangle, disc or tube. Its Light has the centre as position, the radiance in W/(sr m^2),
-// the same from every point into every direction, as intensity, and the range from the centre. Area lights
-// come last in the order of lights: rectangles, discs, tubes; the i-th shape belongs to the i-th area light.
+// Shape of a rectangle, disc or tube. Its Light stores the centre as position, the range from the centre,
+// and as intensity the radiance in W/(sr m^2), constant over the shape and all directions.
+// Area lights are the last lights: rectangles, discs, tubes. Shape i belongs to area light i.
 struct AreaLight {
-    vec3 x;  // m; from the centre: rectangle: to the middle of a side; disc: to the rim; tube: to an end
+    vec3 x;  // m, from the centre; rectangle: to the middle of a side; disc: to the rim; tube: to an end
     float radius;     // m; disc, tube
-    vec3 y;           // rectangle, disc: the other half axis, cross(x, y) along direction
-    float extent;     // m; radius of the sphere around it
-    vec3 direction;   // unit; rectangle, disc: in which it shines; tube: along x
-    float two_sided;  // 1: rectangle, disc: to both sides
+    vec3 y;           // rectangle, disc: the other half axis, orthogonal to x; cross(x, y) points along
+                      // direction
+    float extent;     // m; radius of the bounding sphere
+    vec3 direction;   // unit; rectangle, disc: emission direction; tube: along x
+    float two_sided;  // 1: a rectangle or disc emits on both sides
 };
 #define AREA_LIGHT_OF_TEXELS(a, b, c) AreaLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w)
 CONTRACT_LANE(AreaLight, x, 0, 0);
@@ -26,8 +27,8 @@ CONTRACT_LANE(AreaLight, direction, 2, 0);
 CONTRACT_LANE(AreaLight, two_sided, 2, 3);
 CONTRACT_TEXELS(AreaLight, 3);
 
-// FEATURE_area_lights: the shapes that the scene has, and AREA_POINTS where each is evaluated by a
-// representative point; else by linearly transformed cosines.
+// FEATURE_area_lights: a sum of the shapes in the scene. AREA_POINTS evaluates them as representative
+// points; without it they use linearly transformed cosines.
 CONTRACT_CONST(uint, AREA_RECTS, 1);
 CONTRACT_CONST(uint, AREA_DISCS, 2);
 CONTRACT_CONST(uint, AREA_TUBES, 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptor sets and bindings. Each set's bindings are one table, which C++ expands to descriptor types; the
-// declarations in GLSL are held against the tables by a test that reads the compiled modules.
+// Descriptor sets and bindings, one table per set. C++ expands a table to descriptor types. A test
+// compares the GLSL declarations in the compiled modules with the tables.
 #ifndef DIPTYCH_CONTRACT_BINDINGS_H
 #define DIPTYCH_CONTRACT_BINDINGS_H
 
@@ -8,15 +8,15 @@
 
 CONTRACT_BEGIN
 
-CONTRACT_CONST(uint, SET_FRAME, 0);         // what every pass of a frame reads
+CONTRACT_CONST(uint, SET_FRAME, 0);         // read by every pass of a frame
 CONTRACT_CONST(uint, SET_MATERIAL, 1);      // one material: textures at SLOT_*, then its factors
-CONTRACT_CONST(uint, SET_LISTS, 1);         // of the kernels that make light lists: light_list.h
+CONTRACT_CONST(uint, SET_LISTS, 1);         // compute shaders that build light lists: light_list.h
 CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: the attachments GBUFFER_*, then depth
-CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // what the light batches before this one reflected
+CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // sums of the preceding light batches
 
 CONTRACT_END
 
-// number  name  kind  what it holds
+// number  name  kind  contents
 //   kind  uniform_buffer, storage_buffer, texel_buffer (read as a sampler buffer), image (with its sampler)
 // clang-format off
 #define FRAME_BINDINGS(X)                                                                     \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The clipmap of the sun's shadow: levels of pages around the camera, each level's texels twice as wide as
-// those of the one before, and a last level of one page that covers the whole scene. Which pages there are is
-// chosen from what a picture shows; a page that is not there is served by a coarser level.
+// Clipmap of the sun's shadow: levels of pages around the camera. Texels double in width from level to
+// level. The last level is one page that covers the whole scene. Only pages that visible receivers need
+// are resident; a coarser level serves the others.
 #ifndef DIPTYCH_CONTRACT_CLIPMAP_H
 #define DIPTYCH_CONTRACT_CLIPMAP_H
 
@@ -9,16 +9,18 @@
 
 CONTRACT_BEGIN
 
-// What all levels share. Behind it come a Cascade for each level, the whole scene's the last, whose texels
-// are counted from the lower corner of the level's window; then a ClipmapPage for each page of each window,
-// level by level and row by row, and one for the whole scene.
+// Shared by all levels. After it in the buffer:
+//  - a Cascade per level, the whole scene's last; its texel coordinates start at the lower corner of the
+//  level's window
+//  - a ClipmapPage per page of each window, level by level and row by row
+//  - the ClipmapPage of the whole scene
 struct Clipmap {
-    vec3 centre;  // of all windows, world axes, camera as origin, m
-    float
-        levels_from;  // 1/m: one over the distance up to which level 0 serves; each next serves twice as far
-    uint levels;      // that have a window: the number of the whole scene's
-    uint width;       // pages of a window's side
-    float page;       // texels of a page's side
+    vec3 centre;        // of all windows; world axes from the camera, m
+    float levels_from;  // 1/m: inverse distance up to which level 0 is requested; each further level reaches
+                        // twice as far
+    uint levels;        // number of levels with a window; also the index of the whole scene's level
+    uint width;         // pages along a side of a window
+    float page;         // texels along a side of a page
     float spare;
 };
 #define CLIPMAP_OF_TEXELS(a, b) Clipmap(a.xyz, a.w, floatBitsToUint(b.x), floatBitsToUint(b.y), b.z, b.w)
@@ -28,10 +30,10 @@ CONTRACT_LANE(Clipmap, page, 1, 2);
 CONTRACT_TEXELS(Clipmap, 2);
 CONTRACT_CONST(uint, CLIPMAP_TEXELS, 2);
 
-// Where a page is read: its own texels, or those of a coarser level that covers it.
+// Where to read a page: its own texels, or those of a coarser level that covers it.
 struct ClipmapPage {
-    vec2 shift;   // texels: from the serving level's coordinates to the atlas
-    float level;  // that serves
+    vec2 shift;   // texels: from coordinates of the resident level to the atlas
+    float level;  // resident level
     float spare;
 };
 #define CLIPMAP_PAGE_OF_TEXEL(a) ClipmapPage(a.xy, a.z, a.w)
@@ -39,8 +41,9 @@ CONTRACT_LANE(ClipmapPage, shift, 0, 0);
 CONTRACT_LANE(ClipmapPage, level, 0, 2);
 CONTRACT_TEXELS(ClipmapPage, 1);
 
-CONTRACT_CONST(uint, CLIPMAP_MARK_SIDE, 8);  // threads of a workgroup's side, a pixel each
-CONTRACT_CONST(uint, SET_CLIPMAP, 1);        // of the kernel that marks pages, beside SET_FRAME
+CONTRACT_CONST(uint, CLIPMAP_MARK_SIDE, 8);  // workgroup is SIDE x SIDE threads, one per pixel
+CONTRACT_CONST(uint, SET_CLIPMAP, 1);        // of the compute shader that marks pages; it also reads
+                                             // SET_FRAME
 
 CONTRACT_END
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a device chooses the triangles of a view that may show, into indirect draws (shared/draw/README.md,
-// "What cannot show"). The kernel reaches all arrays by address.
+// GPU culling: selects the triangles of a view that may be visible and writes indirect draws
+// (shared/draw/README.md, "What cannot show"). The compute shader reads all arrays by address.
 #ifndef DIPTYCH_CONTRACT_CULLING_H
 #define DIPTYCH_CONTRACT_CULLING_H
 
@@ -8,42 +8,42 @@
 
 CONTRACT_BEGIN
 
-CONTRACT_CONST(uint, CULLED_TRIANGLES, 64);  // of a cluster, at most
-CONTRACT_CONST(uint, CULLED_CLUSTERS, 64);   // of a part, at most
+CONTRACT_CONST(uint, CULLED_TRIANGLES, 64);  // largest number of triangles in a meshlet
+CONTRACT_CONST(uint, CULLED_CLUSTERS, 64);   // largest number of meshlets in a part
 
-// A thread a triangle, of so many clusters at a time.
+// One thread per triangle; a workgroup processes this many triangles at a time.
 CONTRACT_CONST(uint, CULLING_THREADS, 256);
-// Workgroups along x; those beyond go along y.
+// Workgroups in x; further ones continue in y.
 CONTRACT_CONST(uint, CULLING_GROUPS, 32768);
 
 struct CulledCluster {
-    vec3 min;  // object, m: the box of its corners
+    vec3 min;  // object space, m: bounding box
     uint first_index;
     vec3 max;
     uint triangles;
 };
 
-// What an instance's draw shows of a triangle.
+// Which sides of an instance's triangles are drawn.
 CONTRACT_CONST(uint, CULLED_BOTH_SIDES, 1);
-CONTRACT_CONST(uint, CULLED_MIRRORED, 2);  // fronts are clockwise on the screen
+CONTRACT_CONST(uint, CULLED_MIRRORED, 2);  // front faces are clockwise on screen
 
 // One instance.
 struct CulledItem {
-    mat4 clip_from_object;  // of its draw
-    vec4 error;             // clip, by component: how far two shaders' products for one corner lie apart
+    mat4 clip_from_object;  // that of its draw
+    vec4 error;             // clip space, per component: largest difference of two shaders' transforms
+                            // of one vertex
     uint first_vertex;
-    uint draw;   // the instance that its draws begin at
-    uint sides;  // CULLED_*, a sum
+    uint draw;   // firstInstance of its draws
+    uint sides;  // sum of CULLED_*
 };
 
-// Clusters of one instance that follow one another from near to far: a workgroup chooses of them, and an
-// indirect draw draws what it has chosen.
+// Consecutive meshlets of one instance, near to far. One workgroup culls them and fills one indirect draw.
 struct CulledPart {
     uint item;
-    uint first;  // into the order of clusters
+    uint first;  // index into the order of meshlets
     uint clusters;
-    uint place;    // of its first chosen index
-    uint command;  // of its draw
+    uint place;    // offset of its first visible index
+    uint command;  // index of its draw
 };
 
 // VkDrawIndexedIndirectCommand.
@@ -55,21 +55,22 @@ struct IndirectDraw {
     uint first_instance;
 };
 
-// Push constants. Addresses are the low and the high word.
+// Push constants. An address is (low word, high word).
 struct CullingConstants {
     uvec2 positions;  // vec3[], object, m
-    uvec2 indices;    // uint[]: three a triangle, from CulledItem::first_vertex on
+    uvec2 indices;    // uint[]: three per triangle, relative to CulledItem::first_vertex
     uvec2 clusters;   // CulledCluster[]
     uvec2 items;      // CulledItem[]
     uvec2 parts;      // CulledPart[part_count]
-    uvec2 order;      // uint[]: numbers of clusters
-    uvec2 chosen;     // uint[]: the indices of what may show
+    uvec2 order;      // uint[]: meshlet indices
+    uvec2 chosen;     // uint[]: vertex indices of the triangles that may be visible
     uvec2 draws;      // IndirectDraw[]
     uint part_count;
-    uint samples;     // of a pixel: 1, 4 or 8
-    vec2 half_size;   // of the picture, pixels
-    float place_off;  // pixels: how far two devices' places of one corner lie apart, clip space aside
-    float snap;       // pixels: how far a rasteriser moves a corner, at most
+    uint samples;     // per pixel: 1, 4 or 8
+    vec2 half_size;   // of the image, pixels
+    float place_off;  // pixels: largest difference between two devices' positions of one vertex, without
+                      // the clip-space error
+    float snap;       // pixels: largest distance by which a rasterizer snaps a vertex
 };
 
 CONTRACT_END

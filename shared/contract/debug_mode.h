@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every channel that a path can show or write. Numbers 0-9 are fixed; more are appended in blocks of ten
-// (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
+// Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
+// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
 //
 // To add a channel: a row here and in CAPTURES, a line in shaders/lib/debug.glsl, a line in
 // compare/reference/reference.cpp.
@@ -14,9 +14,11 @@
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
 //   domain  unit: vectors of length 1   share: 0 to 1   positive: 0 or more   any
-//   made by both (and the reference), forward_only where the G-buffer does not carry it, deferred_only where
-//   it is about the G-buffer's samples, or by the two paths alone (paths_only): how they work, of which the
-//   reference knows nothing
+//   made by which renderers produce it:
+//           both           both paths and the reference
+//           forward_only   forward+ and the reference: the G-buffer does not store it
+//           deferred_only  deferred alone: it describes samples of the G-buffer
+//           paths_only     both paths, not the reference: it describes how they work
 // clang-format off
 #define DEBUG_MODES(X)                                                                                 \
     X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")       \
@@ -54,10 +56,11 @@
     X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light")
 // clang-format on
 
-// name  image  component: where a channel stands in the images of four components that captures draw, its
-// first component there. Images below FIRST_LIT_IMAGE hold what no light changes, so that drawing them shades
-// nothing. Of each image the channel at component 0 comes first. lit is alone, since it is blended into, and
-// shaded_samples, of which not the first sample counts but the most.
+// name  image  component: where captures store a channel. Captures render images of four components;
+// component is the channel's first. Images below FIRST_LIT_IMAGE do not depend on lights, so no light is
+// evaluated for them. The channel at component 0 of an image is listed first.
+// lit has an image of its own because it is blended into. So has shaded_samples, which takes the largest
+// sample instead of the first.
 // clang-format off
 #define CAPTURES(X)            \
     X(albedo,             0, 0) \
@@ -98,7 +101,7 @@
 CONTRACT_BEGIN
 CONTRACT_CONST(uint, CAPTURE_IMAGES, 19);
 CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 12);
-// Images of one capture pass: the fewest attachments that every Vulkan device has.
+// Colour attachments of a capture pass; device_support.h requires as many.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
 
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows) \

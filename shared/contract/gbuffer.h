@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The G-buffer's layouts. Every attachment holds unsigned integers that the shader packs itself: what a
-// device does when it rounds to a render target (lavapipe truncates halves) cannot touch them, and
-// forward+ can compute exactly what deferred will read back.
+// G-buffer layouts. Every attachment stores unsigned integers that the shader packs itself. So the
+// device's rounding on writes to a render target has no effect (lavapipe truncates halves), and forward+
+// can compute exactly what deferred will read.
 //
 //               compact                       standard                        full
 //   albedo    R32  sqrt 8.8.8, occl. 8     R32  sqrt 8.8.8, occl. 8        RGBA32 albedo, occlusion
@@ -10,26 +10,27 @@
 //                  metallic 6, id 10            metallic 8, id 12
 //   emission  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 emission, id
 //   specular  R32  sqrt 8.8.8, F90 8       R32  sqrt 8.8.8, F90 8          RGBA32 dielectric F0, F90
-//   ids       R32  (only where 10 bits     R32  (only where 12 bits
-//                   do not suffice)              do not suffice)
+//   ids       R32  (only if 10 bits            R32  (only if 12 bits
+//                   are too few)                   are too few)
 //   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
-//   shaded    RG32 bits of the depth, samples: where the surface is shaded (several samples a pixel alone)
+//   shaded    RG32 shading depth (bits of a float) and sample mask (MSAA only)
 //   bytes     12 to 24, + 4 depth          16 to 28, + 4 depth             64 to 96, + 4 depth
 //
-// sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255. emission exists
-// where the scene emits (full: always, it carries the id), and is RGBA32 float where its radiance leaves the
-// range of 9.9.9.e5; lightmap, alike, where a material has one (0 of surfaces without one,
-// shaders/lib/gbuffer.glsl tells them from black); specular where a material has KHR_materials_specular,
-// _ior or _unlit. With several samples a pixel every attachment holds as many, and shaded says where in the
-// pixel the surface was made: at the mean of the places of the samples that its triangle covers, and at
-// which depth.
+// sqrt: the square root is stored, so 0.04, the default F0, is exactly 51/255.
+// emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
+// float if radiance exceeds the range of 9.9.9.e5.
+// lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
+// shaders/lib/gbuffer.glsl distinguishes them from black.
+// specular exists if a material has KHR_materials_specular, _ior or _unlit.
+// With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
+// pixel: the mean location of the samples that its triangle covers, and the depth there.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
 
 #include "types.h"
 
-// The attachments, which deferred lighting reads as SET_GBUFFER at these bindings.
-// number  name  kind  what it is called
+// Attachments. Deferred lighting reads them as SET_GBUFFER at these bindings.
+// number  name  kind  display name
 // clang-format off
 #define GBUFFER_BINDINGS(X)                  \
     X(0, ALBEDO,   image, "albedo")          \
@@ -54,9 +55,10 @@ GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NUMBER)
 #define DIPTYCH_GBUFFER_ONE(number, name, kind, what) +1
 CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 0 GBUFFER_BINDINGS(DIPTYCH_GBUFFER_ONE));
 #undef DIPTYCH_GBUFFER_ONE
-CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER, after the attachments: an image
+CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER: an image, after the
+                                                           // attachments
 
-// Bits of each packed field, by encoding; the tolerances are derived from these.
+// Bits of each packed field by encoding. Tolerances are derived from these.
 CONTRACT_CONST(uint, ALBEDO_BITS, 8);
 CONTRACT_CONST(uint, OCCLUSION_BITS, 8);
 CONTRACT_CONST(uint, SPECULAR_BITS, 8);
@@ -73,7 +75,7 @@ CONTRACT_CONST(uint, EMISSION_MANTISSA_BITS, 9);
 
 // Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
 CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);
-// Smallest largest-component that keeps all nine bits: 2^-15.
+// Smallest value of the largest component that keeps all nine bits: 2^-15.
 CONTRACT_CONST(float, EMISSION_MIN, 3.0517578125e-5f);
 
 CONTRACT_END

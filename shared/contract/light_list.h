@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights a pixel evaluates: the cells that the picture is cut into and the lists that they hold.
+// Which lights a pixel evaluates: the tiles or froxels of an image and their light lists.
 #ifndef DIPTYCH_CONTRACT_LIGHT_LIST_H
 #define DIPTYCH_CONTRACT_LIGHT_LIST_H
 
@@ -10,36 +10,40 @@ CONTRACT_BEGIN
 // Values of FEATURE_light_lists.
 CONTRACT_CONST(uint, LISTS_NONE, 0);       // every light at every pixel
 CONTRACT_CONST(uint, LISTS_CLUSTERED, 1);  // a cell is a froxel: a tile of pixels x a slice of view depth
-CONTRACT_CONST(uint, LISTS_TILED, 2);      // a cell is a tile with the depths that it covers
+CONTRACT_CONST(uint, LISTS_TILED, 2);      // a cell is a tile with its depth range
 
-// Values of FEATURE_light_batch. Lists of more packets than a device's draw may walk are walked in batches by
-// several draws. Each continues from the float32 sums of the one before it, so the sums have the same bits as
-// one loop's.
+// Values of FEATURE_light_batch. Long lists are evaluated in batches by several draws. Each draw continues
+// from the float32 sums of the previous one, so the result is bit for bit that of one loop.
 CONTRACT_CONST(uint, BATCH_WHOLE, 0);  // the whole list
-CONTRACT_CONST(uint, BATCH_FIRST, 1);  // directional lights and the first packets
+CONTRACT_CONST(uint, BATCH_FIRST, 1);  // directional lights and the first entries
 CONTRACT_CONST(uint, BATCH_LATER, 2);  // continues from SET_PARTIAL_SUMS
 
-// Cells over a picture, numbered (slice * tiles.y + tile y) * tiles.x + tile x. Lists are of local lights
-// (point, spot, area): directional ones reach everything. Light numbers count from the first local one.
+// Cells of an image, with index (slice * tiles.y + tile y) * tiles.x + tile x. Lists contain local lights
+// (point, spot, area); directional lights affect every pixel. Light indices in lists start at the first
+// local light.
 struct LightGrid {
-    uvec2 tiles;         // across, down; the last column and row may be cut off
-    uint tile_shift;     // a tile is 1 << tile_shift pixels wide and high
-    uint slices;         // of depth; 1 where tiled
-    float slice_offset;  // m: slice = (bits of (depth + offset) - bits of offset) >> shift, as integers, at
-    uint slice_shift;    //   most slices - 1: steps that grow with depth and are exact to tell, without a log
-    uint lists;        // one a cell: tiles.x * tiles.y * slices; of tiles with lights_in_front as many again
-                       //   behind them, of what is blended: from the viewer on
-    uint list_stride;  // lists of one row of the masks: a multiple of four
+    uvec2 tiles;      // across, down; the last column and row may be partial
+    uint tile_shift;  // a tile is 1 << tile_shift pixels wide and high
+    uint slices;      // of depth; 1 if tiled
+    // slice = (bits of (depth + slice_offset) - bits of slice_offset) >> slice_shift, at most slices - 1.
+    // Integer operations on float bits are exact; slices grow with depth as with a logarithm.
+    float slice_offset;  // m
+    uint slice_shift;
+    uint lists;        // one per cell: tiles.x * tiles.y * slices; with lights_in_front the tiles have a
+                       // second set after it, for blended surfaces: from the viewer on
+    uint list_stride;  // lists per row of the masks: a multiple of four
     uint local_lights;
-    uint first_local;    // directional lights before them
-    uint point_end;      // numbers of points are below it,
-    uint spot_end;       // of spots below this
-    uint words;          // of 32 lights each, of a list's mask
-    uint segments;       // a list's words are counted and written in so many parts, SEGMENT_WORDS each
-    uint width;          // lights of a packet: 1 or 4; lists consist of whole packets; FEATURE_list_width
-    uint null_light;     // pads the last packet of a part
-    uint capacity;       // packets that the index buffer holds
-    uint all_point_end;  // the list of all local lights begins at packet 0; the ends of its parts
+    uint first_local;    // index of the first local light: the number of directional lights
+    uint point_end;      // end of the point lights' indices
+    uint spot_end;       // end of the spots' indices
+    uint words;          // of 32 lights each, in a list's mask
+    uint segments;       // number of segments, of SEGMENT_WORDS words each, in which a list is counted and
+                         // written
+    uint width;          // lights per list entry: 1 or 4; lists consist of whole entries;
+                         // FEATURE_list_width
+    uint null_light;     // pads the last entry of each light type
+    uint capacity;       // entries in the index buffer
+    uint all_point_end;  // the list of all local lights begins at entry 0; ends of its light types
     uint all_spot_end;
     uint all_end;
     vec2 centre;  // pixel coordinates of the optical axis
@@ -51,15 +55,15 @@ struct LightGrid {
     uvec2 masks;
 };
 
-// The region that a light can reach, for culling alone: what lies inside both a bounding sphere and a cone.
-// In view axes from the camera: x right, y down, z forward; m. Widened by more than float32 can round.
-// Shaders read it as texels.
+// Conservative bound of a light's range of influence, for culling alone: the intersection of a sphere and
+// a cone. View axes from the camera: x right, y down, z forward; m. Enlarged by more than float32
+// rounding. Shaders read it as texels.
 struct LightBound {
     vec3 centre;
-    float radius;    // at most MAX_BOUND_RADIUS; a sphere of that radius is around the camera and reaches
-                     // everything
-    vec3 apex;       // of the cone: the light
-    float cos_cone;  // half the opening angle; -1: all directions
+    float radius;    // at most MAX_BOUND_RADIUS; a sphere of that radius is centred at the camera and
+                     // contains everything
+    vec3 apex;       // of the cone: the light's position
+    float cos_cone;  // of half the opening angle; -1: all directions
     vec3 axis;       // unit
     float sin_cone;
 };
@@ -72,15 +76,15 @@ CONTRACT_LANE(LightBound, axis, 2, 0);
 CONTRACT_LANE(LightBound, sin_cone, 2, 3);
 CONTRACT_TEXELS(LightBound, 3);
 
-// How many lights of one list's segment there are, and of these the points, and the points and spots.
+// Number of lights in one segment of a list: all, points, and points plus spots.
 struct LightListCount {
     uint all, points, points_and_spots;
-    uint begin;  // of a list's first segment: packets of the lists before it among its four
+    uint begin;  // in a list's first segment: entries of the preceding lists in its group of four
 };
 
-// A list: packets [begin, end) of the index buffer in the order of the lights, points before point_end, spots
-// before spot_end; a part has at least one packet where the scene has such lights at all. A list that found
-// no room is the list of all local lights, which begins at 0. Shaders read it as one texel.
+// A list: entries [begin, end) of the index buffer in light order; points end at point_end, spots at
+// spot_end. Each light type that the scene has takes at least one entry. A list that overflowed is the
+// list of all local lights, which begins at 0. Shaders read one texel.
 struct LightListHead {
     uint begin, point_end, spot_end, end;
 };
@@ -91,16 +95,17 @@ CONTRACT_LANE(LightListHead, spot_end, 0, 2);
 CONTRACT_LANE(LightListHead, end, 0, 3);
 CONTRACT_TEXELS(LightListHead, 1);
 
-CONTRACT_CONST(uint, LIGHT_TILE, 16);       // pixels, of tiled: four for each of 64 threads
+CONTRACT_CONST(uint, LIGHT_TILE, 16);       // pixels; side of a tile with tiled lists: 64 threads handle
+                                            // four pixels each
 CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);  // 32,768 lights: a loop over them stays below lavapipe's limit
-CONTRACT_CONST(uint, LIST_GROUP, 256);      // threads of the workgroup of the prefix sum
-CONTRACT_CONST(uint, LIGHT_THREADS, 8);     // threads that divide a light's cells among them
+CONTRACT_CONST(uint, LIST_GROUP, 256);      // threads per workgroup of the prefix sum
+CONTRACT_CONST(uint, LIGHT_THREADS, 8);     // threads that share the cells of one light
 CONTRACT_CONST(float, MAX_BOUND_RADIUS,
-               4e18f);  // m, over twice as far as anything may be; its square stays finite
+               4e18f);  // m, more than twice the largest coordinate; its square stays finite
 
 CONTRACT_END
 
-// SET_LISTS, of the kernels that make lists; columns as in bindings.h.
+// SET_LISTS, of the compute shaders that build lists; columns as in bindings.h.
 // clang-format off
 #define LIST_BINDINGS(X)                                                                                  \
     X(0,  BOUNDS,      texel_buffer,   "LightBound[local_lights], three texels each")                     \

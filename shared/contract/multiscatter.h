@@ -6,11 +6,10 @@
 
 CONTRACT_BEGIN
 
-// FEATURE_multiscatter: what stands for light that leaves a rough surface after more than one reflection
-// between its microfacets, which the specular lobe leaves out.
+// FEATURE_multiscatter: model of multiple scattering between microfacets, which the specular lobe omits.
 CONTRACT_CONST(uint, MULTISCATTER_OFF, 0);
-CONTRACT_CONST(uint, MULTISCATTER_ENERGY, 1);  // a brighter lobe: Turquin 2019
-CONTRACT_CONST(uint, MULTISCATTER_FDEZ, 2);    // a Lambertian lobe beside it: Fdez-Aguera 2019
+CONTRACT_CONST(uint, MULTISCATTER_ENERGY, 1);  // scales the specular lobe: Turquin 2019
+CONTRACT_CONST(uint, MULTISCATTER_FDEZ, 2);    // adds a Lambertian lobe: Fdez-Aguera 2019
 
 CONTRACT_END
 

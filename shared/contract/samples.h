@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the samples of a pixel are: the standard places of Vulkan 1.3, 26.4 (Multisampling), in sixteenths of
-// a pixel from its upper left corner. Devices that have others (standardSampleLocations is false) draw one
-// sample.
+// Sample locations: the standard ones of Vulkan 1.3, 26.4 (Multisampling), in sixteenths of a pixel from
+// its upper left corner. Devices with other locations (standardSampleLocations is false) draw one sample.
 #ifndef DIPTYCH_CONTRACT_SAMPLES_H
 #define DIPTYCH_CONTRACT_SAMPLES_H
 
@@ -11,33 +10,36 @@ CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, MAX_SAMPLES, 8);
 
-// Two numbers of 4 bits each a sample, x in the lower; the first sample in the lowest byte.
+// Two 4-bit coordinates per sample, x in the lower bits; the first sample is in the lowest byte.
 CONTRACT_CONST(uint, SAMPLE_PLACES_4, 0xeaa26e26u);
 CONTRACT_CONST(uint, SAMPLE_PLACES_8_LOW, 0x359db759u);
 CONTRACT_CONST(uint, SAMPLE_PLACES_8_HIGH, 0x1ffb71d3u);
 
-// The order in which an alpha mask covers samples (MASK_COVERS of material.h), 4 bits each, the first in the
-// lowest: each next one far from those before, so that what is covered lies about the pixel's middle.
+// Order in which an alpha mask covers samples (MASK_COVERS of material.h): 4-bit sample indices, the first
+// in the lowest bits. Each sample is far from those before it, so the covered region is centred in the
+// pixel.
 CONTRACT_CONST(uint, COVERAGE_ORDER_4, 0x2130u);
 CONTRACT_CONST(uint, COVERAGE_ORDER_8, 0x10472563u);
 
-// Values of FEATURE_sample_edges: the samples that deferred lighting shades as one.
+// Values of FEATURE_sample_edges: which samples deferred lighting shades as one group.
 CONTRACT_CONST(uint, EDGES_ALL, 0);       // none
-CONTRACT_CONST(uint, EDGES_EXACT, 1);     // those of the same bits in every attachment
-CONTRACT_CONST(uint, EDGES_SIMILAR, 2);   // those that differ by less than is seen
-CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // exact, and all of a pixel that each of its triangles covers
+CONTRACT_CONST(uint, EDGES_EXACT, 1);     // samples with the same bits in every attachment
+CONTRACT_CONST(uint, EDGES_SIMILAR, 2);   // samples whose difference is not visible
+CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // as EDGES_EXACT; one group if every visible triangle covers the
+                                          // whole pixel
 
-// Groups of samples that are shaded as one are stored as a depth: which sample is in which group in the
-// mantissa (shaders/lib/sample_groups.glsl), in the exponent GROUP_EXPONENT and their number, of at most
-// MAX_SAMPLES, which leaves it below 1. A draw at the depth of one group more passes the test where there
-// are as many: group k of a pixel is shaded by the draw at the depth of exponent GROUP_EXPONENT + k + 1.
+// Sample groups are stored as a depth. The mantissa stores the group of each sample
+// (shaders/lib/sample_groups.glsl); the exponent is GROUP_EXPONENT plus the number of groups, so the depth
+// stays below 1. Group k of a pixel is shaded by a draw at the depth of exponent GROUP_EXPONENT + k + 1,
+// which passes the depth test if the pixel has more than k groups.
 CONTRACT_CONST(uint, GROUP_EXPONENT, 118);
 CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 
-// Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list,
-// so that what shades them has no fragments beside them: each in a texel, its number above twice
-// FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH. Four storage images are what
-// every device has.
+// Bindings of SET_GBUFFER after those of blended surfaces. Secondary sample groups are listed, so that
+// their pass has no empty fragments. A list texel stores the group's index above FURTHER_PIXEL_BITS bits
+// each of the pixel's y and x. Rows have FURTHER_WIDTH texels. There are four storage images, the limit
+// that every device supports.
+// number  name  kind  contents
 // number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
@@ -54,11 +56,11 @@ SAMPLE_BINDINGS(DIPTYCH_BINDING_NUMBER)
 CONTRACT_CONST(uint, FURTHER_PIXEL_BITS, 14);
 CONTRACT_CONST(uint, FURTHER_WIDTH_BITS, 12);
 CONTRACT_CONST(uint, FURTHER_WIDTH, 1 << FURTHER_WIDTH_BITS);
-// They are shaded by draws of a fragment each, FURTHER_WIDTH wide and of so many rows at most.
+// Draws that shade them cover at most this many rows of FURTHER_WIDTH fragments.
 CONTRACT_CONST(uint, FURTHER_ROWS, 32);
 
-// Side of the square of pixels that a workgroup of deferred lighting shades: it lies in one tile of light
-// lists, whose side is as long or a multiple of it.
+// Side in pixels of the square that a workgroup of deferred lighting shades. The side of a light list's
+// tile is a multiple of it, so the square lies in one tile.
 CONTRACT_CONST(uint, LIGHTING_GROUP, 8);
 
 CONTRACT_END

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps of the sun: the brightest directional light, which casts shadows. Light space has the camera as
-// its origin, x and y across the light, z towards it; all three axes are unit vectors, so that distances are
-// metres. A map's depth grows towards the light: 1 at the caster that is nearest to it, 0 where the
-// scene ends, and where nothing casts.
+// Shadow maps of the sun: the brightest shadow-casting directional light. Light space has the camera as
+// origin, x and y across the light, and z towards it. Its axes are unit vectors, so distances are in
+// metres. A map's depth grows towards the light: 1 at the nearest caster, 0 at the scene's far end and
+// where nothing casts.
 #ifndef DIPTYCH_CONTRACT_SHADOW_H
 #define DIPTYCH_CONTRACT_SHADOW_H
 
@@ -10,39 +10,40 @@
 
 CONTRACT_BEGIN
 
-// Values of FEATURE_shadows: how the sun's visibility is found.
+// Values of FEATURE_shadows: how visibility of the sun is computed.
 CONTRACT_CONST(uint, SHADOWS_NONE, 0);
-CONTRACT_CONST(uint, SHADOWS_PCF, 1);      // filtered comparisons with depth
+CONTRACT_CONST(uint, SHADOWS_PCF, 1);      // filtered depth comparisons
 CONTRACT_CONST(uint, SHADOWS_EVSM, 2);     // two moments of exponentially warped depth
 CONTRACT_CONST(uint, SHADOWS_CLIPMAP, 3);  // filtered comparisons with the pages of clipmap.h
 CONTRACT_CONST(uint, SHADOWS_EVSM4, 4);    // two moments of depth warped in both directions
 CONTRACT_CONST(uint, SHADOWS_MSM4, 5);     // four moments of depth
-CONTRACT_CONST(uint, SHADOWS_PCSS, 6);     // comparisons over as much as the sun's disc blurs
+CONTRACT_CONST(uint, SHADOWS_PCSS, 6);     // filter radius from the size of the sun's disc
 
 CONTRACT_CONST(uint, MAX_CASCADES, 4);
 
-// What all cascades share.
+// Shared by all cascades.
 struct ShadowLight {
-    vec3 x;             // light space's axes, world
+    vec3 x;             // axes of light space, world
     float depth_scale;  // 1/m: depth = z * depth_scale + depth_offset
     vec3 y;
     float depth_offset;
     vec3 to_light;   // z
-    float rounding;  // of positions: a share of their distance from the camera
-    vec4 ends;       // view depth where each cascade ends, m; beyond the last nothing is shadowed
-    vec4 fades;      // view depth where each begins to blend into the next, m
-    vec3 forward;    // unit, in which the camera looks: view depth is along it
-    uint light;      // number of the directional light that casts
-    // Of moments.
-    float exponent;      // of the warp, exp(exponent * depth), with depth growing away from the light
-    float nearest;       // the least depth that is warped: 0 or -1; the farthest is 1
-    float bleed;         // of the visibility this much is taken for light that bled through, 0 to 1
-    float min_variance;  // of depth, a share of the range squared
-    float negative;      // exponent of the other warp, -exp(-negative * depth)
-    float moment_bias;   // of four moments this much is taken for those of a half at each end of the range
-    // Of percentage-closer soft shadows.
-    float disc;    // of the sun: the tangent of half its angle
-    float widest;  // texels, of what is searched and filtered
+    float rounding;  // rounding error of positions relative to their distance from the camera
+    vec4 ends;       // view depth where each cascade ends, m; no shadow beyond the last
+    vec4 fades;      // view depth where each cascade begins to blend into the next, m
+    vec3 forward;    // unit; view direction, along which view depth is measured
+    uint light;      // index of the shadow-casting directional light
+    // Moments:
+    float exponent;      // of the warp exp(exponent * depth), with depth growing away from the light
+    float nearest;       // smallest warped depth: 0 or -1; the largest is 1
+    float bleed;         // visibility that is attributed to light bleeding and removed, 0 to 1
+    float min_variance;  // of depth, relative to the range squared
+    float negative;      // exponent of the second warp, -exp(-negative * depth)
+    float moment_bias;   // blend weight towards the moments of two halves at the ends of the range, for
+                         // four moments
+    // Percentage-closer soft shadows:
+    float disc;    // tangent of half the sun's angular diameter
+    float widest;  // texels; largest search and filter size
 };
 
 #define SHADOW_LIGHT_OF_TEXELS(a, b, c, d, e, f, g, h)                                                     \
@@ -60,8 +61,8 @@ CONTRACT_LANE(ShadowLight, negative, 7, 0);
 CONTRACT_TEXELS(ShadowLight, 8);
 CONTRACT_CONST(uint, SHADOW_LIGHT_TEXELS, 8);
 
-// One layer of the map. Its texel (i, j) covers [i, i + 1) x [j, j + 1) of the coordinates
-// (x, y) * texels_per_metre + offset of light space.
+// One layer of the map. Texel (i, j) covers [i, i + 1) x [j, j + 1) in the coordinates (x, y) *
+// texels_per_metre + offset of light space.
 struct Cascade {
     vec2 offset;  // texels
     float texels_per_metre;
@@ -73,29 +74,29 @@ CONTRACT_LANE(Cascade, texels_per_metre, 0, 2);
 CONTRACT_LANE(Cascade, bias, 0, 3);
 CONTRACT_TEXELS(Cascade, 1);
 
-// Push constants of the kernels that make moments: one layer at a time.
+// Push constants of the compute shaders that generate moments, one layer per dispatch.
 struct MomentConstants {
-    uint size;       // texels of a side
-    uint down;       // blur: 0 across, 1 down
+    uint size;       // texels along a side
+    uint down;       // blur direction: 0 horizontal, 1 vertical
     float exponent;  // as in ShadowLight
     float negative;
     float nearest;
 };
-CONTRACT_CONST(uint, MOMENT_THREADS, 64);  // of a workgroup, side by side
-CONTRACT_CONST(uint, BLUR_RUN, 8);         // texels that a thread blurs, one after the other
+CONTRACT_CONST(uint, MOMENT_THREADS, 64);  // threads of a workgroup, along a row
+CONTRACT_CONST(uint, BLUR_RUN, 8);         // consecutive texels that one thread blurs
 
-// What the kernel that finds the least and the largest depth of a picture leaves: reversed depths as the bits
-// of floats, which order as the values do. Where nothing is drawn, DEEPEST_OF_NOTHING and 0.
+// Smallest and largest reversed depth of an image, as the bits of floats, whose order is that of the
+// values. DEEPEST_OF_NOTHING and 0 if nothing is drawn.
 struct DepthBounds {
     uint deepest;
     uint nearest;
 };
 CONTRACT_CONST(uint, DEEPEST_OF_NOTHING, 0xffffffffu);
-CONTRACT_CONST(uint, DEPTH_BOUNDS_ROWS, 16);  // of the picture that one thread reads, two columns wide
+CONTRACT_CONST(uint, DEPTH_BOUNDS_ROWS, 16);  // rows of the image that one thread reads, two columns wide
 
 CONTRACT_END
 
-// What those kernels bind, as SET_MOMENTS and as SET_DEPTH_BOUNDS.
+// SET_MOMENTS and SET_DEPTH_BOUNDS of those compute shaders.
 // clang-format off
 #define MOMENT_BINDINGS(X)                                                       \
     X(0, MOMENT_SOURCE, image,         "depth, or moments: an array of one layer") \

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The channels that make a Surface: what lights meet at a pixel is a function of them alone. Deferred
-// lighting of channels (shaders/pass/deferred_channels.frag) reads them as float32 images in the places of a
-// G-buffer, so that a channel is swapped for another picture's by binding another image.
+// Channels that define a Surface: the lighting of a pixel depends on them alone. Deferred lighting of
+// channels (shaders/pass/deferred_channels.frag) binds them as float32 images in place of a G-buffer. To
+// substitute a channel of another image, bind that image.
 #ifndef DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 #define DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 
 #include "types.h"
 
-// number of the binding of SET_GBUFFER, where another table has an image as well; name of the debug mode.
-// Fourth components: of lightmap the channel lightmapped; of geometric_normal the bits per coordinate that
-// lighting quantises it to, 0: none.
+// Binding of SET_GBUFFER, which another table may use for its own image; name of the debug mode. Fourth
+// components: of lightmap the channel lightmapped; of geometric_normal the bits per coordinate that lighting
+// quantizes it to, 0: none.
 // clang-format off
 #define SURFACE_CHANNELS(X)  \
     X(0,  albedo)            \

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The words that both languages share. A contract header is included unchanged by C++ and by GLSL, and
-// uses only 4-byte scalars, vectors, matrices of them and nested structs: in scalar block layout those
-// have the same offsets in both (proved at build time from the compiled SPIR-V).
-// CONTRACT_LANE and CONTRACT_TEXELS state, for a struct that shaders read as texels of four lanes, where each
-// member begins and how many texels there are; C++ proves it. Beside them stands the macro by which GLSL
-// makes the struct. Never define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES: it would move every member.
+// Types that both languages share. C++ and GLSL include contract headers unchanged. The headers use only
+// 4-byte scalars, vectors, matrices and nested structs, whose offsets in scalar block layout are the same
+// in both languages; the build proves it from the compiled SPIR-V.
+// CONTRACT_LANE and CONTRACT_TEXELS declare, for structs that shaders read as texels, the texel and
+// component of a member and the number of texels; C++ asserts them. The macro beside them constructs the
+// struct in GLSL. Never define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES: it changes the offsets.
 #ifndef DIPTYCH_CONTRACT_TYPES_H
 #define DIPTYCH_CONTRACT_TYPES_H
 
@@ -30,7 +30,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-// Whether a member begins at a lane (x, y, z, w: 0 to 3) of a texel of four floats.
+// Whether a member begins at a component (x, y, z, w: 0 to 3) of a texel of four floats.
 constexpr bool beginsAt(std::size_t offset, std::size_t texel, std::size_t lane) {
     return offset == 16 * texel + 4 * lane;
 }

@@ -6,10 +6,10 @@
 
 CONTRACT_BEGIN
 
-// The camera. GPU space has world axes and the camera as its origin, so no coordinate here is large.
-// Depth is reversed: 1 at the near plane, 0 at the far plane or at infinity.
+// The camera. GPU space has world axes and the camera as its origin, which keeps coordinates small. Depth
+// is reversed: 1 at the near plane, 0 at the far plane or at infinity.
 //
-// The position of a pixel with centre p, in pixels, and depth z, the only one that shading uses:
+// Shading reconstructs the position of a pixel from its centre p, in pixels, and its depth z:
 //     position = origin(p) + direction(p) * d
 //     d = (depth_numerator.x + z * depth_numerator.y) / (depth_denominator.x + z * depth_denominator.y)
 // origin and direction are affine in p.
@@ -23,14 +23,14 @@ struct View {
     vec3 direction_y;
     vec2 depth_numerator;
     vec2 depth_denominator;
-    vec3 backward;  // unit, from the scene to the camera: the view vector of an orthographic one
+    vec3 backward;  // unit, from the scene to the camera: view vector of an orthographic camera
     uint directional_light_count;
     uint point_light_count;
     uint spot_light_count;
     uint rect_light_count;
     uint disc_light_count;
     uint tube_light_count;
-    vec3 ambient;  // W/(sr m^2), from everywhere
+    vec3 ambient;  // W/(sr m^2), uniform
     // Addresses of the lights' buffers, for FEATURE_addressed_lights.
     uvec2 lights;
     uvec2 spot_cones;
@@ -39,9 +39,9 @@ struct View {
 
 CONTRACT_END
 
-// What a fragment reads of View and LightGrid, as texels of four 32-bit lanes: one table, by which C++ packs
-// and GLSL unpacks. Perspective only: the rays of an orthographic camera are not in it. Each lane is filled
-// by one row.
+// Members of View and LightGrid that fragments read, as texels of four 32-bit components. C++ packs and
+// GLSL unpacks from this table. Perspective only: it omits the rays of an orthographic camera. Each row
+// fills one component.
 //   FLOAT, UINT(texel, lane, member)    SHORTS(texel, lane, low 16 bits, high 16 bits)
 // clang-format off
 #define PACKED_VIEW(FLOAT, UINT)                \
@@ -71,11 +71,11 @@ CONTRACT_END
 CONTRACT_BEGIN
 CONTRACT_CONST(uint, PACKED_VIEW_TEXELS, 5);
 
-// How the scene's depth is stored; shaders/lib/reversed_depth.glsl reads it.
-CONTRACT_CONST(uint, DEPTH_REVERSED, 0);  // as it is
-CONTRACT_CONST(uint, DEPTH_STANDARD, 1);  // 1 - z, where the far end is 1 - STANDARD_DEPTH_FIRST
-CONTRACT_CONST(uint, DEPTH_STEPS_24, 2);  // in steps of 1 / (2^24 - 1), of which the first is the far end
-CONTRACT_CONST(uint, DEPTH_STEPS_16, 3);  // and of 1 / (2^16 - 1)
+// Storage of the scene's depth; shaders/lib/reversed_depth.glsl reads it.
+CONTRACT_CONST(uint, DEPTH_REVERSED, 0);  // unchanged
+CONTRACT_CONST(uint, DEPTH_STANDARD, 1);  // 1 - z; the far end is 1 - STANDARD_DEPTH_FIRST
+CONTRACT_CONST(uint, DEPTH_STEPS_24, 2);  // in steps of 1 / (2^24 - 1); the first step is the far end
+CONTRACT_CONST(uint, DEPTH_STEPS_16, 3);  // likewise, in steps of 1 / (2^16 - 1)
 CONTRACT_CONST(float, STANDARD_DEPTH_FIRST, 2.3841858e-7f);  // 2^-22
 CONTRACT_END
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arrays of any types, one after the other in one buffer that shaders read by address.
+// Arrays of any types in one buffer that shaders read by address.
 #pragma once
 
 #include "shared/vulkan/resources.h"
@@ -14,7 +14,7 @@ namespace diptych {
 
 class Arena {
 public:
-    // Where the array begins, in bytes.
+    // Returns the offset of the array in bytes.
     template <class T>
     std::size_t add(std::span<const T> values) {
         const std::size_t at = (bytes_.size() + alignment - 1) / alignment * alignment;
@@ -27,7 +27,7 @@ public:
         return add(std::span<const T>(values));
     }
     std::size_t size() const { return bytes_.size(); }
-    // Over what stands there.
+    // Overwrites the bytes at `at`.
     template <class T>
     void put(std::size_t at, const T& value) {
         std::memcpy(bytes_.data() + at, &value, sizeof value);
@@ -35,7 +35,7 @@ public:
     void upload(Uploader& uploader, const GpuBuffer& buffer) const {
         if (!bytes_.empty()) uploader.buffer(buffer, bytes_);
     }
-    // As large as what has been added, for upload().
+    // Buffer of the size of all added arrays, for upload().
     GpuBuffer makeBuffer(Device& device, const std::string& name) const {
         return {device, name, bytes_.size(),
                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};

@@ -11,14 +11,14 @@ namespace diptych {
 
 namespace {
 
-// Whether the background radiates at all.
+// Whether the background has any radiance.
 bool isSeen(const FrameInputs& inputs) {
     return inputs.variant.get(gpu::FEATURE_environment) != 0 || inputs.variant.get(gpu::FEATURE_haze) != 0;
 }
 
 }  // namespace
 
-// The full-screen triangle lies just above the far end of the reversed depth, which only what is cleared has.
+// The full-screen triangle lies just in front of the far end, so only cleared depth passes the test.
 void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit, Load load) {
     if (!isSeen(inputs)) return;
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_BACKGROUND));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The environment where nothing was drawn, and the haze before it: one pass of both paths.
+// Environment and haze of pixels without geometry: one pass, shared by both paths.
 #pragma once
 
 #include "shared/draw/captures.h"
@@ -7,14 +7,14 @@
 
 namespace diptych {
 
-// Adds it to `lit`, which an earlier pass has drawn or (Load::clear) none has; nothing without an
-// environment and haze.
+// Adds the background to `lit`, or clears it first with Load::clear. Does nothing without an environment
+// and haze.
 void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit,
                    Load load = Load::keep);
 
-// The image of lit that a capture of `group` goes on from, with the background drawn; invalid where the group
-// has no lit, or there is no environment and no haze. It comes before the capture's pass: a transient is read
-// back after the last pass that has it.
+// Image that holds the background, on which a capture of `group` continues its `lit`. Invalid if the group
+// has no lit, or without environment and haze. Add it before the capture's pass: a transient is read back
+// after the last pass that uses it.
 ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                               const CaptureGroup& group);
 

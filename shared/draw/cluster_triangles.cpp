@@ -14,15 +14,15 @@ namespace diptych {
 
 namespace {
 
-// Arrays are filled up with 0 to a multiple of that, so that compilers make vectors of their loops.
+// Arrays are padded with 0 to a multiple of this, so that compilers vectorize their loops.
 constexpr std::size_t laneCount = 8;
 
 constexpr std::uint16_t filledUp(std::size_t count) {
     return static_cast<std::uint16_t>((count + laneCount - 1) / laneCount * laneCount);
 }
 
-// Of the edge from a to b, both from the first sample: positive where that lies inside, times `turn`; and
-// how it changes to the next sample across and down.
+// Edge function of the edge from a to b, relative to the first sample: positive inside, with the sign
+// `turn`; and its increments to the next sample across and down.
 struct EdgeSide {
     float at, across, down;
     EdgeSide(float turn, const glm::vec2& a, const glm::vec2& b)
@@ -48,7 +48,7 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
         const double perimeter = glm::distance(corners[0], corners[1]) +
                                  glm::distance(corners[1], corners[2]) +
                                  glm::distance(corners[2], corners[0]);
-        // Without an area it faces nowhere: all 0, which is never behind.
+        // A degenerate triangle faces nowhere: all 0, which is never behind.
         if (!(glm::length(cross) > 0)) continue;
         const glm::dvec3 normal = cross / perimeter;
         float* const value = values_.data() + entry.first_plane + i;
@@ -120,7 +120,7 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
         atX[i] = (rowX.x * px[i] + rowX.y * py[i] + rowX.z * pz[i] + rowX.w) * scale + projection.half.x;
         atY[i] = (rowY.x * px[i] + rowY.y * py[i] + rowY.z * pz[i] + rowY.w) * scale + projection.half.y;
     }
-    // A corner that is off by as much across and down.
+    // Displacement of a corner that is off by `off` in both coordinates.
     const float off = projection.off, wide = 1.4143f * off, turn = projection.clockwise ? 1.0f : -1.0f;
     TriangleSet covering = 0;
     for (TriangleSet left = from; left != 0; left &= left - 1) {
@@ -132,20 +132,20 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
                     right = std::max(a.x, std::max(b.x, c.x)) + off,
                     top = std::min(a.y, std::min(b.y, c.y)) - off,
                     bottom = std::max(a.y, std::max(b.y, c.y)) + off;
-        // Of what lies wholly in a picture all places are above -1. Samples are in the middle of pixels.
+        // Positions inside an image are above -1. Samples are at pixel centres.
         const auto firstX = static_cast<int>(low + 1.5f) - 1, firstY = static_cast<int>(top + 1.5f) - 1;
         const int across = static_cast<int>(right + 1.5f) - 1 - firstX,
                   down = static_cast<int>(bottom + 1.5f) - 1 - firstY;
         const bool large = across * down > 6;
         bool covers = large;
         if (!large) {
-            // A corner's move changes twice an area by its size times how far the others are, and those are
-            // in this box with the sample; once more for what float32 rounds away.
+            // Moving a corner changes twice an area by at most the displacement times the distance of the
+            // other points, which lie in this box with the sample. The factor covers float32 rounding.
             const float margin = wide * (2 * (right - low + bottom - top) + wide) * 1.01f;
             const glm::vec2 first(static_cast<float>(firstX) + 0.5f, static_cast<float>(firstY) + 0.5f);
             const EdgeSide ab(turn, a - first, b - first), bc(turn, b - first, c - first),
                 ca(turn, c - first, a - first);
-            // Without branches on what a sample turns out to be, as one is like another.
+            // No branches on the result of a sample.
             for (int v = 0; v < down; ++v)
                 for (int u = 0; u < across; ++u) {
                     const auto x = static_cast<float>(u), y = static_cast<float>(v);

@@ -37,7 +37,7 @@ void halve(std::span<const glm::vec3> centres, Triangles triangles, const Leaf& 
     for (const std::uint32_t triangle : triangles) box.add(centres[triangle]);
     const glm::length_t axis = box.longest();
     const std::size_t half = triangles.size() / 2;
-    // Equal centres by their number, so that the order does not depend on the library.
+    // Ties are broken by index, so the order does not depend on the standard library.
     std::ranges::nth_element(triangles, triangles.begin() + static_cast<std::ptrdiff_t>(half),
                              [&](std::uint32_t a, std::uint32_t b) {
                                  const float at = centres[a][axis], other = centres[b][axis];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts of primitives: a few neighbouring triangles each, so that of a large mesh a draw can leave out what
-// it need not draw. No Vulkan.
+// Meshlets: a few neighbouring triangles each, so that draws of a large mesh can skip culled parts. No
+// Vulkan.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,15 +13,15 @@ namespace diptych {
 
 struct Cluster {
     std::uint32_t first_index = 0, index_count = 0;
-    glm::vec3 min{0}, max{0};  // object, of its triangles' corners
+    glm::vec3 min{0}, max{0};  // object space, of the triangles' corners
 };
 
-// Of a cluster; half as many at least where a primitive has more than that.
+// Largest number of triangles in a meshlet. Larger primitives have meshlets of at least half as many.
 inline constexpr std::size_t clusterTriangles = 64;
 
-// Halves the triangles along the longest side of the box around their centres until few enough are left in
-// each part. `indices`, three a triangle, all below positions.size(), are put into the order of the clusters,
-// which lie one after the other; in a cluster triangles keep their order, and each its corners'.
+// Recursively halves the triangles along the longest side of the box around their centres, down to
+// clusterTriangles per part. Reorders `indices`, three per triangle, all below positions.size(), so that
+// meshlets are contiguous. Triangles keep their order within a meshlet, corners within a triangle.
 std::vector<Cluster> cutIntoClusters(std::span<const glm::vec3> positions, std::span<std::uint32_t> indices);
 
 }  // namespace diptych

@@ -14,7 +14,7 @@ static_assert(sizeof(gpu::IndirectDraw) == sizeof(VkDrawIndexedIndirectCommand))
 
 namespace {
 
-// Each of two devices may be off by as much, and what else rounds in the kernel by as much again.
+// Error of each of two devices, plus one for the other rounding in the compute shader.
 constexpr double placesApart = 3;
 
 }  // namespace

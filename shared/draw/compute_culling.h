@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses the triangles of a view that may show on the device: a kernel writes their indices and the indirect
-// draws of them. What the host knows better, the order of clusters, it is given.
+// GPU culling: a compute shader writes the indices of triangles that may be visible and their indirect
+// draws. The CPU provides the order of meshlets.
 #pragma once
 
 #include "shared/contract/culling.h"
@@ -17,27 +17,27 @@ namespace diptych {
 
 class ComputeCulling {
 public:
-    // What it may be asked to choose of.
+    // Capacities.
     struct Sizes {
-        std::uint32_t parts = 0, clusters = 0, indices = 0;  // clusters: of all parts
+        std::uint32_t parts = 0, clusters = 0, indices = 0;  // clusters: of all parts together
         std::uint32_t draws = 0;
     };
-    // `items`: that parts refer to. `layout`: Layouts::culling. Geometry and layout must outlive it.
+    // `items`: those that parts refer to. `layout`: Layouts::culling. Geometry and layout must outlive it.
     ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineLayout layout, const Geometry& geometry,
                    const SampleGrid& grid, std::span<const gpu::CulledItem> items, const Sizes& sizes);
 
-    // What the kernel reads, in memory that the host writes while no frame is drawn.
+    // Inputs of the compute shader. The CPU writes them while no frame is in flight.
     std::span<gpu::CulledPart> parts();
-    std::span<std::uint32_t> order();  // numbers of clusters, part by part from near to far
+    std::span<std::uint32_t> order();  // meshlet indices, part by part, near to far
 
     void addPass(PassList& passes, const char* name) const;
     void read(PassList& passes, Pass& pass) const;
-    // Runs it, and waits: for what is drawn before a frame.
+    // Runs the pass and waits: for draws before the first frame.
     void runOnce(const char* name) const;
 
     VkBuffer indices() const { return indices_.handle(); }
     VkBuffer draws() const { return draws_.handle(); }
-    // As the kernel left them last.
+    // Results of the last run.
     std::vector<gpu::IndirectDraw> readDraws() const;
     std::vector<std::uint32_t> readIndices() const;
     std::uint64_t bytes() const;

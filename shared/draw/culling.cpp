@@ -17,25 +17,25 @@ namespace diptych {
 
 namespace {
 
-// Clusters that one thread goes through at a time.
+// Meshlets that one thread processes at a time.
 constexpr std::uint32_t partClusters = 64;
 
 SampleGrid gridOf(const Device& device, const View& view, int samples) {
-    // A step of the grid that corners are moved to; nothing says whether they go to the nearest.
+    // One step of the subpixel grid: Vulkan does not say that vertices are snapped to the nearest point.
     return {view.width, view.height, samples,
             std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
 gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const ShownClusters& shown,
                            bool oneSided) {
-    // Of two shaders, and rounded up.
+    // Sum of two shaders' errors, rounded up.
     const glm::dvec4 error = shown.error() * (2 * (1 + 1e-3));
     return {draw.clip_from_object, glm::vec4(error), static_cast<gpu::uint>(item.range.vertex_offset),
             item.draw, (oneSided ? 0 : gpu::CULLED_BOTH_SIDES) | (item.mirrored ? gpu::CULLED_MIRRORED : 0)};
 }
 
-// How many items from number i on may be drawn as instances of one mesh, which has one cluster: a draw saves
-// more than the triangles of a cluster that face away.
+// Number of items from index i on that can be drawn as instances of one mesh with a single meshlet. A
+// saved draw outweighs the meshlet's back-facing triangles.
 std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
     std::size_t end = i + 1;
     if (draws.items[i].range.cluster_count != 1) return 1;
@@ -56,7 +56,7 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
     std::uint32_t place = 0;
     draws_.runs.clear();
     const DeviceCosts& costs = device.profile().costs;
-    std::uint32_t to_come = 0;  // of instances that one draw may draw
+    std::uint32_t to_come = 0;  // remaining instances of the current draw
     bool whole = false;         // the item is one of them
     for (std::uint32_t i = 0; i < draws_.solid; ++i) {
         DrawItem& item = draws_.items[i];
@@ -114,14 +114,14 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
                                            static_cast<std::uint32_t>(parts_.size())});
     run();
     compute_->runOnce(name);
-    // A view's choice is always the same: whoever asks how much is drawn finds it.
+    // Culling of a view is deterministic, so these counts stay valid.
     const std::vector<gpu::IndirectDraw> chosen = compute_->readDraws();
     for (const gpu::CulledPart& part : culled_parts_)
         draws_.runs[part.command] = {chosen[part.command].first_index, chosen[part.command].index_count};
 }
 
-// From near to far by the middles of the clusters' boxes, so that what is hidden fails its depth test before
-// it is shaded.
+// Sorts near to far by the centres of the meshlets' boxes, so that hidden fragments fail the depth test
+// before shading.
 void Culling::order(const Item& item) {
     struct Deep {
         double depth;
@@ -174,7 +174,7 @@ void Culling::choose(std::size_t part, std::uint32_t* indices) {
 
 void Culling::fillGaps(const Instances& instances) {
     const std::span<IndexRun> runs = std::span(draws_.runs).subspan(instances.first_part, instances.count);
-    std::size_t after = runs.size();  // the one that was shown last; at first none
+    std::size_t after = runs.size();  // end of the last visible range; initially none
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (runs[i].count == 0) continue;
         if (after < i && static_cast<double>(i - after) <= instances.gap)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a view's solid draws, anew for every frame: clusters from near to far, and with --cull on
-// only what may show. Instances of one small mesh that follow one another are shown whole or not at all, so
-// that one draw draws them. Where the device chooses (DeviceProfile::culls_by_compute), the host sorts
-// clusters and chooses among such instances alone.
+// Visible triangles of a view's opaque draws, recomputed for every frame: meshlets are sorted near to far,
+// and with --cull on culled. Consecutive instances of a small mesh are culled as a whole, so that one draw
+// covers them. If the GPU culls (DeviceProfile::culls_by_compute), the CPU only sorts meshlets and culls
+// such instances.
 #pragma once
 
 #include "shared/draw/compute_culling.h"
@@ -20,56 +20,56 @@ namespace diptych {
 
 class Culling {
 public:
-    static constexpr const char* name = "clusters";  // among a frame's passes
+    static constexpr const char* name = "clusters";  // name of the pass
 
-    // `draws`: of the pose and the view, and drawn from then on with what is chosen; its items stay as they
-    // are. `on`: what cannot show is left out; what is left comes in the same order. Geometry, layouts and
-    // draws must outlive it. Posed instances are drawn whole, as in the scene: their clusters have moved. Has
-    // chosen once, so that what is drawn before a frame finds it.
+    // `draws`: of the pose and the view; from now on draws use the culled indices, and the items must not
+    // change. `on`: culls triangles; the order of the others is unchanged. Geometry, layouts and draws
+    // must outlive it. Deformed instances are not culled, because their meshlets have moved. The
+    // constructor culls once, for draws before the first frame.
     Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, const Geometry& geometry,
             const Pose& pose, const View& view, int samples, bool on, DrawList& draws);
     Culling(const Culling&) = delete;
     Culling& operator=(const Culling&) = delete;
 
-    // What the host does of it, before a frame is submitted that draws from it, and while none is drawn.
-    // Returns how long it took, ms; 0 where nothing is to choose.
+    // CPU part. Call before submitting a frame that draws from it, with no frame in flight. Returns its
+    // time in ms; 0 if there is nothing to cull.
     double run();
-    // What the device does of it, before the first pass that draws; and declares that the pass draws what is
-    // chosen.
+    // addPasses() adds the GPU part and goes before the first pass that draws. read() declares that the
+    // pass draws the result.
     void addPasses(PassList& passes) const;
     void read(PassList& passes, Pass& pass) const;
 
     bool any() const { return !parts_.empty(); }
-    // Of DrawItem::chosen.
+    // Index buffer of draws with DrawItem::chosen.
     VkBuffer indices() const { return compute_ ? compute_->indices() : indices_.handle(); }
-    // One for each of DrawList::runs, drawn where an item is chosen; none where the host chooses, whose runs
-    // are drawn.
+    // An indirect draw for each of DrawList::runs, used by items with `chosen`. Null if the CPU culls;
+    // DrawList::runs then has the index ranges.
     VkBuffer indirectDraws() const { return compute_ ? compute_->draws() : VK_NULL_HANDLE; }
-    // The indices that the runs of chosen items count from; of a device read back, as it chose last.
+    // Indices that the index ranges of chosen items refer to. From the GPU, its last result is read back.
     std::vector<std::uint32_t> chosenIndices() const;
     std::uint64_t bytes() const { return any() ? indices_.size() + (compute_ ? compute_->bytes() : 0) : 0; }
 
 private:
-    // One instance: which of its clusters may show, and how deep they are.
+    // One instance: visibility of its meshlets, and their depth.
     struct Item {
         ShownClusters shown;
-        glm::dvec4 depth;  // the view depth of an object's point is dot(depth, (point, 1)), m
+        glm::dvec4 depth;  // view depth of an object-space point, m: dot(depth, (point, 1))
         std::uint32_t first_cluster, clusters;
-        std::uint32_t first;  // of as many, into order_
+        std::uint32_t first;  // offset in order_ of its `clusters` entries
         std::uint32_t first_part, parts;
-        std::uint32_t place;  // of its first index
-        bool whole;           // drawn as the scene has it, or not at all; of one cluster
+        std::uint32_t place;  // offset of its first index
+        bool whole;           // one meshlet, drawn from the scene's indices or not at all
     };
-    // Instances that one draw may draw. At most `gap` of them that cannot show are drawn all the same
-    // where they stand between two that may, since another draw would take longer.
+    // Instances that one draw may cover. Up to `gap` culled instances between two visible ones are drawn,
+    // because splitting the draw would cost more.
     struct Instances {
         std::uint32_t first_part, count;
         double gap;
     };
-    // Clusters of one item that follow one another in order_, whose indices one run has.
+    // Consecutive meshlets of one item in order_, which share one index range.
     struct Part {
         std::uint32_t item, first, clusters;
-        std::uint32_t place = 0;  // of its first index
+        std::uint32_t place = 0;  // offset of its first index
     };
     void order(const Item& item);
     void choose(std::size_t part, std::uint32_t* indices);
@@ -79,23 +79,23 @@ private:
     DrawList& draws_;
     bool on_;
     std::vector<Item> items_;
-    std::vector<Part> parts_;  // each has the run of its number
+    std::vector<Part> parts_;  // part i has DrawList::runs[i]
     std::vector<Instances> instances_;
-    std::vector<std::uint32_t> order_;  // numbers of clusters
-    GpuBuffer indices_;                 // of the host's choice
-    // Where the device chooses: of all that is not drawn whole, its parts' commands by the numbers of runs.
+    std::vector<std::uint32_t> order_;  // meshlet indices
+    GpuBuffer indices_;                 // of CPU culling
+    // GPU culling: every item that is not `whole`. A part's command is the index of its run.
     std::vector<gpu::CulledItem> culled_items_;
     std::vector<gpu::CulledPart> culled_parts_;
     std::optional<ComputeCulling> compute_;
 };
 
-// What the draws of a view amount to.
+// Workload of a view's draws.
 struct DrawnCounts {
-    std::uint64_t in_view = 0;    // triangles of instances that are drawn at all
-    std::uint64_t drawn = 0;      // of these, those that Culling leaves
-    std::uint64_t vertices = 0;   // that differ, draw by draw: a device shades no fewer
-    std::uint64_t instances = 0;  // that are drawn
-    std::uint64_t draws = 0;      // of all of them, blended ones too
+    std::uint64_t in_view = 0;    // triangles of all instances that pass frustum culling
+    std::uint64_t drawn = 0;      // triangles after Culling
+    std::uint64_t vertices = 0;   // distinct vertices per draw: a lower bound of what the GPU shades
+    std::uint64_t instances = 0;  // drawn instances
+    std::uint64_t draws = 0;      // draw calls, blended ones included
 };
 DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling);
 

@@ -13,7 +13,7 @@ namespace diptych {
 
 namespace {
 
-// Offsets into the arena, which become addresses once there is a buffer; none: 0.
+// Stores offsets into the arena plus 1, which become addresses once the buffer exists; 0: none.
 class Collector {
 public:
     Collector(Arena& arena, const Geometry& geometry) : arena_(arena), geometry_(geometry) {}
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    // One more than the offset.
+    // Offset plus 1.
     template <class T>
     VkDeviceAddress add(const std::vector<T>& values) {
         return values.empty() ? 0 : arena_.add(values) + 1;
@@ -72,7 +72,7 @@ private:
     const Geometry& geometry_;
 };
 
-// From an offset plus 1.
+// Converts an offset plus 1.
 void place(VkDeviceAddress base, VkDeviceAddress& address) {
     if (address != 0) address += base - 1;
 }

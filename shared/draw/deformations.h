@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene's skins and morph targets need of each primitive that they move: uploaded once.
+// Skinning and morphing data of each deformed primitive, uploaded once.
 #pragma once
 
 #include "shared/contract/posing.h"
@@ -15,19 +15,19 @@ namespace diptych {
 
 class Deformations {
 public:
-    // What a morph target adds, by address; 0: nothing.
+    // Addresses of a morph target's deltas; 0: none.
     struct Target {
         VkDeviceAddress positions = 0, normals = 0, tangents = 0, texcoords0 = 0, texcoords1 = 0, colors = 0;
     };
     struct Rest {
-        gpu::PosedInstance instance{};  // what is the same in every pose
+        gpu::PosedInstance instance{};  // members that do not depend on the pose
         std::vector<Target> targets;
     };
 
-    // Throws std::runtime_error where memory ends. The scene and the geometry must outlive it.
+    // Throws std::runtime_error if memory runs out. The scene and the geometry must outlive it.
     Deformations(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
 
-    // Of a primitive with joints, targets or tangents that are made anew.
+    // Data of a primitive with joints, targets or recomputed tangents.
     const Rest& of(int mesh, int primitive) const { return rest_.at({mesh, primitive}); }
     std::uint64_t bytes() const { return rest_.empty() ? 0 : buffer_.size(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the scene is drawn to: how depth is stored, and what holds radiance.
+// Storage formats of the scene's depth and radiance.
 #pragma once
 
 #include "shared/contract/view.h"
@@ -14,18 +14,18 @@ namespace diptych {
 
 class Device;
 
-// How the depth of the scene's nearest surfaces is stored. Code and shaders compute with reversed depths and
-// make their keys for them; stored() turns a key into one for the image.
+// Storage of the scene's depth. Code, shaders and their pipeline keys use reversed depth; stored()
+// converts a key for the image.
 struct DepthStorage {
     VkFormat format = VK_FORMAT_D32_SFLOAT;
     gpu::uint kind = gpu::DEPTH_REVERSED;
     StoredDepths range;
 
-    // Whether the image holds equal steps, so that a fragment's own depth is not what was stored of it.
+    // Whether the image quantizes depth, so that a fragment's own depth differs from the stored one.
     bool inSteps() const { return kind == gpu::DEPTH_STEPS_24 || kind == gpu::DEPTH_STEPS_16; }
-    // A key whose depths are reversed, of passes that draw to or test against such an image.
+    // Converts a key with reversed depth, of passes that write or test such an image.
     PipelineKey stored(PipelineKey key) const;
-    // The image of a frame, transient with `samples` samples.
+    // Declaration of a frame's transient image.
     ImageDeclaration image(const char* name, VkSampleCountFlagBits samples) const {
         return {.name = name, .format = format, .samples = samples, .depths = range};
     }
@@ -34,7 +34,7 @@ struct DepthStorage {
 DepthStorage depthStorage(DepthFormat format);
 VkFormat litFormatOf(LitFormat format);
 
-// Why the device cannot draw to such images or compute so, naming the Setting; nothing where it can.
+// Why the device does not support such images or shading, naming the setting; nothing if it does.
 std::optional<std::string> drawingProblem(const Device& device, const Settings& settings);
 
 }  // namespace diptych

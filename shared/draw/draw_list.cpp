@@ -19,8 +19,8 @@ namespace diptych {
 
 namespace {
 
-// Columns of the cofactor matrix are the inverse transpose times the determinant. A transform that flattens
-// one axis has one too, of rank 1: normals along that axis keep theirs, others become zero.
+// The cofactor matrix is the inverse transpose times the determinant. It also exists if the transform
+// flattens one axis: it then has rank 1, keeps normals along that axis, and makes the others zero.
 glm::dmat3 normalFromObject(const glm::dmat3& m) {
     glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const double length =
@@ -36,9 +36,9 @@ gpu::Draw gpuDraw(const PlacedPrimitive& placed, const glm::dvec3& eye, const gl
             placed.mirrored ? -1.0f : 1.0f};
 }
 
-// Whether the transform may make an interpolated normal vanish. Without flattening, a weighted sum of normals
-// that is not zero in the object is not zero in the world; float32 is trusted with that up to a flattening of
-// 1 : 64.
+// Whether the transform may make an interpolated normal vanish. Without flattening, a weighted sum of
+// normals that is not zero in object space is not zero in world space. float32 preserves that up to a
+// flattening of 1 : 64.
 bool flattens(const glm::dmat4& worldFromObject) {
     const glm::dmat3 m(worldFromObject);
     const double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
@@ -62,11 +62,10 @@ struct ObjectBox {
           half((glm::dvec3(max) - glm::dvec3(min)) / 2.0) {}
 };
 
-// The sides of clip space as an object sees them (far excepted where it is at infinity: there z = 0 is
-// reached by nothing). What is inside of none of its boxes is not drawn.
+// Clip planes in object space. An infinite far plane culls nothing, because z = 0 is never reached.
 class ClipSides {
 public:
-    // `range`: all boxes lie in its bounds. The slack keeps a box that float32 might still touch.
+    // `range`: its bounds contain all tested boxes. The slack covers float32 rounding.
     ClipSides(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
         const glm::dmat4 rows = glm::transpose(clipFromObject);
         sides_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
@@ -76,7 +75,7 @@ public:
             for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corner[c]));
         slack_ = 1e-5 * scale;
     }
-    // Whether the box is wholly beyond one of them.
+    // Whether the box is entirely outside one plane.
     bool exclude(const ObjectBox& box) const {
         return std::ranges::any_of(sides_, [&](const glm::dvec4& side) {
             const glm::dvec3 normal(side);
@@ -99,12 +98,12 @@ ViewDepths viewDepths(const glm::dmat4& cameraFromObject, const glm::dvec3& forw
     return depths;
 }
 
-// In steps of 1/16 octave: draws at about the same depth still get sorted by variant and material.
+// In steps of 1/16 octave, so that draws at a similar depth are sorted by variant and material.
 int distanceOf(double depth) {
     return depth > 0 ? static_cast<int>(std::floor(16 * std::log2(depth))) : std::numeric_limits<int>::min();
 }
 
-// What every draw of an instance has, whatever it is drawn to.
+// Properties of an instance's draw that do not depend on the view.
 DrawItem itemOf(const PlacedPrimitive& placed, const Materials& materials) {
     const PrimitiveRange& range = placed.range;
     DrawItem item;
@@ -147,8 +146,7 @@ void sort(DrawList& list) {
     list.solid = list.items.size();
 }
 
-// Numbers the draws in the order of the items, so that instances of one mesh that follow one another have
-// numbers that do, as one draw of them needs.
+// Renumbers the draws in the order of the items: instances of one draw call need consecutive indices.
 void number(DrawList& list) {
     constexpr std::uint32_t none = ~0u;
     std::vector<std::uint32_t> numbers(list.draws.size(), none);
@@ -165,11 +163,12 @@ void number(DrawList& list) {
     list.draws = std::move(draws);
 }
 
-// `blended`: in the scene's order.
+// `blended`: in scene order.
 void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency transparency) {
     const bool sorts = transparency == Transparency::sorted;
     if (sorts) std::ranges::stable_sort(blended, std::greater{}, &DrawItem::depth);
-    // Whose picture does not depend on it: what comes after a full list's fragments is done with at once.
+    // The image does not depend on this order, but near to far is fast: fragments beyond a full list are
+    // finished immediately.
     if (transparency == Transparency::list) std::ranges::stable_sort(blended, std::less{}, &DrawItem::depth);
     for (DrawItem& item : blended) {
         if (sorts && item.variant.get(gpu::FEATURE_double_sided) != 0) {
@@ -181,7 +180,7 @@ void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency tran
     }
 }
 
-// Triangles of the list's blended draws, as they are sorted.
+// Sorts the triangles of the list's blended draws.
 void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, const View& view) {
     struct Triangle {
         double depth;
@@ -193,7 +192,7 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
         const PlacedTriangles of = geometry.triangles(pose, pose.instances[item.instance]);
         glm::dmat4 fromCamera = of.world_from_object;
         fromCamera[3] -= glm::dvec4(view.eye(), 0);
-        // The depth of an object's point is dot(depth, (point, 1)).
+        // View depth of an object-space point: dot(depth, (point, 1)).
         const glm::dvec4 depth = glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0);
         const auto number = static_cast<std::uint32_t>(indices.size());
         for (std::uint32_t i = 0; i < of.rest.indices.size() / 3; ++i) {
@@ -201,7 +200,7 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
             const glm::dvec3 centroid =
                 (of.corner(first) + of.corner(first + 1) + of.corner(first + 2)) / 3.0;
             const double away = glm::dot(depth, glm::dvec4(centroid, 1));
-            // A triangle that is not drawn has a place all the same.
+            // NaN: the triangle is not drawn, but it needs a sort key.
             triangles.push_back({std::isnan(away) ? 0 : away, number, i});
         }
         indices.push_back(of.rest.indices);
@@ -222,7 +221,7 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
     }
 }
 
-// The clusters that `keeps`, as runs of the list; none of them: false.
+// Adds runs of the meshlets that `keeps` accepts; returns false if there are none.
 template <class Keeps>
 bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, const Keeps& keeps) {
     item.first_run = static_cast<std::uint32_t>(list.runs.size());

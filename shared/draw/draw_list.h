@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn from one view, in the one order that every pass of both paths keeps.
+// Draws of one view, in the order that every pass of both paths uses.
 #pragma once
 
 #include "shared/contract/geometry.h"
@@ -16,114 +16,114 @@
 
 namespace diptych {
 
-// Of the corners of a bounding box, m; negative behind the camera.
+// Depth range of a bounding box's corners, m; negative behind the camera.
 struct ViewDepths {
     double nearest = 0, farthest = 0;
 };
 
-// Indices that follow one another.
 struct IndexRun {
     std::uint32_t first = 0, count = 0;
     bool operator==(const IndexRun&) const = default;
 };
 
-// Triangles of one draw that follow one another in an order of all draws' triangles.
+// Consecutive triangles of one draw in an order over all draws' triangles.
 struct SortedRun {
     std::uint32_t item = 0;  // into DrawList::blended()
     IndexRun run;            // into DrawList::sorted_indices
 };
 
-// The sides of its triangles that a draw shows.
+// Which sides of its triangles a draw shows.
 enum class Sides {
-    of_material,  // the front, or both where the material is double-sided
+    of_material,  // the front, or both if the material is double-sided
     back,
     front,
 };
 
 struct DrawItem {
     PrimitiveRange range;
-    std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
-    bool chosen = false;                    // these are indices of Culling, of which there may be none
+    std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; 0: the whole range is drawn
+    bool chosen = false;                    // runs index the result of Culling, and may be empty
     std::uint32_t draw = 0;                 // into DrawList::draws
     std::uint32_t instance = 0;             // into Pose::instances
     int box = -1;                           // into Pose::boxes; -1: not posed
-    Variant variant;                        // the material's features and the primitive's
-    bool mirrored = false;                  // the transform turns front faces round
-    bool masked = false;                    // alpha mask
-    bool blended = false;                   // alpha blending
+    Variant variant;                        // features of material and primitive
+    bool mirrored = false;                  // the transform reverses the winding of front faces
+    bool masked = false;
+    bool blended = false;
     Sides sides = Sides::of_material;
-    int distance = 0;  // of the farthest corner: only its order counts
+    int distance = 0;  // of the farthest corner, quantized; a sort key
     ViewDepths depths;
-    double depth = 0;  // of its box's centre
-    // Of blended draws: of the range's first triangle among those of all blended surfaces of the scene.
+    double depth = 0;  // of the centre of its box
+    // Blended draws: index of the range's first triangle among the scene's blended triangles.
     std::uint32_t triangle = 0;
 };
 
 struct DrawList {
     std::vector<gpu::Draw> draws;
-    std::vector<DrawItem> items;  // what is blended comes last
-    std::size_t solid = 0;        // of the items those that are not
+    std::vector<DrawItem> items;  // blended ones come last
+    std::size_t solid = 0;        // number of items that are not blended
     std::vector<IndexRun> runs;
-    // Transparency::triangles: what is blended, triangle by triangle; else empty.
+    // Transparency::triangles: blended triangles, sorted; else empty.
     std::vector<std::uint32_t> sorted_indices;
     std::vector<SortedRun> sorted_runs;
-    std::uint32_t culled = 0;     // instances that are not drawn
-    std::uint64_t triangles = 0;  // that are in view; of casters, that are drawn
+    std::uint32_t culled = 0;     // number of culled instances
+    std::uint64_t triangles = 0;  // triangles in view; in a caster list, drawn triangles
     std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
     std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
 };
 
-// Whether the item after `item` may be drawn with it as one more instance, where both draw the same indices
-// with one pipeline: all that they differ in is in their draws, which stand side by side.
+// Whether one draw call can cover `item` and `next` as instances, if both use the same indices and one
+// pipeline: they differ only in their gpu::Draw, and these are adjacent.
 bool isNextInstance(const DrawItem& item, const DrawItem& next);
 
-// World axes from the eye, of a primitive's stored positions.
+// Transform from a primitive's stored positions to world axes relative to the eye.
 glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
 
-// Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
-// then by variant, material and mesh, then as in the scene. What encloses other things, a room or a ground,
-// comes after them, so most of what is hidden fails its depth test before it is shaded. An instance is left
-// out only where its bounding box lies wholly beyond one plane of the view. Triangles of a solid draw come in
-// the order of clusters, but where it is posed in the scene's. Blended draws come after all others: from far
-// to near by the centre of the bounding box, a double-sided one twice, first its backs
-// (`Transparency::sorted`), or as in the scene. With `Transparency::triangles` they stay as in the scene, and
-// `sorted_runs` has the order in which their triangles are drawn: from far to near by the view depth of the
-// centroid, and where two are equal as in the scene. There are none of `Transparency::off`; for
-// `Transparency::list` they come from near to far, which spares it work.
+// Draws of a view. Opaque draws come before masked ones, then near to far by the farthest corner of the
+// bounding box, then by variant, material and mesh, then in scene order. So a room or ground comes after
+// its contents, and most hidden fragments fail the depth test before shading.
+// An instance is culled if its bounding box lies outside one plane of the view. Triangles of an opaque
+// draw are in meshlet order, those of a deformed one in scene order.
+// Blended draws come last, in an order that depends on `transparency`:
+//  - sorted: far to near by the centre of the bounding box; double-sided ones twice, back faces first
+//  - triangles: in scene order; `sorted_runs` orders their triangles far to near by the view depth of the
+//    centroid, ties in scene order
+//  - list: near to far, which saves work in the fragment lists
+//  - off: none
+//  - others: in scene order
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency = Transparency::sorted);
 
-// A box in clip space where w is 1 everywhere.
+// A box in a clip space where w is 1 everywhere.
 struct ClipBox {
     glm::dvec3 min{0}, max{0};
 };
 
-// What is drawn into a shadow map. `clip_from_world`, of world axes with `eye` as the origin, puts what the
-// map covers into -1..1, whatever its depth.
+// Casters of a shadow map. `clip_from_world`, of world axes relative to `eye`, maps the map's area to
+// -1..1 at every depth.
 struct CasterRequest {
     glm::dmat4 clip_from_world{1};
     glm::dvec3 eye{0};
-    // Whether what lies in the box may change what is read of the map; only where w is 1 everywhere. None:
-    // all that the map covers may.
+    // Whether geometry in the box can change a sampled texel of the map; only if w is 1 everywhere. Empty:
+    // all geometry in the map's area can.
     std::function<bool(const ClipBox&)> matters{};
-    bool all = false;  // every caster, wherever it is
+    bool all = false;  // every caster, without culling
 };
 
-// What may cast a shadow into the map: those clusters of casters whose boxes are not wholly beyond one of its
-// sides, and that matter. Ordered as above, for a light that is infinitely far.
+// Meshlets that may cast a shadow into the map: not outside one of its sides, and accepted by `matters`.
+// Ordered as above for a directional light.
 DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                         const CasterRequest& request);
 
-// A box along any three axes.
+// A box along three arbitrary axes.
 struct SeenBox {
-    glm::dvec3 centre{0};                // world axes, from the eye
-    std::array<glm::dvec3, 3> halves{};  // of its sides
-    // Half its extent along a direction, times its length.
+    glm::dvec3 centre{0};                // world axes, relative to the eye
+    std::array<glm::dvec3, 3> halves{};  // half axes
+    // Half its extent along a direction, times the direction's length.
     double reach(const glm::dvec3& along) const;
 };
 
-// Of every cluster that is not wholly beyond one plane of the view: where that lies which the picture may
-// show.
+// Boxes of all meshlets that are not outside one plane of the view: a bound of the visible geometry.
 std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view);
 
 }  // namespace diptych

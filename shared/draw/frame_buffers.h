@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The buffers of one view and the descriptor set that binds them.
+// Buffers of one view and their descriptor set.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -14,11 +14,11 @@
 
 namespace diptych {
 
-// The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
+// Buffers of one view: camera, draws, lights and light lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
-    // `albedoTable`: whether the table of albedo.h is read.
-    // `objectPixelLights`: --pixel-lights of --assign per_object; nothing with any other assignment.
+    // `albedoTable`: uploads the table of albedo.h. `objectPixelLights`: --pixel-lights with --assign
+    // per_object; else empty.
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                  const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
                  std::optional<std::uint32_t> objectPixelLights = {}, bool albedoTable = false);
@@ -29,8 +29,8 @@ public:
     const Placeholders& placeholders() const { return placeholders_; }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
-    // Takes other lights in the place of those that this was made of, equal in number: what chooses them,
-    // lists and bounds, stays. No frame may be in flight.
+    // Replaces the lights by as many others; light lists and bounds do not change. No frame may be in
+    // flight.
     void replaceLights(Uploader& uploader, std::span<const gpu::Light> lights) const;
     std::uint64_t bytes() const {
         return view_.size() + packed_view_.size() + draws_.size() + sorted_indices_.size() + lights_.size() +

@@ -14,7 +14,7 @@ namespace {
 gpu::uint multiscatterOf(Multiscatter multiscatter) {
     switch (multiscatter) {
         case Multiscatter::off:
-        case Multiscatter::walk:  // of the reference alone
+        case Multiscatter::walk:  // reference only
             return gpu::MULTISCATTER_OFF;
         case Multiscatter::energy:
             return gpu::MULTISCATTER_ENERGY;
@@ -24,7 +24,7 @@ gpu::uint multiscatterOf(Multiscatter multiscatter) {
     return gpu::MULTISCATTER_OFF;
 }
 
-// Numbers that shaders take as specialization constants, which are integers.
+// Float parameters as specialization constants, which are integers.
 gpu::uint bitsOf(float value) {
     return std::bit_cast<gpu::uint>(value);
 }
@@ -104,8 +104,8 @@ DescriptorSets blendedSet(const FrameInputs& inputs) {
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
     DescriptorSets sets = blendedSet(inputs);
     for (std::uint32_t i = 0; i < images.gbuffer.size(); ++i) {
-        // A missing attachment is never read; albedo, of the same kind, keeps its binding valid, and in
-        // forward+, whose shaders declare none of them, any image does.
+        // Missing attachments are never read. Albedo has the right format and keeps their bindings valid.
+        // In forward+, whose shaders declare none of them, any image works.
         const ImageRef albedo = images.gbuffer[gpu::GBUFFER_ALBEDO];
         const ImageRef image = images.gbuffer[i].valid() ? images.gbuffer[i] : albedo;
         sets.image(0, i, image.valid() ? passes.view(image) : inputs.placeholders.texel(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path is given, and what it gives.
+// Inputs and outputs of a path.
 #pragma once
 
 #include "shared/draw/depth_storage.h"
@@ -15,11 +15,11 @@
 namespace diptych {
 
 class Culling;
-// Of rooms above this one, handed on to the paths.
+// Forward-declared from higher layers.
 class ShadowMaps;
 class FragmentLists;
 
-// One view of a scene under one Settings. What is referred to outlives it.
+// One view of a scene under one Settings. The referenced objects must outlive it.
 struct FrameInputs {
     Device& device;
     const Layouts& layouts;
@@ -30,64 +30,63 @@ struct FrameInputs {
     const DrawList& draws;
     const GpuLights& lights;
     VkBuffer draw_buffer;                      // Draw[draws.draws]
-    VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; none where those are empty
-    const Culling* culling = nullptr;          // of DrawItem::chosen; none where no draw is
+    VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; null if empty
+    const Culling* culling = nullptr;          // of draws with DrawItem::chosen; null without them
     VkDescriptorSet frame_set;                 // SET_FRAME
     const Placeholders& placeholders;
     LightLists& lists;
-    Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
+    Variant variant;  // features of scene and view: light types, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
-    Lighting lighting = Lighting::fragment;  // of the deferred path
+    Lighting lighting = Lighting::fragment;  // deferred path
     DepthStorage depth{};
-    VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // of what a picture's radiance is drawn to
+    VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // format of the image's radiance
     ShadowMaps& shadow;
     Transparency transparency = Transparency::sorted;
-    gpu::BlendedConstants blended{};           // of all passes of blended surfaces
+    gpu::BlendedConstants blended{};           // of all blended passes
     const FragmentLists* fragments = nullptr;  // Transparency::list
-    gpu::uint longest_list = 0;                // packets of the longest light list that a pixel may walk
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // of a pixel, in images that triangles draw to
-    bool sample_shading = false;                            // a fragment a sample
+    gpu::uint longest_list = 0;                // entries of the longest list that a pixel may evaluate
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // per pixel, in images that draws write
+    bool sample_shading = false;                            // a fragment per sample
     MsaaEdges edges = MsaaEdges::exact;
-    bool alpha_to_coverage = false;  // alpha masks choose samples
-    bool prepass = true;             // forward+ draws depth first; prepareForwardPlus() decides
+    bool alpha_to_coverage = false;  // alpha masks select samples
+    bool prepass = true;             // forward+ draws a depth pre-pass; set by prepareForwardPlus()
 };
 
-// What is made before anything is drawn: which triangles may show, and posed vertices. First among a path's
-// passes.
+// Culling and deformation: the first passes of a path.
 void addGeometryPasses(PassList& passes, const FrameInputs& inputs);
-// Declares that the pass draws the view's items, and returns it.
+// Declares that the pass draws the view's items; returns the pass.
 Pass& readGeometry(PassList& passes, Pass& pass, const FrameInputs& inputs);
 
 struct FrameImages {
     ImageRef lit;          // linear scene-referred radiance, of FrameInputs::lit_format
-    ImageRef lit_samples;  // of every sample, before the resolve
-    ImageRef depth;        // as FrameInputs::depth says
-    std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
-    ImageRef groups{};  // deferred, with several samples a pixel: which of them are shaded as one, as a depth
+    ImageRef lit_samples;  // per-sample radiance, before the resolve
+    ImageRef depth;        // stored as in FrameInputs::depth
+    std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid if absent
+    ImageRef groups{};  // deferred with MSAA: sample groups, stored as a depth
 };
 
-// A transient that the scene's triangles draw to: with all samples of the frame.
+// Transient image that the scene is drawn to, with the frame's samples.
 ImageRef sampledImage(PassList& passes, const FrameInputs& inputs, const std::string& name, VkFormat format);
-// The depth of the scene's triangles, as FrameInputs::depth stores it.
+// Depth of the scene, stored as in FrameInputs::depth.
 ImageRef sceneDepth(PassList& passes, const FrameInputs& inputs, const char* name = "depth");
 
-// SET_GBUFFER of what `images` has. Made when they have memory, once a pass is prepared at the latest.
+// SET_GBUFFER of `images`. Call it when they have memory: at the latest when a pass is prepared.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images);
 
-// SET_GBUFFER of black texels and an empty buffer, for TRANSPARENCY_BINDINGS to be written to.
+// SET_GBUFFER of black texels and an empty buffer, for passes that bind TRANSPARENCY_BINDINGS to it.
 DescriptorSets blendedSet(const FrameInputs& inputs);
 
-// Of local lights those that a pixel evaluates, about, and the directional ones.
+// Estimated number of lights a pixel evaluates, including directional lights.
 double lightsAtPixel(const FrameInputs& inputs);
 
-// Of sums of light that are no picture; of shadow maps, and of what else stores depths reversed.
+// Formats of sums of radiance that are not the image, and of shadow maps and other reversed depths.
 constexpr VkFormat litFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 
-// The features that are the same for all draws of a frame; shared/contract/features.h says which those are.
+// Features shared by all draws of a frame, as listed in shared/contract/features.h.
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
                      const GBufferLayout& gbuffer, const Settings& settings);
-// Whether any pixel asks what a specular lobe reflects of light from everywhere.
+// Whether any pixel reads the directional albedo of the specular lobe.
 bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings);
 
 }  // namespace diptych

@@ -29,8 +29,8 @@ gpu::VertexAttributes attributesOf(const Primitive& p, std::size_t i) {
             p.colors.empty() ? glm::vec4(1) : p.colors[i]};
 }
 
-// Interpolated normals stay away from zero where a triangle's three are unit vectors less than 90 degrees
-// apart, with room for rounding: their mean is then at least 1 / sqrt(3) long.
+// If the normals of a triangle are unit vectors less than 90 degrees apart, their interpolation is at
+// least 1 / sqrt(3) long. The threshold leaves a margin for rounding.
 bool mayVanish(const Primitive& p) {
     const auto apart = [&](std::uint32_t a, std::uint32_t b) {
         return !(glm::dot(p.normals[a], p.normals[b]) > 0.01f);
@@ -42,16 +42,16 @@ bool mayVanish(const Primitive& p) {
     return false;
 }
 
-// Whether its vertices are drawn as they are in the scene, never posed.
+// Whether its vertices are never deformed.
 bool isRigid(const Primitive& p, const Scene& scene) {
     return p.joint_sets.empty() && p.targets.empty() && (scene.animations.empty() || !p.tangents_made);
 }
 
-// Where positions are counted from: 0, or, of a scene whose meshes lie together far from their origin, as
-// georeferenced ones do, their middle: so that float32 has its bits for what is seen and not for the
-// distance. One origin for all, so that what touches goes on to touch bit for bit.
+// Origin of stored positions: the centre of the scene's meshes if they lie together far from their origin,
+// as georeferenced ones do; else 0. It preserves float32 precision. All meshes share it, so that touching
+// vertices stay bit for bit equal.
 glm::dvec3 originOf(const Scene& scene) {
-    constexpr double far = 4;  // times as far from the origin as they reach
+    constexpr double far = 4;  // multiple of the meshes' radius
     Bounds bounds;
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives)
@@ -63,8 +63,8 @@ glm::dvec3 originOf(const Scene& scene) {
     return glm::dvec3(glm::vec3(bounds.centre()));
 }
 
-// Exact where the positions lie nearer to the origin than that to 0 (Sterbenz 1974): float32 holds the
-// difference.
+// Exact if positions are nearer to the origin than the origin is to 0 (Sterbenz 1974): float32 represents
+// the difference.
 std::vector<glm::vec3> countedFrom(const glm::dvec3& origin, const std::vector<glm::vec3>& positions) {
     std::vector<glm::vec3> counted;
     counted.reserve(positions.size());
@@ -72,8 +72,8 @@ std::vector<glm::vec3> countedFrom(const glm::dvec3& origin, const std::vector<g
     return counted;
 }
 
-// Throws std::runtime_error where there are too many: they are stored up to twice, in the scene's order and
-// in that of clusters.
+// Throws std::runtime_error if there are too many. They are stored up to twice: in scene order and in
+// meshlet order.
 std::uint32_t indexCountOf(const Scene& scene) {
     std::uint64_t sum = 0;
     for (const Mesh& mesh : scene.meshes)
@@ -83,9 +83,9 @@ std::uint32_t indexCountOf(const Scene& scene) {
     return static_cast<std::uint32_t>(sum);
 }
 
-// A primitive as it is drawn.
+// A primitive split into meshlets.
 struct CutPrimitive {
-    std::vector<glm::vec3> moved;  // its positions, where those are not the scene's
+    std::vector<glm::vec3> moved;  // positions relative to the origin, if that is not 0
     std::vector<std::uint32_t> indices;
     std::vector<Cluster> clusters;
     ClusterTriangles triangles;
@@ -94,7 +94,7 @@ struct CutPrimitive {
     }
 };
 
-// Of every primitive, mesh by mesh.
+// Splits every primitive, mesh by mesh.
 std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin) {
     std::vector<const Primitive*> all;
     for (const Mesh& mesh : scene.meshes)
@@ -174,7 +174,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
         }
     }
     indices.insert(indices.end(), clustered_.begin(), clustered_.end());
-    // Posing reads them by address, and copies what it leaves as it is.
+    // Deformation reads them by address and copies attributes that it does not change.
     constexpr VkBufferUsageFlags posed =
         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     positions_ = makeBuffer<glm::vec3>(device, uploader, "positions", positions,
@@ -201,7 +201,7 @@ PlacedPrimitive Geometry::placed(const Pose& pose, const Instance& instance) con
     placed.world_from_object = glm::translate(glm::dmat4(1), box.origin);
     placed.range.bounds_min = box.min;
     placed.range.bounds_max = box.max;
-    placed.range.vanishing_normals = true;  // a pose may turn any two of them against each other
+    placed.range.vanishing_normals = true;  // a pose may turn two normals against each other
     placed.whole = {placed.range.first_index, placed.range.index_count, glm::vec3(box.min),
                     glm::vec3(box.max)};
     return placed;

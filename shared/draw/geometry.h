@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every primitive of a scene in three buffers: positions, other attributes, indices.
+// All primitives of a scene in three buffers: positions, other attributes, indices.
 #pragma once
 
 #include "shared/draw/cluster_triangles.h"
@@ -17,34 +17,34 @@ struct PrimitiveRange {
     std::int32_t vertex_offset = 0;
     std::uint32_t material = 0;
     bool vertex_color = false;
-    bool vanishing_normals = false;           // somewhere in a triangle the interpolated normal may be zero
-    glm::dvec3 origin{0};                     // object, m: where stored positions are counted from
-    glm::dvec3 bounds_min{0}, bounds_max{0};  // object, from the origin
+    bool vanishing_normals = false;           // an interpolated normal may be zero
+    glm::dvec3 origin{0};                     // object space, m: origin of the stored positions
+    glm::dvec3 bounds_min{0}, bounds_max{0};  // object space, relative to the origin
     std::uint32_t first_cluster = 0, cluster_count = 0;
     static constexpr std::uint32_t not_kept = ~0u;
     std::uint32_t kept_indices = not_kept, kept_positions = 0;  // for Geometry::triangles()
 };
 
-// The triangles of a primitive on the host.
+// Triangles of a primitive on the CPU.
 struct TriangleView {
     std::span<const glm::vec3> positions;    // object, m
-    std::span<const std::uint32_t> indices;  // into these, three a triangle
+    std::span<const std::uint32_t> indices;  // into positions, three per triangle
 };
 
-// A primitive where an instance draws it: as it is in the scene, or posed. World axes; of a posed one from
-// its box's origin.
+// A primitive as an instance draws it, rigid or deformed. World axes; deformed vertices are relative to
+// their box's origin.
 struct PlacedPrimitive {
     PrimitiveRange range;
-    glm::dmat4 world_from_object{1};  // of positions as they are stored: from the range's origin
+    glm::dmat4 world_from_object{1};  // of stored positions: relative to the range's origin
     bool mirrored = false;
-    int box = -1;     // into Pose::boxes; -1: not posed
-    Cluster whole{};  // of a posed one, which has no others
+    int box = -1;     // into Pose::boxes; -1: not deformed
+    Cluster whole{};  // the only meshlet of a deformed primitive
 };
 
-// The triangles of an instance on the host.
+// Triangles of an instance on the CPU.
 struct PlacedTriangles {
     TriangleView rest;
-    std::vector<glm::dvec3> posed;  // in place of rest's, where it is posed; NaN: not drawn
+    std::vector<glm::dvec3> posed;  // replaces rest's positions if deformed; NaN: not drawn
     glm::dmat4 world_from_object{1};
     glm::dvec3 corner(std::size_t i) const {
         return posed.empty() ? glm::dvec3(rest.positions[rest.indices[i]]) : posed[rest.indices[i]];
@@ -59,11 +59,11 @@ public:
     const PrimitiveRange& range(int mesh, int primitive) const {
         return ranges_[static_cast<std::size_t>(mesh)][static_cast<std::size_t>(primitive)];
     }
-    // Parts that together draw the range, in another order of triangles; their indices follow one another.
+    // Meshlets that draw the range, in another order of triangles; their indices are contiguous.
     std::span<const Cluster> clusters(const PrimitiveRange& range) const {
         return std::span(clusters_).subspan(range.first_cluster, range.cluster_count);
     }
-    // By their number, which counts from PrimitiveRange::first_cluster on.
+    // By index, which starts at PrimitiveRange::first_cluster.
     const Cluster& cluster(std::uint32_t number) const { return clusters_[number]; }
     const ClusterTriangles& clusterTriangles() const { return cluster_triangles_; }
     std::span<const std::uint32_t> indicesOf(const Cluster& cluster) const {
@@ -73,11 +73,10 @@ public:
     std::span<const Cluster> clusters(const PlacedPrimitive& placed) const {
         return placed.box >= 0 ? std::span(&placed.whole, 1) : clusters(placed.range);
     }
-    // In the scene's order. Only of primitives whose material blends at any time: nothing is kept of others,
-    // and theirs are empty.
+    // In scene order. Empty unless the primitive's material blends at some time.
     TriangleView triangles(const PrimitiveRange& range) const;
     PlacedTriangles triangles(const Pose& pose, const Instance& instance) const;
-    // `indices`: others than the scene's.
+    // `indices`: replaces the scene's index buffer.
     void bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices = VK_NULL_HANDLE) const;
     void bindVertices(VkCommandBuffer commands) const;  // without draws and indices
     void bindIndices(VkCommandBuffer commands, VkBuffer indices = VK_NULL_HANDLE) const;
@@ -85,12 +84,12 @@ public:
     const GpuBuffer& positions() const { return positions_; }
     const GpuBuffer& attributes() const { return attributes_; }
     const GpuBuffer& indices() const { return indices_; }
-    // CulledCluster[], by their numbers; none where the host chooses (DeviceProfile::culls_by_compute).
+    // CulledCluster[] by meshlet index; empty if the CPU culls (DeviceProfile::culls_by_compute).
     const GpuBuffer& clusterBuffer() const { return cluster_buffer_; }
     std::uint64_t bytes() const {
         return positions_.size() + attributes_.size() + indices_.size() + cluster_buffer_.size();
     }
-    // On the host: of what blends, and of clusters.
+    // CPU memory of blended primitives, and of meshlets.
     std::uint64_t hostBytes() const {
         return kept_positions_.size() * sizeof(glm::vec3) + kept_indices_.size() * sizeof(std::uint32_t);
     }
@@ -103,10 +102,10 @@ private:
     const Scene& scene_;
     std::vector<std::vector<PrimitiveRange>> ranges_;
     std::vector<Cluster> clusters_;
-    ClusterTriangles cluster_triangles_;     // of these
-    std::vector<std::uint32_t> clustered_;   // their indices, as the device has them
-    std::uint32_t first_clustered_ = 0;      // where those begin there
-    std::vector<glm::vec3> kept_positions_;  // of what blends
+    ClusterTriangles cluster_triangles_;
+    std::vector<std::uint32_t> clustered_;   // their indices, as in the device's buffer
+    std::uint32_t first_clustered_ = 0;      // offset of clustered_ in that buffer
+    std::vector<glm::vec3> kept_positions_;  // of blended primitives
     std::vector<std::uint32_t> kept_indices_;
     GpuBuffer positions_, attributes_, indices_, cluster_buffer_;
 };

@@ -74,7 +74,8 @@ void Placeholders::bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) 
     for (gpu::uint i = 0; i < gbuffer.bindings(); ++i) {
         if (gbufferTypes[i] == binding_kind::storage_buffer)
             gbuffer.buffer(0, i, storage_.handle());
-        else if (gbufferTypes[i] == binding_kind::image)  // storage images: only where a shader declares them
+        else if (gbufferTypes[i] == binding_kind::image)  // storage images: only shaders that use them
+                                                          // declare them
             gbuffer.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The descriptor set layouts and the pipeline layout that all draws share.
+// Descriptor set layouts and the pipeline layout that all draws share.
 #pragma once
 
 #include "shared/light/light_lists.h"
@@ -10,19 +10,19 @@
 
 namespace diptych {
 
-// The pipeline layout of every draw: SET_FRAME, SET_MATERIAL, SET_GBUFFER, SET_PARTIAL_SUMS, and push
-// constants of struct DrawConstants. Made once a device; all views share it.
+// Pipeline layout of every draw: SET_FRAME, SET_MATERIAL, SET_GBUFFER, SET_PARTIAL_SUMS, and DrawConstants
+// as push constants. Created once per device and shared by all views.
 struct Layouts {
     // `material`: the layout of SET_MATERIAL.
     Layouts(Device& device, VkDescriptorSetLayout material);
     OwnedDescriptorSetLayout frame, gbuffer, partial_sums;
     OwnedPipelineLayout pipeline;
-    OwnedPipelineLayout culling;  // of the kernel that chooses triangles: struct CullingConstants
+    OwnedPipelineLayout culling;  // of the compute shader that culls triangles: struct CullingConstants
     OwnedSampler nearest;
     ListLayouts lists;
 };
 
-// The shader stages that read the push constants of a draw, or of a dispatch in its place.
+// Shader stages that read the push constants of a draw, or of a dispatch that replaces it.
 constexpr VkShaderStageFlags drawStages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
@@ -31,18 +31,17 @@ std::span<const VkDescriptorType> frameBindings();
 std::span<const VkDescriptorType> gbufferBindings();
 std::span<const VkDescriptorType> partialSumBindings();
 
-// What shaders declare and do not read, of black texels: lavapipe and the validation layers follow every
-// descriptor.
+// Dummy descriptors of black texels for bindings that shaders declare and do not read. lavapipe and the
+// validation layers access every descriptor.
 class Placeholders {
 public:
     Placeholders(Device& device, Uploader& uploader, const Layouts& layouts);
-    VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // of draws that continue no sums
-    VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // of draws that read no stored depth
+    VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // for draws without earlier sums
+    VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // for draws without stored depth
     VkImageView texel() const { return image_.view(); }
-    // Writes the bindings of SET_FRAME that only some scenes and Settings fill: shadows, an environment,
-    // haze.
+    // Writes the bindings of SET_FRAME that only some scenes and settings use: shadows, environment, haze.
     void bindFrame(DescriptorSets& frame) const;
-    // Writes all bindings of a SET_GBUFFER.
+    // Writes all image and storage buffer bindings of a SET_GBUFFER.
     void bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) const;
 
 private:

@@ -25,7 +25,7 @@ std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, cons
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
     const DeviceCosts& costs = inputs.device.profile().costs;
     const GpuLights& all = inputs.lights;
-    // An area light costs as much as so many points (shared/light/MEASURED.md, "Errors of area lights").
+    // Cost of area lights in point lights (shared/light/MEASURED.md, "Errors of area lights").
     const double points = all.point + all.spot + 5.0 * all.rect + 11.0 * all.disc + 37.0 * all.tube,
                  each = points / std::max(1.0, static_cast<double>(all.local()));
     double lights = lightsAtPixel(inputs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists of more lights than one draw can walk are shaded in batches: each draw adds its batch of the lights
-// to the float32 sums that the one before it left, so the result has the same bits as one loop's.
+// Light lists that are too long for one draw are shaded in batches. Each draw adds its lights to the
+// float32 sums of the previous one, so the result is bit for bit that of one loop.
 #pragma once
 
 #include "shared/contract/light_list.h"
@@ -12,33 +12,34 @@
 
 namespace diptych {
 
-// The packets of each light list that one draw walks, and the sums that it continues from.
+// Range of list entries that one draw evaluates, and the sums that it continues from.
 struct LightBatch {
     gpu::uint kind = gpu::BATCH_WHOLE;
-    gpu::uint first = 0, end = 0;         // packets, counted from a list's begin
-    std::array<ImageRef, 2> images = {};  // the sums of earlier batches: diffuse, specular
+    gpu::uint first = 0, end = 0;         // entries, counted from a list's begin
+    std::array<ImageRef, 2> images = {};  // sums of earlier batches: diffuse, specular
     std::shared_ptr<DescriptorSets> sums =
         {};  // the same as SET_PARTIAL_SUMS, filled once the images have memory; null: none
 
-    // Declares that the pass samples the sums, where there are some.
+    // Declares that the pass samples the sums, if there are any.
     void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
 };
 
-// About how long it takes to shade every pixel of the list's size with a batch, ms; each fragment that is
-// drawn over takes as long again.
+// Estimated time to shade every pixel of the pass list's size with a batch, ms. Each level of overdraw
+// costs as much again.
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch);
 
-// Adds a draw for each batch of the lights but the last, which is returned for the pass that completes the
-// sum: lists of up to DeviceProfile::packets_per_draw packets are one batch, BATCH_WHOLE, without an extra
-// draw. `add` declares depth, the earlier sums and what else is read, and records the drawing of one batch
-// into attachments 0 (diffuse) and 1 (specular), or of SumsBy::storage a dispatch that stores to these
-// images, which it declares too.
+// Adds a draw for every light batch but the last, and returns the last for the pass that completes the
+// sum. Lists of up to DeviceProfile::packets_per_draw entries are one batch, BATCH_WHOLE, without an extra
+// draw.
+// `add` declares what the pass reads, including depth and the earlier sums, and records the draw of one
+// batch. The draw writes attachments 0 (diffuse) and 1 (specular). With SumsBy::storage it is a dispatch,
+// which stores to these images and declares them.
 enum class SumsBy { attachments, storage };
 using AddBatch = std::function<void(Pass&, const LightBatch&, const std::array<ImageRef, 2>& sums)>;
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add,
                              SumsBy drawn = SumsBy::attachments);
 
-// A SET_PARTIAL_SUMS of these images, filled when the pass is prepared.
+// SET_PARTIAL_SUMS of these images, written when the pass is prepared.
 std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, const FrameInputs& inputs,
                                               const std::array<ImageRef, 2>& images);
 

@@ -12,7 +12,7 @@ namespace diptych {
 
 namespace {
 
-// The box around the item's box, in world axes from the camera.
+// Bounding box of the item in world axes from the camera.
 ObjectPlace placeOf(const DrawItem& item, const gpu::Draw& draw) {
     const glm::dvec3 centre = (item.range.bounds_min + item.range.bounds_max) * 0.5;
     const glm::dvec3 half = (item.range.bounds_max - item.range.bounds_min) * 0.5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lists of --assign per_object on the device: one a draw.
+// GPU buffers of --assign per_object: one light list per draw.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -14,14 +14,14 @@ namespace diptych {
 
 class ObjectLightBuffers {
 public:
-    // `pixels`: lights per pixel; nothing: another assignment, and the buffers hold nothing.
+    // `pixels`: lights per pixel; empty with any other assignment, which leaves the buffers empty.
     ObjectLightBuffers(Device& device, Uploader& uploader, const DrawList& draws, const GpuLights& lights,
                        std::optional<std::uint32_t> pixels);
 
     void bind(DescriptorSets& sets) const;                // BINDING_OBJECT_LIST, BINDING_OBJECTS
     std::uint32_t features() const { return features_; }  // FEATURE_object_lights
     std::uint32_t longest() const { return longest_; }    // local lights per pixel of one draw
-    double chosenInMs() const { return chosen_in_ms_; }   // how long the host took to choose them
+    double chosenInMs() const { return chosen_in_ms_; }   // CPU time of the selection
     std::uint64_t bytes() const { return entries_.size() + objects_.size(); }
 
 private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of View and LightGrid that fragments read, packed into texels as PACKED_VIEW and PACKED_GRID
-// state.
+// Members of View and LightGrid that fragments read, packed into texels by PACKED_VIEW and PACKED_GRID.
 #pragma once
 
 #include "shared/contract/light_list.h"
@@ -17,7 +16,7 @@ using PackedView = std::array<glm::uvec4, gpu::PACKED_VIEW_TEXELS>;
 // `grid`: both tile counts and both shifts are below 65,536.
 PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid);
 
-// Whether every lane of the texels is in the list exactly once; a lane is 4 * texel + 0 to 3.
+// Whether every texel component occurs in the list exactly once; a component is 4 * texel + 0 to 3.
 constexpr bool eachLaneOnce(std::span<const unsigned> lanes) {
     std::array<int, std::size_t{4} * gpu::PACKED_VIEW_TEXELS> count{};
     for (const unsigned lane : lanes) {

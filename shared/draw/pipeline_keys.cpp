@@ -38,10 +38,10 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
     gpu::uint objects = inputs.variant.get(gpu::FEATURE_object_lights);
     if (item.variant.get(gpu::FEATURE_lightmap_texture) != 0) objects &= ~gpu::OBJECT_LIGHTS_SH;
     key.variant.set(gpu::FEATURE_object_lights, objects);
-    // Items without a lightmap, in a scene that has some, reflect exactly nothing of one.
+    // Items without a lightmap have exactly no lightmap term, even if the scene has lightmaps.
     key.variant.set(gpu::FEATURE_lightmap, item.variant.get(gpu::FEATURE_lightmap_texture) != 0);
     key.variant.set(gpu::FEATURE_light_batch, batch.kind);
-    // Shadows begin where the triangle's normal says, which both paths quantise alike.
+    // Shadow bias depends on the geometric normal, which both paths quantize alike.
     if (key.variant.any(FeatureMask().with(gpu::FEATURE_shadows).with(gpu::FEATURE_local_shadows)))
         key.variant.set(gpu::FEATURE_gbuffer_encoding, inputs.variant.get(gpu::FEATURE_gbuffer_encoding));
     return key;
@@ -64,7 +64,7 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
                     .depth_write = false};
     key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
         .set(gpu::FEATURE_depth_format, inputs.depth.kind);
-    // What passes a surface depends on all that it is.
+    // Transmittance depends on all surface properties.
     if (item.variant.get(gpu::FEATURE_transmission) != 0) key.variant = forwardKey(inputs, item, {}).variant;
     return key;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pipelines of draws that several passes make: depth alone, and surfaces that are shaded as they are
-// drawn.
+// Pipeline keys of draws that several passes share: depth alone, and forward shading.
 #pragma once
 
 #include "shared/draw/captures.h"
@@ -8,26 +7,26 @@
 
 namespace diptych {
 
-// Depth alone. Of the material only what can cut holes matters.
+// Depth alone. The only material feature is the alpha mask.
 PipelineKey depthKey(const DrawItem& item);
 
-// A surface that is shaded as it is drawn, to `lit`. Depth is tested (GREATER_OR_EQUAL) and not written;
-// a pass without a pre-pass sets depth_write.
+// Forward shading to `lit`. The depth test is GREATER_OR_EQUAL without writes; a pass without a pre-pass
+// sets depth_write.
 PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
 
-// The same blended over what `lit` holds.
+// The same, blended over `lit`.
 PipelineKey blendedKey(const FrameInputs& inputs, const DrawItem& item);
-// Of a blended surface its opacity and its depth alone, tested and not written.
+// Opacity and depth of a blended surface, with a depth test and without depth writes.
 PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader fragment);
 
-// The same for a batch of lights that is not the last: to the two partial sums.
+// The same for an earlier light batch: writes the two partial sums.
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
 
-// The same for a capture: to the group's channels.
+// The same for a capture: writes the group's channels.
 PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
                               const LightBatch& batch);
 
-// A forward key whose surface goes through the frame's G-buffer encoding and back.
+// A forward key whose surface is encoded and decoded as the frame's G-buffer does.
 PipelineKey throughGBuffer(PipelineKey key, const FrameInputs& inputs);
 
 }  // namespace diptych

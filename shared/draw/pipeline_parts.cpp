@@ -41,7 +41,7 @@ PipelineParts drawingParts(const PipelineKey& key) {
                              VkVertexInputAttributeDescription{13, perDraw, float3, world + column3},
                              VkVertexInputAttributeDescription{14, perDraw, float3, world + 2 * column3},
                              VkVertexInputAttributeDescription{15, perDraw, float3, world + 3 * column3}};
-    static_assert(all.size() <= 16);  // what every device has
+    static_assert(all.size() <= 16);  // maxVertexInputAttributes of every device
     parts.bindings.assign(bindings.begin(), bindings.end());
     parts.attributes.assign(all.begin(), all.end());
     return parts;

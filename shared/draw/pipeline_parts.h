@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertices that a pipeline reads.
+// Vertex input of pipelines.
 #pragma once
 
 #include "shared/vulkan/pipelines.h"
@@ -9,10 +9,10 @@ namespace diptych {
 // Values of PipelineKey::input.
 enum VertexFormat : std::uint32_t {
     NO_VERTICES = 0,
-    VERTEX_ALL = 1,  // what the variant reads
+    VERTEX_ALL = 1,  // every attribute; the variant selects what shaders read
 };
 
-// For Pipelines: vertices and draws as shared/contract/geometry.h has them, all that they hold.
+// For Pipelines: all vertex and draw attributes of shared/contract/geometry.h.
 PipelineParts drawingParts(const PipelineKey& key);
 
 }  // namespace diptych

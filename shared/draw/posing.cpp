@@ -19,11 +19,11 @@ namespace {
 
 static_assert(double{gpu::MAX_POSED_COORDINATE} == double{static_cast<float>(maxCoordinate)});
 
-// lavapipe ends all loops of a shader's invocation after 65,535 rounds together, and runs one more of each;
-// those over sets of joints have what is left.
+// lavapipe ends the loops of a shader invocation after 65,535 iterations in total, and runs each loop once
+// more. The loops over joint sets use the remainder.
 constexpr std::size_t mostRounds = 65000;
 
-// The matrices that move an instance's vertices, about the pivot, to its box's origin.
+// Matrices that transform an instance's vertices, from the pivot to its box's origin.
 std::vector<glm::mat4x3> matricesOf(const Pose& pose, const Instance& instance, const glm::vec3& pivot) {
     const glm::dvec3 origin = pose.boxes[static_cast<std::size_t>(instance.box)].origin;
     const std::span<const glm::dmat4> from =
@@ -37,7 +37,7 @@ std::vector<glm::mat4x3> matricesOf(const Pose& pose, const Instance& instance, 
     return matrices;
 }
 
-// The targets that have a weight, attribute by attribute.
+// Deltas of targets with a weight, attribute by attribute.
 std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std::vector<double>* weights,
                                       gpu::PosedInstance& i) {
     using Target = Deformations::Target;
@@ -56,9 +56,10 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     add(&Target::texcoords0, i.texcoords0_end);
     add(&Target::texcoords1, i.texcoords1_end);
     add(&Target::colors, i.colors_end);
-    // A flat triangle's corners are posed by each of its vertices: once more, and again for its tangents.
+    // Every vertex of a flat triangle deforms all three corners: once more, and again for its tangent.
     const std::size_t corners = i.flat_normals == 0 ? 0 : i.groups > 0 ? 6 : 3;
-    // A tangent that has no direction is any at right angles to the normal, which is morphed again for it.
+    // A tangent without a direction becomes any vector orthogonal to the normal, which is morphed again
+    // for it.
     const std::size_t again = i.groups > 0 ? i.normals_end - i.positions_end : 0;
     const std::size_t rounds = deltas.size() + corners * i.positions_end + again;
     if (rounds > mostRounds)
@@ -69,7 +70,7 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     return deltas;
 }
 
-// By what the primitive has, whatever has a weight now: no other time needs another kernel.
+// Depends on the primitive's data, not on current weights, so other times need no other pipelines.
 Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i, bool pairs,
                   SkinNormals normals) {
     const bool of_joints = normals == SkinNormals::joints && i.joint_sets > 0 && i.flat_normals == 0;
@@ -116,7 +117,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
                const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
                SkinNormals normals)
     : layout_(layout), skinning_(skinning) {
-    // Arrays first with their offsets in place of addresses.
+    // Arrays store offsets first, which become addresses below.
     struct Arrays {
         gpu::PosedInstance instance;
         std::size_t record, matrices, deltas;
@@ -142,7 +143,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         const std::vector<double>* const weights =
             instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
         const std::vector<gpu::PosedDelta> deltas = deltasOf(of, weights, i);
-        // Tangents are made anew where what they are made of has moved.
+        // Tangents are recomputed if their inputs change.
         const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
         const bool moves_texcoords =
             map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
@@ -264,7 +265,7 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
             .uses(tangents, access::storageWrite(inCompute))
             .record(kernel(Shader::pose_tangents_comp, &Posed::groups, true));
     }
-    // No later time compiles any, whichever instance's groups move then.
+    // Compiles all pipelines now, so that no later time compiles any.
     for (const Posed& instance : instances_)
         if ((instance.variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_GROUPS) != 0)
             for (const Shader shader : {Shader::pose_morph_comp, Shader::pose_tangents_comp})

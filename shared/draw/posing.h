@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vertices of skinned and morphed instances at one time: posed once a frame by kernels, or by the vertex
-// shader of every draw (--skinning). Both have the same bits.
+// Deformed vertices of skinned and morphed instances: computed once per frame by compute shaders, or by
+// the vertex shader of every draw (--skinning). Both give the same bits.
 #pragma once
 
 #include "shared/draw/deformations.h"
@@ -15,29 +15,30 @@
 
 namespace diptych {
 
-// The layout of the kernels, one for all poses.
+// Layout of the compute shaders, shared by all poses.
 OwnedPipelineLayout makePosingLayout(Device& device);
 
-// One pose of a scene, with buffers of its own: frames of several times may be drawn in any order.
+// One pose of a scene. It owns its buffers, so frames of different times may be drawn in any order.
 class Posing {
 public:
-    Posing() = default;  // of nothing
-    // Poses the instances for the first time, so that what is drawn before a frame finds them. Throws
-    // std::runtime_error where memory ends or more morph targets have a weight than a shader can add up. The
-    // geometry and the layout must outlive it.
+    Posing() = default;  // an empty pose
+    // Deforms the instances once, for draws before the first frame. Throws std::runtime_error if memory
+    // runs out, or if more morph targets have a weight than a shader can add. The geometry and the layout
+    // must outlive it.
     Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
            const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
            SkinNormals normals);
 
     bool any() const { return !instances_.empty(); }
-    // Passes named "pose", before the first that draws.
+    // Adds passes named "pose"; they go before the first pass that draws.
     void addPasses(PassList& passes, Pipelines& pipelines) const;
-    // Declares that the pass draws geometry, and returns it.
+    // Declares that the pass draws geometry; returns the pass.
     Pass& read(PassList& passes, Pass& pass) const;
 
     // Whether an item's vertices are in the buffers of bind(), at vertexOffset().
     bool isPosed(const DrawItem& item) const { return item.box >= 0 && skinning_ == Skinning::compute; }
-    // Whether the vertex shader poses it, of the instance at the address; and how, VERTEX_POSING_* or 0.
+    // Whether the vertex shader deforms it; vertexPosing() is VERTEX_POSING_* or 0, address() its
+    // PosedInstance.
     bool isPosedInShader(const DrawItem& item) const {
         return item.box >= 0 && skinning_ == Skinning::vertex;
     }
@@ -48,7 +49,7 @@ public:
 
     std::uint64_t vertices() const { return vertices_; }
     std::uint64_t bytes() const;
-    const GpuBuffer& positions() const { return positions_; }    // vec3, of all instances by box, for tests
+    const GpuBuffer& positions() const { return positions_; }    // vec3 by box; for tests
     const GpuBuffer& attributes() const { return attributes_; }  // VertexAttributes, likewise
 
 private:
@@ -56,8 +57,8 @@ private:
         VkDeviceAddress address = 0;  // of its gpu::PosedInstance
         std::uint32_t vertices = 0, groups = 0;
         std::uint64_t first_vertex = 0;
-        gpu::PosingConstants constants{};  // of the kernels
-        Variant variant{};                 // likewise
+        gpu::PosingConstants constants{};  // of the compute shaders
+        Variant variant{};                 // of the compute shaders
     };
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     Skinning skinning_ = Skinning::compute;
@@ -67,17 +68,17 @@ private:
     GpuBuffer pose_, positions_, attributes_, morphed_, tangents_;
 };
 
-// Of one scene: views at the same time share a pose for as long as one of them lives.
+// Poses of one scene. Concurrent views share a pose while one of them uses it.
 class Posings {
 public:
     Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
     std::shared_ptr<const Posing> at(const Pose& pose, Skinning skinning, SkinNormals normals,
                                      Pipelines& pipelines);
-    std::uint64_t bytes() const { return rest_.bytes(); }  // of what all poses share
-    std::size_t made() const { return made_; }             // poses so far
+    std::uint64_t bytes() const { return rest_.bytes(); }  // of data that all poses share
+    std::size_t made() const { return made_; }             // number of poses created
 
 private:
-    // What a pose's vertices follow from.
+    // Inputs that determine a pose's vertices.
     struct Key {
         Skinning skinning = Skinning::compute;
         SkinNormals normals = SkinNormals::joints;
@@ -85,7 +86,7 @@ private:
         std::vector<PosedBox> boxes;
         std::vector<std::vector<glm::dmat4>> skins;
         std::vector<std::vector<double>> weights;
-        std::vector<TextureSlot> maps;  // by instance: of the normal map
+        std::vector<TextureSlot> maps;  // by instance: its normal map
         bool operator==(const Key&) const = default;
     };
     struct Kept {

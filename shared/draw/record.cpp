@@ -23,7 +23,7 @@ void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, Vk
     vkCmdBindDescriptorSets(commands, point, inputs.layouts.pipeline, set, 1, &descriptors, 0, nullptr);
 }
 
-// All sets but SET_MATERIAL.
+// Binds all sets but SET_MATERIAL.
 void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch,
                const DescriptorSets* gbuffer, VkPipelineBindPoint point = VK_PIPELINE_BIND_POINT_GRAPHICS) {
     const Placeholders& none = inputs.placeholders;
@@ -36,7 +36,7 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
-// Vertices that the shader makes itself.
+// Draws vertices that the shader generates.
 void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint vertices) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
@@ -46,14 +46,14 @@ void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint ver
 
 gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) {
     gpu::DrawConstants constants{};
-    // Else alike for as many draws as may be, since what does not change is not pushed again.
+    // Else 0 for all draws, because unchanged constants are not pushed again.
     if (inputs.variant.get(gpu::FEATURE_object_lights) != 0) constants.draw = item.draw;
     constants.material = item.range.material;
     constants.posing = inputs.posing.address(item);
     return constants;
 }
 
-// `sampled`: to images with the frame's samples; those of shadow maps have one.
+// `sampled`: draws to images with the frame's samples; shadow maps have one.
 std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
                                     const KeyOf& keyOf, bool sampled) {
     std::vector<PipelineKey> keys;
@@ -98,7 +98,7 @@ bool areSame(const gpu::DrawConstants& a, const gpu::DrawConstants& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-// Records draws of a source's items, and between them only what changes.
+// Records draws of a source's items, and only the state that changes between them.
 template <class ConstantsOf>
 class ItemRecorder {
 public:
@@ -111,7 +111,7 @@ public:
           constants_of_(constantsOf),
           indirect_draws_(inputs.device.indirectDraws()) {}
 
-    // What draw() draws until the next one.
+    // Sets the state of item i for the next draws.
     void take(std::size_t i) {
         const DrawItem& item = source_.items[i];
         if (last_ == nullptr || pipelines_[i] != pipelines_[taken_])
@@ -133,7 +133,7 @@ public:
         }
         const VkCullModeFlags culled = culledOf(source_, item);
         if (last_ == nullptr || culled != culled_) vkCmdSetCullMode(commands_, culled);
-        // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
+        // glTF's front faces are counter-clockwise; clip space and framebuffer both have y down.
         if (last_ == nullptr || item.mirrored != last_->mirrored)
             vkCmdSetFrontFace(commands_,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
@@ -144,20 +144,20 @@ public:
         last_ = &item;
         taken_ = i;
     }
-    // `instances`: of the item taken and those after it.
+    // `instances`: number of instances, the current item included.
     void draw(const IndexRun& run, std::uint32_t instances = 1) const {
         vkCmdDrawIndexed(commands_, run.count, instances, run.first, inputs_.posing.vertexOffset(*last_),
                          last_->draw);
         inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
     }
 
-    // How many items from number i on, the item taken, draw with its state.
+    // Number of items from index i, the current item, that share its state.
     std::size_t sameFrom(std::size_t i) const {
         std::size_t end = i + 1;
         while (end < pipelines_.size() && drawsAs(i, end)) ++end;
         return end - i;
     }
-    // The indirect draws of so many items from the one taken on, one for each of their runs.
+    // Indirect draws of this many items from the current one, one for each of their index ranges.
     void drawIndirect(VkBuffer draws, std::size_t items) const {
         constexpr std::uint32_t stride = sizeof(VkDrawIndexedIndirectCommand);
         const DrawItem& last = source_.items[taken_ + items - 1];
@@ -187,16 +187,16 @@ private:
     const DrawSource& source_;
     const std::vector<VkPipeline>& pipelines_;
     const ConstantsOf& constants_of_;
-    std::uint32_t indirect_draws_;  // of one command
+    std::uint32_t indirect_draws_;  // per command
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
     gpu::DrawConstants constants_{};
     VkCullModeFlags culled_ = 0;
-    bool posed_ = false;   // whether posed vertices are bound
-    bool chosen_ = false;  // whether indices of Culling are
+    bool posed_ = false;   // deformed vertices are bound
+    bool chosen_ = false;  // index buffer of Culling is bound
 };
 
-// What a source draws of item i: runs of indices, of which some may be empty.
+// Index ranges that a source draws of item i; some may be empty.
 struct ItemRuns {
     ItemRuns(const DrawSource& source, std::size_t i)
         : item(source.items[i]), whole{item.range.first_index, item.range.index_count}, source_(source) {}
@@ -210,9 +210,8 @@ private:
     const DrawSource& source_;
 };
 
-// How many items from number i on are instances of the same triangles, which one draw draws: what they differ
-// in has its place in the draws, which they have side by side. What shaders find by push constants (lights by
-// object, numbers of blended triangles) must be the same.
+// Number of items from index i that one draw covers as instances: same triangles, and their gpu::Draw data
+// is adjacent. Push constants (lights by object, indices of blended triangles) must be equal.
 template <class ConstantsOf>
 std::uint32_t instancesFrom(std::size_t i, const DrawSource& source, const std::vector<VkPipeline>& pipelines,
                             const ConstantsOf& constantsOf) {
@@ -259,7 +258,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
     }
 }
 
-// The same, triangle by triangle.
+// The same, in the order of sorted triangles.
 template <class ConstantsOf>
 void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
                   const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records the commands that draw the scene or a full-screen triangle.
+// Records draws of the scene and of full-screen triangles.
 #pragma once
 
 #include "shared/contract/transparency.h"
@@ -10,44 +10,44 @@
 
 namespace diptych {
 
-// What records the draws of every item that is not blended, in the list's order, each with the pipeline of
-// its key. Pipelines that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders
-// that read stored depth. `inputs` must outlive what is returned.
+// Records the draws of all opaque items in list order, each with the pipeline of its key. Missing
+// pipelines are compiled at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read stored depth.
+// `inputs` must outlive the returned function.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch = {},
                                                  std::shared_ptr<const DescriptorSets> gbuffer = {});
-// The same of those that are blended. `gbuffer`: SET_GBUFFER of shaders that read TRANSPARENCY_BINDINGS.
+// The same for blended items. `gbuffer`: SET_GBUFFER of shaders that read TRANSPARENCY_BINDINGS.
 std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf,
                                                    std::shared_ptr<const DescriptorSets> gbuffer = {},
                                                    const gpu::BlendedConstants& constants = {});
-// The same of other draws than the picture's, depth alone: what casts shadows does with both of its sides.
-// `draw_buffer`: Draw[draws.draws]. `draws` must outlive what is returned.
+// Records shadow casters, depth alone, both sides of each triangle. `draw_buffer`: Draw[draws.draws].
+// `draws` must outlive the returned function.
 std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
                                                    VkBuffer draw_buffer);
 
-// One triangle that covers the screen, with the descriptor sets that are bound.
+// Draws a full-screen triangle with the bound descriptor sets.
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
-// What records it with the sets of deferred lighting: frame, G-buffer, partial sums. `groups`: once for each
-// of so many groups of samples.
+// Records a full-screen triangle with the sets of deferred lighting: frame, G-buffer, partial sums.
+// `groups`: draws it once for each of this many sample groups.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch,
                                                       gpu::uint groups = 1);
-// What records `vertices` of no buffer with these sets, once for each of `draws`, its number in
-// DrawConstants::group.
+// Records `draws` draws of `vertices` vertices without vertex buffers. DrawConstants::group is the draw's
+// index.
 std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
                                                     std::shared_ptr<const DescriptorSets> gbuffer,
                                                     gpu::uint vertices, gpu::uint draws);
-// What records a dispatch of rows of `across` workgroups with the sets of deferred lighting. `group`: of
-// samples.
+// Records a dispatch of rows of `across` workgroups with the sets of deferred lighting. `group`: index of
+// the sample group.
 std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
     const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
     const LightBatch& batch, std::uint32_t across, gpu::uint group);
-// As recordFullScreen() of a shader that puts blended surfaces together.
+// As recordFullScreen(), for a shader that composites blended surfaces.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,
                                                       const gpu::BlendedConstants& constants);
-// The same of a shader that reads the frame's set alone.
+// The same for a shader that reads SET_FRAME alone.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline);
 
 }  // namespace diptych

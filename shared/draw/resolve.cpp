@@ -17,7 +17,7 @@ namespace diptych {
 
 namespace {
 
-// A full-screen pass that reads `sources` at the first bindings of SET_GBUFFER and draws to as many images.
+// A full-screen pass that reads `sources` at the first bindings of SET_GBUFFER and writes as many targets.
 void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, const char* name,
                 const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets) {
     Pass& pass = passes.draw(name);
@@ -29,7 +29,7 @@ void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, co
     const auto sets = std::make_shared<DescriptorSets>(blendedSet(inputs));
     for (const ImageRef source : sources) pass.samples(source, inFragment);
     pass.prepare([&passes, sources, sets, sampler = inputs.layouts.nearest.get()] {
-        // What a scene lacks is never read, but its binding is of the same kind.
+        // Missing sources are never read; the first one keeps their bindings valid.
         for (gpu::uint i = 0; i < gpu::GBUFFER_ATTACHMENTS; ++i)
             sets->image(0, i, passes.view(sources[i < sources.size() ? i : 0]), sampler,
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
@@ -93,7 +93,7 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<Ca
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
     const auto lit = std::ranges::stable_partition(
         images, [](const CapturedImage& image) { return image.mode != static_cast<int>(gpu::DEBUG_lit); });
-    // A background's samples have no count.
+    // Samples of the background have no shaded_samples value.
     const std::span<CapturedImage> channels = images.first(images.size() - lit.size());
     const auto counts = std::ranges::stable_partition(channels, [](const CapturedImage& image) {
         return image.mode != static_cast<int>(gpu::DEBUG_shaded_samples);

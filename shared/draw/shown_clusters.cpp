@@ -16,15 +16,16 @@ namespace diptych {
 
 namespace {
 
-// What a shader's product of a matrix and a position may be off by, of the sum of its terms' sizes: the
-// matrix is rounded once, and so are three products and three sums, 2^-24 each. Twice that.
+// Relative error bound of a shader's matrix-vector product, as a fraction of the sum of its terms'
+// absolute values. The rounded matrix, three products and three sums contribute 2^-24 each. Doubled.
 constexpr double productError = 14.0 / (1 << 24);
-// The same of a place in pixels, of the picture's size: a division, a product and a sum.
+// The same for a window position, as a fraction of the image size: a division, a product and a sum.
 constexpr double placeRounding = 8.0 / (1 << 24);
-// Of ClusterTriangles::facing(): four products of rounded factors and three sums.
+// For ClusterTriangles::facing(): four products of rounded factors and three sums.
 constexpr double facingError = 16.0 / (1 << 24);
 
-// The sample at `place`, in pixels from a pixel's left or upper side, of any pixel from `low` to `high`.
+// Whether an interval contains the sample at `place`, in pixels from a pixel's left or upper edge, of any
+// pixel.
 bool holdsSample(double low, double high, double place) {
     return std::floor(high - place) >= std::ceil(low - place);
 }
@@ -80,7 +81,7 @@ ShownClusters::ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from
     pixels_.x = across * (glm::length(x) + glm::length(w));
     pixels_.y = down * (glm::length(y) + glm::length(w));
     pixels_.z = std::hypot(pixels_.x, pixels_.y);
-    // The eye is where x, y and w are 0: at infinity where w is the same everywhere.
+    // The eye is where x, y and w are 0: at infinity if w is constant.
     eye_at_infinity_ = w == glm::dvec3(0);
     double volume = 0;
     if (eye_at_infinity_) {
@@ -103,7 +104,7 @@ ShownClusters::ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from
 
 bool ShownClusters::isBetweenSamples(const Cluster& cluster, double nearest, double off) const {
     const glm::dvec3 size = glm::dvec3(cluster.max) - glm::dvec3(cluster.min);
-    // What lies between two samples is less than a pixel wide or high: nothing larger is looked at.
+    // Geometry between samples is less than a pixel wide or high, so larger boxes are not tested.
     if (!(glm::length(size) * std::min(pixels_.x, pixels_.y) < 4 * nearest)) return false;
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -137,7 +138,7 @@ TriangleSet ShownClusters::of(const Cluster& cluster, const ClusterTriangles& tr
             if (at + reach < -side.slack) return 0;
             within = within && at - reach >= side.slack;
         }
-        // What a device clips has other corners than its triangles, any of which may lie in a line.
+        // Clipping creates other corners, which may lie on the lines between samples.
         if (!within) return entry.all();
     }
     const glm::dvec3 w(rows_[3]);
@@ -149,10 +150,10 @@ TriangleSet ShownClusters::of(const Cluster& cluster, const ClusterTriangles& tr
     TriangleSet set = entry.all();
     if (!(entry.largest_circle > 0)) return set;
     if (faces_) {
-        // Corners that are each off by at most `wide` pixels change the doubled area of a triangle on the
-        // screen by at most wide * perimeter + 3 wide^2 there: smaller ones may show their front all the
-        // same. The area is area_scale_ / w^3 times r * perimeter * distance from the plane, of which the
-        // last two are in the object, and facing() has r * distance.
+        // Corners off by at most `wide` pixels change the doubled area of a triangle on screen by at most
+        // wide * perimeter + 3 wide^2. Triangles with a smaller area may still show their front. The area
+        // is area_scale_ / w^3 * r * perimeter * distance from the plane, with perimeter and distance in
+        // object space. facing() computes r * distance.
         const double wide = std::sqrt(2.0) * off;
         const double area = wide * (pixels_.z / nearest + 3 * wide / double{entry.shortest_perimeter});
         const glm::dvec3 eye = eye_at_infinity_ ? eye_ : eye_ - middle;
@@ -162,8 +163,8 @@ TriangleSet ShownClusters::of(const Cluster& cluster, const ClusterTriangles& tr
         const auto least = static_cast<float>(-behind * (1 + 1e-6));
         set = triangles.facing(entry, glm::vec3(eye), eye_at_infinity_ ? 0.0f : 1.0f, least);
     }
-    // The circle in a triangle, pixels, of which pixels_ counts up to 2.5 times too many: what is larger
-    // covers samples nearly always.
+    // Inradius in pixels, overestimated by pixels_ by up to 2.5 times. Larger triangles nearly always
+    // cover a sample.
     constexpr double small = 6;
     if (grid_.samples > 1 || !(double{entry.largest_circle} * pixels_.z < small * nearest)) return set;
     ClusterTriangles::Projection projection;
@@ -174,7 +175,7 @@ TriangleSet ShownClusters::of(const Cluster& cluster, const ClusterTriangles& tr
     projection.y = row(1, 0.5 * grid_.height);
     projection.w = row(3, 1);
     projection.half = {0.5f * static_cast<float>(grid_.width), 0.5f * static_cast<float>(grid_.height)};
-    projection.off = static_cast<float>(off + placed);  // what is rounded here, too
+    projection.off = static_cast<float>(off + placed);  // includes the rounding of this test
     projection.either_side = !culls_backs_;
     projection.clockwise = mirrored_;
     return triangles.covering(entry, set, projection);

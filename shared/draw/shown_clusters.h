@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which clusters of an instance, and which of their triangles, a view may show. What is left out covers no
-// sample, however a device rounds: no bit of a picture changes. No Vulkan.
+// Meshlets of an instance, and triangles of these, that may be visible in a view. Culled triangles cover
+// no sample on any device, whatever its rounding, so images do not change. No Vulkan.
 #pragma once
 
 #include "shared/draw/cluster_triangles.h"
@@ -12,52 +12,51 @@
 
 namespace diptych {
 
-// What a view is drawn to.
+// Size and samples of a view's image.
 struct SampleGrid {
     int width = 0, height = 0;  // pixels
-    int samples = 1;            // of a pixel, at the standard places of Vulkan: 1, 2, 4 or 8
-    double snap = 1.0 / 16;     // pixels: how far a rasteriser moves a corner, at most
+    int samples = 1;            // per pixel, at Vulkan's standard locations: 1, 2, 4 or 8
+    double snap = 1.0 / 16;     // pixels: largest distance by which a rasterizer snaps a vertex
 };
 
-// What a device's place of a corner may be off by where its clip space is exact, pixels.
+// Error bound of a vertex's window position for exact clip coordinates, pixels.
 double placeError(const SampleGrid& grid);
 
-// Of one instance.
+// Visibility of one instance.
 class ShownClusters {
 public:
-    // `clip_from_object`: of all positions, which lie in the box from `min` to `max`, m; a shader multiplies
-    // in float32. `culls_backs`: the draw shows no backs; `mirrored`: fronts are counter-clockwise in object
-    // space, and clockwise on the screen.
+    // `clip_from_object`: for positions in the box from `min` to `max`, m; shaders multiply in float32.
+    // `culls_backs`: the draw culls back faces. `mirrored`: front faces are counter-clockwise in object
+    // space and clockwise on screen.
     ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object, const glm::dvec3& min,
                   const glm::dvec3& max, bool culls_backs, bool mirrored);
 
-    // Those of the cluster that may show.
+    // Triangles of the meshlet that may be visible.
     TriangleSet of(const Cluster& cluster, const ClusterTriangles& triangles,
                    const ClusterTriangles::Entry& entry) const;
-    // What a shader's product of the matrix and a position may be off by, by component of clip space.
+    // Error bound of a shader's product of the matrix and a position, per component of clip space.
     const glm::dvec4& error() const { return error_; }
 
 private:
     struct Side {
-        glm::dvec3 normal, size;  // its components' sizes
+        glm::dvec3 normal, size;  // absolute values of the normal
         double w, slack;
     };
-    // `off`: how far a place may be off, pixels.
-    // Where a corner of the cluster may come to lie beside its place, pixels.
+    // Error bound of a meshlet corner's window position, pixels. `nearest`: its smallest w.
     double placeOff(double nearest) const;
     bool isBetweenSamples(const Cluster& cluster, double nearest, double off) const;
 
     SampleGrid grid_;
     glm::dmat4 rows_;            // of clip_from_object
-    glm::dvec4 error_;           // of clip space, by component
-    std::array<Side, 6> sides_;  // of what is inside, positive
-    bool within_ = false;        // all of the instance is inside
-    bool faces_ = false;         // backs are left out
+    glm::dvec4 error_;           // error bound of clip space, per component
+    std::array<Side, 6> sides_;  // clip planes, positive inside
+    bool within_ = false;        // the whole instance is inside the frustum
+    bool faces_ = false;         // back faces are culled
     bool culls_backs_, mirrored_;
     bool eye_at_infinity_ = false;
     glm::dvec3 eye_{0};
-    glm::dvec3 pixels_{0};   // at w = 1: how far a step of 1 m moves a point, across, down, either
-    double area_scale_ = 0;  // pixels^2 of a triangle's doubled area, times w^3
+    glm::dvec3 pixels_{0};   // at w = 1: pixels per metre horizontally, vertically, in any direction
+    double area_scale_ = 0;  // pixels^2 per doubled area of a triangle, times w^3
 };
 
 }  // namespace diptych

@@ -16,8 +16,7 @@ float brightest(const float* p) {
     return std::max({p[0], p[1], p[2]});
 }
 
-// Parts along one side of a pixel's share in the interpolation, which reaches over two pixels, so that four
-// of them are as wide as a texel.
+// Parts along one side of a pixel's support, which is two pixels wide. Four parts span a texel.
 int partsAcross(double pixel, int side) {
     const double texel = std::sqrt(4 * std::numbers::pi) / side;
     return std::clamp(static_cast<int>(std::ceil(2 * pixel / (texel / 4))), 8, 256);
@@ -58,7 +57,7 @@ void BrightPixels::eachPart(int side, const Visit& visit) const {
         double sum = 0;
         for (int j = 0; j < down; ++j) {
             const double off = 2 * (j + 0.5) / down - 1, polar = high * (pixel.y + 0.5 + off);
-            // Beyond a pole the sine is negative and the direction that of the other side.
+            // Beyond a pole the sine is negative and the direction is on the other side.
             const double weight = (1 - std::abs(off)) * std::abs(std::sin(polar));
             rows.emplace_back(polar, weight);
             sum += weight;
@@ -66,7 +65,7 @@ void BrightPixels::eachPart(int side, const Visit& visit) const {
         const double power = solid_[static_cast<std::size_t>(pixel.y)] / sum;
         for (const auto& [polar, weight] : rows) {
             const int across = partsAcross(wide * std::abs(std::sin(polar)), side);
-            double tent = 0;  // the sum of its weights
+            double tent = 0;  // sum of the tent weights
             for (int i = 0; i < across; ++i) tent += 1 - std::abs(2 * (i + 0.5) / across - 1);
             for (int i = 0; i < across; ++i) {
                 const double off = 2 * (i + 0.5) / across - 1;
@@ -94,7 +93,7 @@ void BrightPixels::addTo(OctahedralMap& map) const {
     map.fillBorder();
 }
 
-// A node of an edge is there twice, that of the corners four times.
+// A node on an edge occurs twice, the corner node four times.
 void BrightPixels::addTo(NodeMap& map) const {
     const int last = map.side - 1;
     eachPart(last, [&](const glm::vec3& direction, const Texel& power) {

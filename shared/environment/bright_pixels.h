@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What single pixels of a lat-long picture have far above its mean. A map that takes a fixed number of places
-// a texel would miss a sun or count it twice; this light is added to maps by its solid angle.
+// Radiance of single pixels far above the mean of a lat-long image. A map that samples each texel a fixed
+// number of times would miss a sun or count it twice, so this light is added to maps by its solid angle.
 #pragma once
 
 #include "shared/environment/octahedral_map.h"
@@ -11,10 +11,11 @@ namespace diptych {
 
 class BrightPixels {
 public:
-    // Takes from the picture what its pixels have above 8 times its mean, by their largest component.
+    // Removes from the image the part of its pixels above 8 times its mean, by the largest component.
     explicit BrightPixels(Environment& picture);
 
-    // Adds it. Integrals over all directions grow by what it has under the bilinear interpolation.
+    // Adds the removed light. Integrals over all directions grow by its integral under bilinear
+    // interpolation.
     void addTo(OctahedralMap& map) const;
     void addTo(NodeMap& map) const;
 
@@ -23,12 +24,12 @@ private:
         int x, y;
         glm::vec3 radiance;
     };
-    // Each pixel in parts that are small beside a map's texels: direction and W/m^2.
+    // Visits each pixel in parts that are small compared to a map's texels: direction and W/m^2.
     template <class Visit>
     void eachPart(int side, const Visit& visit) const;
 
     int width_, height_;
-    std::vector<double> solid_;  // of a pixel of each row
+    std::vector<double> solid_;  // solid angle of a pixel in each row, sr
     std::vector<Pixel> pixels_;
 };
 

@@ -14,7 +14,7 @@
 namespace diptych {
 namespace {
 
-// Gauss and Legendre's points and weights on [0, 1], by Newton's method from Tricomi's estimate of the roots.
+// Gauss-Legendre nodes and weights on [0, 1], by Newton's method from Tricomi's estimate of the roots.
 constexpr std::size_t points = 16;
 struct Rule {
     std::array<double, points> at, weight;
@@ -53,8 +53,8 @@ double lambda(double alpha, double cosine) {
     return (std::sqrt(1 + alpha * alpha * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2;
 }
 
-// The lobe over half vectors (Walter et al. 2007: dl = 4 v.h dh), by T = tan of their angle from the normal:
-// D cos dh = density(T) dT dphi / (2 pi).
+// The lobe over half vectors (Walter et al. 2007: dl = 4 v.h dh), by T = tan(angle to the normal): D cos
+// dh = density(T) dT dphi / (2 pi).
 class Lobe {
 public:
     Lobe(double n_dot_v, double alpha)
@@ -68,7 +68,7 @@ public:
         return 2 * a2 * t / (sum * sum);
     }
 
-    // The ring of half vectors at T, as far round as the light is above the horizon: n.l = 2 v.h n.h - n.v.
+    // Ring of half vectors at T, for azimuths with the light above the horizon: n.l = 2 v.h n.h - n.v.
     glm::dvec2 ring(double t) const {
         const double cosine = 1 / std::sqrt(1 + t * t), sine = t * cosine;
         const double edge = (mu_ / (2 * cosine) - mu_ * cosine) / std::max(sine_ * sine, 1e-300);
@@ -94,7 +94,7 @@ double alongRow(double n_dot_v, double alpha) {
     return blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * std::sqrt(n_dot_v);
 }
 
-// n.v of a place in a row, by bisection; at the very rim that of a hair above the horizon.
+// n.v at a coordinate of a row, by bisection; at the edge slightly above the horizon.
 double viewAt(double x, double alpha) {
     double low = 1e-7, high = 1;
     for (int step = 0; step < 60; ++step) {
@@ -106,9 +106,9 @@ double viewAt(double x, double alpha) {
 
 }  // namespace
 
-// Three pieces of T: up to where the first light of a ring sets all of it is above the horizon; from there on
-// up to the lobe's width; and, by 1 / T, to where the last one sets. Each is smooth, with its quick end drawn
-// out.
+// Integrates over three pieces of T. The first ends where part of a ring falls below the horizon, the
+// second at the lobe's width. The third, in 1 / T, ends where the last of a ring does. Each is smooth,
+// with a substitution that stretches its steep end.
 glm::dvec2 specularAlbedo(double n_dot_v, double alpha) {
     const Lobe lobe(n_dot_v, alpha);
     const double view = std::acos(std::min(n_dot_v, 1.0)), quarter = std::numbers::pi / 2;

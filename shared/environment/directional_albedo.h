@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a surface reflects of light that is the same from everywhere: the integrals of the BRDF that
-// shaders/lib/brdf.glsl evaluates, of which shaders/lib/ambient.glsl reads a table.
+// Directional albedo: integrals of the BRDF of shaders/lib/brdf.glsl over uniform light.
+// shaders/lib/ambient.glsl reads a table of them.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,14 +10,14 @@
 
 namespace diptych {
 
-// The integral of D V n.l over the hemisphere of light, split by Schlick's weight w = (1 - v.h)^5: x is that
-// of 1 - w, what F0 is multiplied by; y that of w, F90's factor. `n_dot_v` in (0, 1], `alpha` in (0, 1].
-// Within 5e-6 of the sum.
+// Integral of D V n.l over the hemisphere of light directions, split by Schlick's weight w = (1 - v.h)^5.
+// x is the integral with 1 - w, the factor of F0; y is the integral with w, the factor of F90. `n_dot_v`
+// in (0, 1], `alpha` in (0, 1]. The error of the sum is at most 5e-6.
 glm::dvec2 specularAlbedo(double n_dot_v, double alpha);
 
-// The table of shared/contract/albedo.h, row after row; made on all cores when it is first asked for.
+// Table of shared/contract/albedo.h, row by row; computed on first use, on all cores.
 const std::vector<glm::vec2>& directionalAlbedoTable();
-// As shaders read it: each sample with the next one, the last with itself.
+// As shaders read it: pairs of each sample and the next; the last is paired with itself.
 std::vector<glm::vec4> directionalAlbedoPairs();
 
 }  // namespace diptych

@@ -33,7 +33,7 @@ GpuImage uploaded(Device& device, Uploader& uploader, const std::string& name, i
 
 EnvironmentRequest environmentRequest(const Settings& settings) {
     EnvironmentRequest request{{settings.ibl_samples, settings.ibl_bias}, settings.ibl == Ibl::split};
-    if (!request.prefilter) request.quality = {};  // decides nothing there
+    if (!request.prefilter) request.quality = {};  // not used without prefiltering
     return request;
 }
 
@@ -87,10 +87,9 @@ std::uint64_t EnvironmentStore::bytes() const {
     return sum;
 }
 
-// The environment is turned by `degrees`, so what is seen of it in a direction is what it has that much
-// before it.
+// Rotating the environment by `degrees` reads it at directions rotated back by `degrees`.
 glm::mat3 environmentFromWorld(double degrees) {
-    // Quarter turns are exact.
+    // Multiples of 90 degrees are exact.
     const double quarters = degrees / 90, turn = glm::radians(degrees);
     double c = std::cos(turn), s = std::sin(turn);
     if (quarters == std::round(quarters)) c = std::round(c), s = std::round(s);

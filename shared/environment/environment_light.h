@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An environment on the device: its maps, made once for all views that ask for the same ones, and what one
-// view reads them by.
+// An environment on the GPU: its maps, shared by all views with the same request, and one view's
+// parameters.
 #pragma once
 
 #include "shared/environment/environment_maps.h"
@@ -20,7 +20,7 @@
 
 namespace diptych {
 
-// What one request made of one environment, on the device.
+// GPU images of one environment for one request.
 struct EnvironmentImages {
     EnvironmentRequest request;
     bool without_sun = false;
@@ -32,13 +32,13 @@ struct EnvironmentImages {
     std::string note{};
 };
 
-// The environment of a scene and what its sun leaves of it, each with all that was asked of it.
+// Images of the scene's environment, and of the same without its sun, for all requests so far.
 class EnvironmentStore {
 public:
     explicit EnvironmentStore(Device& device, std::filesystem::path cache = userCacheFolder())
         : device_(device), folder_(std::move(cache)) {}
-    // `background`: the scene's environment, which is seen; `environment`: the same, or what lights in its
-    // place. Throws std::runtime_error, one line, where the device holds no picture so large.
+    // `background`: the scene's environment, which is visible. `environment`: the same, or its replacement
+    // for lighting. Throws std::runtime_error, one line, if the device does not support the image's size.
     const EnvironmentImages& at(Uploader& uploader, const Environment& environment,
                                 const Environment& background, const EnvironmentRequest& request);
     std::uint64_t bytes() const;
@@ -49,11 +49,11 @@ private:
     std::vector<std::unique_ptr<EnvironmentImages>> made_;
 };
 
-// One view's. Without an environment, or where its intensity is 0, it changes nothing.
+// Environment of one view. Without an environment, or with intensity 0, it does nothing.
 class EnvironmentLight {
 public:
-    // `environment`, `background`: of the scene (EnvironmentStore::at), or nullptr. `frame`: the sets of
-    // SET_FRAME, to which it writes its bindings.
+    // `environment`, `background`: of the scene (see EnvironmentStore::at), or nullptr. `frame`:
+    // SET_FRAME, in which it writes its bindings.
     EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
                      const Environment* environment, const Environment* background, DescriptorSets& frame,
                      const Settings& settings);
@@ -75,7 +75,8 @@ private:
     std::vector<std::string> notes_;
 };
 
-// World axes to the environment's: `degrees` turn it about +Y, counter-clockwise seen from above.
+// Rotation from world axes to the environment's axes. `degrees` rotate the environment about +Y,
+// counter-clockwise seen from above.
 glm::mat3 environmentFromWorld(double degrees);
 
 }  // namespace diptych

@@ -19,7 +19,7 @@ namespace {
 constexpr int mostSourceSide = 1024, leastSourceSide = 16;  // of the environment's own map, texels
 constexpr int diffuseSide = 33, diffuseSourceSide = 64, leastPyramidSide = 4;
 
-// Proportional to the solid angle about a node; those of an edge stand for half of it, as they occur twice.
+// Proportional to a node's solid angle. Edge nodes count half, because they occur twice.
 double nodeWeight(const NodeMap& map, int x, int y) {
     const glm::dvec3 d(octahedralDirection(map.placeOf(x, y)));
     const double l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
@@ -27,8 +27,8 @@ double nodeWeight(const NodeMap& map, int x, int y) {
     return l1 * l1 * l1 * edge(x) * edge(y);
 }
 
-// Means of two by two pixels. Rows beside each other differ in solid angle at the poles alone, and there over
-// a hundredth of a degree.
+// Means of 2x2 pixels. Neighbouring rows differ in solid angle only within a hundredth of a degree of the
+// poles.
 Environment halved(const Environment& fine) {
     Environment coarse{fine.name, Image(fine.radiance.width / 2, fine.radiance.height / 2, 3)};
     tbb::parallel_for(0, coarse.radiance.height, [&](int y) {
@@ -41,7 +41,7 @@ Environment halved(const Environment& fine) {
     return coarse;
 }
 
-// Rows of a picture twice as wide as high whose pixels would be as fine.
+// Height of an image with 2:1 aspect ratio and the same pixel density.
 int finenessOf(int width, int height) {
     return std::max(height, (width + 1) / 2);
 }
@@ -54,8 +54,8 @@ bool canBeHalved(const Image& picture) {
     return canBeHalved(picture.width, picture.height);
 }
 
-// Of the environment's own map. A map of `height` texels a side has texels as large as those at the horizon
-// of a picture so high.
+// Side of the environment's own map. A map of `height` texels per side has texels of the size of pixels at
+// the horizon.
 int sourceSide(int width, int height) {
     for (; canBeHalved(width, height); height /= 2) width /= 2;
     return static_cast<int>(std::bit_ceil(
@@ -67,7 +67,7 @@ int sourceSide(int width, int height) {
 EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const EnvironmentRequest& request) {
     EnvironmentMaps maps;
     maps.harmonics = project(LatLong(environment));
-    // Of a picture that is far finer than any map its means are enough.
+    // Images far finer than every map are downsampled first.
     Environment even = canBeHalved(environment.radiance) ? halved(environment) : environment;
     while (canBeHalved(even.radiance)) even = halved(even);
     const BrightPixels suns(even);
@@ -100,12 +100,12 @@ MapSides mapSides(int width, int height, bool prefilter) {
     if (prefilter)
         for (std::size_t level = 0; level < gpu::ENVIRONMENT_SPECULAR_LEVELS; ++level)
             sides.levels.push_back(levelSide(level, side));
-    else  // powers of two, down to the last of pyramid()
+    else  // powers of two, down to the last level of pyramid()
         for (int each = side; each >= leastPyramidSide; each /= 2) sides.levels.push_back(each + 1);
     return sides;
 }
 
-// Rows of maps, from large to small.
+// Rows of maps, large to small.
 EnvironmentAtlas layOut(const EnvironmentMaps& maps) {
     std::vector<const NodeMap*> all;
     for (const NodeMap& level : maps.levels) all.push_back(&level);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that shading needs of an environment, made on the CPU.
+// Maps of an environment for shading, computed on the CPU.
 #pragma once
 
 #include "shared/contract/environment.h"
@@ -17,17 +17,17 @@ namespace diptych {
 
 struct EnvironmentRequest {
     FilterQuality quality;
-    bool prefilter = true;  // else the environment's own pyramid, for samples at every pixel
+    bool prefilter = true;  // else a mip pyramid of the environment, sampled at every pixel
     bool operator==(const EnvironmentRequest&) const = default;
 };
 
 struct EnvironmentMaps {
     Harmonics harmonics{};
-    NodeMap diffuse;              // irradiance over pi
-    std::vector<NodeMap> levels;  // as of contract/environment.h
+    NodeMap diffuse;              // irradiance / pi
+    std::vector<NodeMap> levels;  // as in contract/environment.h
 };
 
-// How many nodes a side the maps have that are made of a picture so large.
+// Nodes per side of the maps of an image of a given size.
 struct MapSides {
     int diffuse = 0;
     std::vector<int> levels;
@@ -36,7 +36,7 @@ MapSides mapSides(int width, int height, bool prefilter);
 
 EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const EnvironmentRequest& request);
 
-// Where each map's texels begin, in one picture of all of them.
+// All maps in one image, with the corner of each.
 struct EnvironmentAtlas {
     int width = 0, height = 0;
     std::vector<glm::vec4> texels{};  // row by row
@@ -45,7 +45,8 @@ struct EnvironmentAtlas {
 };
 EnvironmentAtlas layOut(const EnvironmentMaps& maps);
 
-// What SH keeps of the irradiance, against the sum over all texels: shares of the largest irradiance.
+// Error of spherical harmonics irradiance against the sum over all texels, relative to the largest
+// irradiance.
 struct TruncationError {
     double mean = 0, worst = 0;
 };

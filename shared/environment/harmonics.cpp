@@ -16,7 +16,7 @@ namespace diptych {
 
 namespace {
 
-// The factors of the polynomials, by l (l + 1) + m.
+// Normalization factors of the polynomials, by l (l + 1) + m.
 const std::array<double, 9> norms{
     std::sqrt(1 / (4 * std::numbers::pi)),  std::sqrt(3 / (4 * std::numbers::pi)),
     std::sqrt(3 / (4 * std::numbers::pi)),  std::sqrt(3 / (4 * std::numbers::pi)),
@@ -32,11 +32,11 @@ int bandOf(std::size_t i) {
     return i < 1 ? 0 : i < 4 ? 1 : 2;
 }
 
-// Of a row, by component: the integrals over its azimuth of radiance times e^(i m azimuth), m 0 to 2, exact
-// for what is linear between centres.
+// Per row and component: integrals over azimuth of radiance times e^(i m azimuth), m = 0 to 2. They are
+// exact for linear interpolation between pixel centres.
 using Moments = std::array<std::array<std::complex<double>, 3>, 3>;
 
-// Of a column's centre: e^(i m azimuth), m 1 and 2.
+// Per column centre: e^(i m azimuth), m = 1 and 2.
 using Turns = std::array<std::complex<double>, 2>;
 
 std::vector<Turns> turnsOf(int width) {
@@ -68,7 +68,7 @@ Moments momentsOf(const Image& image, int y, const std::vector<Turns>& turns) {
     return moments;
 }
 
-// The same of the row turned by half of its columns, as it stands beyond a pole.
+// Moments of the row rotated by half of its columns, as it continues beyond a pole.
 Moments turned(Moments moments, int width) {
     for (auto& component : moments)
         for (std::size_t m = 0; m < 3; ++m)
@@ -77,7 +77,7 @@ Moments turned(Moments moments, int width) {
     return moments;
 }
 
-// What the moments add to the coefficients at a polar angle, times `weight`.
+// Adds the moments' contribution at a polar angle, times `weight`.
 void add(Harmonics& sum, const Moments& moments, double polar, double weight) {
     const double s = std::sin(polar), c = std::cos(polar);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -108,15 +108,15 @@ Harmonics project(const LatLong& light) {
     const std::vector<Turns> turns = turnsOf(image.width);
     tbb::parallel_for(std::size_t{0}, height,
                       [&](std::size_t y) { rows[y] = momentsOf(image, static_cast<int>(y), turns); });
-    // From centre to centre, and to the poles, by three of Gauss and Legendre's points.
+    // Integrates between row centres, and to the poles, by 3-point Gauss-Legendre.
     constexpr std::array<double, 3> at{0.112701665379258, 0.5, 0.887298334620742},
         part{5 / 18.0, 8 / 18.0, 5 / 18.0};
     const double step = std::numbers::pi / image.height;
     Harmonics sum{};
     const auto between = [&](const Moments& above, const Moments& below, double from, double first,
                              double last) {
-        // `from`: the polar angle of the upper centre; the part [first, last] of the way to the lower one,
-        // in pieces that resolve the sine where there are few rows.
+        // `from`: polar angle of the upper centre. Integrates the fraction [first, last] of the way to the
+        // lower one, in pieces that resolve the sine when there are few rows.
         constexpr int pieces = 8;
         for (int piece = 0; piece < pieces; ++piece)
             for (std::size_t i = 0; i < at.size(); ++i) {
@@ -134,7 +134,7 @@ Harmonics project(const LatLong& light) {
 }
 
 std::array<glm::dvec3, 9> irradiancePolynomial(const Harmonics& radiance, double window) {
-    // The clamped cosine's over pi, by band.
+    // Coefficients of the clamped cosine over pi, by band.
     constexpr std::array<double, 3> cosine{1, 2 / 3.0, 1 / 4.0};
     std::array<glm::dvec3, 9> result;
     for (std::size_t i = 0; i < 9; ++i) {
@@ -145,7 +145,7 @@ std::array<glm::dvec3, 9> irradiancePolynomial(const Harmonics& radiance, double
     return result;
 }
 
-// A quadratic form without a trace beside a linear one: 3 z^2 - 1 is 2 z^2 - x^2 - y^2 where the length is 1.
+// Rotates a linear form and a traceless quadratic form: for unit length, 3 z^2 - 1 is 2 z^2 - x^2 - y^2.
 std::array<glm::dvec3, 9> turnedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
                                            const glm::dmat3& rotation) {
     std::array<glm::dvec3, 9> result;
@@ -174,7 +174,7 @@ double leastWindow(const Harmonics& radiance) {
         const auto polynomial = irradiancePolynomial(radiance, window);
         constexpr int count = 2000;
         for (int i = 0; i < count; ++i) {
-            // Fibonacci's spiral.
+            // Fibonacci spiral.
             const double y = 1 - (2 * i + 1.0) / count, s = std::sqrt(1 - y * y),
                          turn = 2.399963229728653 * i;
             const glm::dvec3 e = evaluate(polynomial, {s * std::cos(turn), y, s * std::sin(turn)});

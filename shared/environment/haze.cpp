@@ -18,7 +18,7 @@ namespace diptych {
 
 namespace {
 
-// Of what aerosols take away they scatter so much (Bruneton and Neyret 2008).
+// Scattering over extinction of aerosols (Bruneton and Neyret 2008).
 constexpr double mieAlbedo = 0.9;
 
 glm::dvec3 doubles(const Rgb& c) {
@@ -27,13 +27,13 @@ glm::dvec3 doubles(const Rgb& c) {
 double sum(const glm::dvec3& v) {
     return v.x + v.y + v.z;
 }
-// What steps are placed by: the least of the colours, which sees farthest, but no less than an eighth of the
-// largest.
+// Extinction that determines the steps: the smallest component, which transmits farthest, but at least an
+// eighth of the largest.
 double seenFarthest(const glm::dvec3& extinction) {
     const double largest = std::max({extinction.x, extinction.y, extinction.z});
     return std::max(std::min({extinction.x, extinction.y, extinction.z}), largest / 8);
 }
-// 0 where nothing is taken away.
+// 0 without extinction.
 glm::dvec3 shareOf(const glm::dvec3& scattered, const glm::dvec3& extinction) {
     glm::dvec3 share(0);
     for (int c = 0; c < 3; ++c)
@@ -52,7 +52,7 @@ HazeNumbers hazeNumbers(const Settings& settings, const Light* sun, const glm::d
     HazeNumbers numbers{.feature = gpu::HAZE_THERE};
     const double rayleighHeight = double{settings.haze_rayleigh_height},
                  mieHeight = double{settings.haze_mie_height};
-    // Over which the column above any place at height 0 is the same as that of both.
+    // Scale height with the same optical depth above height 0 as both media together.
     const double height = (sum(rayleigh) * rayleighHeight + sum(mieExtinction) * mieHeight) / sum(extinction);
     const double eyeHeight = eye.y - double{settings.haze_ground};
     const bool marched = settings.haze_march_steps > 0;

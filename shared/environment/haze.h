@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haze of one view: what shaders read of shared/contract/haze.h, on the device. README.md has the model.
+// Haze of one view as shared/contract/haze.h stores it, on the GPU. README.md describes the model.
 #pragma once
 
 #include "shared/contract/haze.h"
@@ -15,19 +15,19 @@
 
 namespace diptych {
 
-// The numbers of --haze, and the feature, a sum of HAZE_*: 0 where it is off, its density 0 or nothing is
-// scattered. `sun`: the directional light that it scatters, or nullptr; one that is not above the horizon
-// gives nothing. `eye`: of the camera, world, m.
+// Parameters of --haze, and the feature, a sum of HAZE_*. The feature is 0 if haze is off, has density 0,
+// or does not scatter. `sun`: directional light that it scatters, or nullptr; it has no effect unless
+// above the horizon. `eye`: the camera, world, m.
 struct HazeNumbers {
     gpu::uint feature = 0;
     gpu::Haze haze{};
-    gpu::HazeMarch march{};  // of HAZE_MARCHED
+    gpu::HazeMarch march{};  // for HAZE_MARCHED
 };
 HazeNumbers hazeNumbers(const Settings& settings, const Light* sun, const glm::dvec3& eye);
 
 class Haze {
 public:
-    // `frame`: the sets of SET_FRAME, to which it writes its binding where there is any haze.
+    // `frame`: SET_FRAME, in which it writes its binding if there is haze.
     Haze(Device& device, Uploader& uploader, const Settings& settings, const Light* sun,
          const glm::dvec3& eye, DescriptorSets& frame);
     void specialise(Variant& variant) const { variant.set(gpu::FEATURE_haze, feature_); }

@@ -9,7 +9,7 @@
 
 namespace diptych {
 
-// Columns wrap around; beyond a pole lies the row as far before it, half a turn further.
+// Columns wrap around. Beyond a pole, rows repeat in reverse, rotated by half a turn.
 glm::vec3 LatLong::radiance(const glm::vec3& d) const {
     const int width = image_.width, height = image_.height;
     const float x = (std::atan2(d.x, -d.z) / (2 * gpu::PI) + 0.5f) * static_cast<float>(width) - 0.5f;
@@ -38,15 +38,16 @@ glm::dvec3 LatLong::direction(double x, double y) const {
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-// Between two rows' centres a row's share falls linearly; the integrals of that times the sine are closed.
+// A row's weight falls linearly between two centres; its integral times the sine has a closed form.
 std::vector<double> LatLong::solidAngles() const {
     const double step = std::numbers::pi / image_.height, column = 2 * std::numbers::pi / image_.width;
     std::vector<double> weights(static_cast<std::size_t>(image_.height));
     for (std::size_t y = 0; y < weights.size(); ++y) {
         const double middle = step * (static_cast<double>(y) + 0.5);
-        // A pole's own row serves both of the rows between which a place beyond its centre lies.
-        const double falling = (1 - std::sin(step) / step) / step;  // integral of (1 - t) sin(t step), t 0..1
-        const double level = (1 - std::cos(step)) / (step * step);  // and of (1 - t) cos(t step)
+        // Beyond the centre of a polar row, interpolation uses that row on both sides.
+        const double falling = (1 - std::sin(step) / step) / step;  // integral of (1 - t) sin(t step), t =
+                                                                    // 0..1
+        const double level = (1 - std::cos(step)) / (step * step);  // integral of (1 - t) cos(t step)
         const auto half = [&](double sign) {
             return step * (std::sin(middle) * level + sign * std::cos(middle) * falling);
         };

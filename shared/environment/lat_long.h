@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A lat-long picture as the radiance of all directions, as shared/scene/model/scene.h defines it.
+// A lat-long image as a function of direction, as shared/scene/model/scene.h defines it.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -14,18 +14,18 @@ namespace diptych {
 
 class LatLong {
 public:
-    // `environment` must outlive this; its sides are at least 1.
+    // `environment` must outlive this; its width and height are at least 1.
     explicit LatLong(const Environment& environment) : image_(environment.radiance) {}
 
     int width() const { return image_.width; }
     int height() const { return image_.height; }
     const Image& image() const { return image_; }
-    // W/(sr m^2), bilinear between the pixels' centres; direction unit.
+    // W/(sr m^2), bilinear between pixel centres; direction unit.
     glm::vec3 radiance(const glm::vec3& direction) const;
-    // Of the centre of a pixel, unit; x and y may lie between pixels.
+    // Direction of a pixel's centre, unit; x and y may be fractional.
     glm::dvec3 direction(double x, double y) const;
-    // The solid angle that a pixel of each row is weighted with, sr: the integral over all directions of its
-    // share in the bilinear interpolation. All pixels' add up to 4 pi.
+    // Solid angle of a pixel in each row, sr: the integral over all directions of its weight in bilinear
+    // interpolation. The sum over all pixels is 4 pi.
     std::vector<double> solidAngles() const;
 
 private:

@@ -24,10 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Increased whenever maps are made otherwise.
+// Increase it whenever the computation of maps changes.
 constexpr std::uint64_t mapVersion = 5;
 
-// A word at a time through SplitMix64's finaliser (Steele, Lea and Flood 2014).
+// Hashes one word at a time by SplitMix64's finalizer (Steele, Lea and Flood 2014).
 class MapHash {
 public:
     void add(std::uint64_t word) {
@@ -52,7 +52,7 @@ private:
     std::uint64_t value_ = 0;
 };
 
-// How a file begins; floats follow: the harmonics, then each map, its side first.
+// File header. Floats follow: the harmonics, then each map after its side.
 struct MapFileHead {
     std::array<char, 8> magic{'d', 'i', 'p', 't', 'e', 'n', 'v', '1'};
     std::uint64_t key = 0, maps = 0, floats = 0, hash = 0;
@@ -63,7 +63,7 @@ std::vector<float> flattened(const EnvironmentMaps& maps) {
     std::vector<float> floats;
     for (const glm::dvec3& c : maps.harmonics)
         for (int i = 0; i < 3; ++i) {
-            // A double is two floats of its bits.
+            // A double is stored as the bits of two floats.
             const auto halves = std::bit_cast<std::array<float, 2>>(c[i]);
             floats.insert(floats.end(), halves.begin(), halves.end());
         }
@@ -91,7 +91,7 @@ std::uint64_t floatsOf(const MapSides& sides) {
     return floats;
 }
 
-// Nothing where the floats are not those of such maps; there are floatsOf() of them.
+// Empty if the maps have other sides. `floats` has floatsOf(sides) elements.
 std::optional<EnvironmentMaps> unflattened(std::span<const float> floats, const MapSides& sides) {
     EnvironmentMaps maps;
     for (std::size_t i = 0; i < harmonicFloats; i += 2)
@@ -134,7 +134,7 @@ std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key,
     std::FILE* const stream = opened.stream.get();
     MapFileHead head;
     if (!stream || std::fread(&head, sizeof head, 1, stream) != 1) return {};
-    // Nothing is allocated for what is not just as large as these maps are.
+    // Checks sizes before allocating.
     if (head.magic != MapFileHead{}.magic || head.key != key || head.maps != 1 + sides.levels.size() ||
         head.floats != floatsOf(sides) || opened.bytes != sizeof head + head.floats * sizeof(float))
         return {};
@@ -144,7 +144,7 @@ std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key,
     hash.add(head.maps);
     hash.add(floats);
     if (hash.value() != head.hash) return {};
-    // What is read is needed: it goes last.
+    // Updates the file time: recently read files are removed last.
     ::futimens(::fileno(stream), nullptr);
     return unflattened(floats, sides);
 }
@@ -167,7 +167,7 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
         std::fwrite(floats.data(), sizeof(float), floats.size(), out.stream());
         out.commit();
         return true;
-    } catch (const std::exception&) {  // a full disk, a folder that cannot be written: made again next time
+    } catch (const std::exception&) {  // a full disk or a read-only folder: computed again next time
         return false;
     }
 }
@@ -182,11 +182,11 @@ void limitMapCache(const fs::path& folder, std::uintmax_t most) {
     std::error_code failed;
     std::uintmax_t sum = 0;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-        // A writer that was killed leaves its temporary file, whose name begins with a dot.
+        // A killed writer leaves a temporary file, whose name begins with a dot.
         const std::string name = at->path().filename().string();
         const bool temporary = name.starts_with(".environment-");
         if (!temporary && !name.starts_with("environment-")) continue;
-        std::error_code gone;  // another program may limit the same folder
+        std::error_code gone;  // another process may clean the same folder
         const fs::file_time_type time = fs::last_write_time(at->path(), gone);
         if (temporary && !gone && fs::file_time_type::clock::now() - time > std::chrono::hours(1)) {
             fs::remove(at->path(), gone);

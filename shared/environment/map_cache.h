@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Filtered environments on disk, in the user's cache folder: a file each, named after all that decides it.
+// Disk cache of filtered environments in the user's cache folder: one file per environment and request,
+// named by a hash.
 #pragma once
 
 #include "shared/environment/environment_maps.h"
@@ -10,23 +11,24 @@
 
 namespace diptych {
 
-// What the files of one folder may hold together; the ones that were not read for longest go first.
+// Size limit of one folder. The files that were not read for the longest time are removed first.
 inline constexpr std::uintmax_t mapCacheBytes = std::uintmax_t{512} << 20;
 
-// Of the pixels and of the request, and of how maps are made: it changes whenever that does.
+// Hash of the pixels, the request and the version of the filter.
 std::uint64_t mapKey(const Environment& environment, const EnvironmentRequest& request);
 std::filesystem::path mapCacheFile(const std::filesystem::path& folder, std::uint64_t key);
 
-// Nothing where there is no such file, or it is damaged, of another key, of maps that have not `sides`
-// (mapSides()), or not this user's alone (openCacheFile()).
+// Empty if the file is missing, damaged or of another key, if its maps do not have `sides` (see
+// mapSides()), or if other users can access it (see openCacheFile()).
 std::optional<EnvironmentMaps> readMaps(const std::filesystem::path& file, std::uint64_t key,
                                         const MapSides& sides);
-// Whether it could be written, whole: it appears under its name at once, whoever else writes it too.
+// Replaces the file atomically, also with concurrent writers. Returns whether it succeeded.
 bool writeMaps(const std::filesystem::path& file, std::uint64_t key, const EnvironmentMaps& maps);
-// Removes what is above `most` bytes together.
+// Removes the oldest files until the folder has at most `most` bytes.
 void limitMapCache(const std::filesystem::path& folder, std::uintmax_t most = mapCacheBytes);
 
-// From the folder, or made and kept there. `folder`: empty: not kept. `wasKept`, if given, says which it was.
+// Reads the maps from the folder, or computes and stores them. Empty `folder`: no cache. `wasKept`:
+// optional, set to whether they were read.
 EnvironmentMaps environmentMaps(const Environment& environment, const EnvironmentRequest& request,
                                 const std::filesystem::path& folder, bool* wasKept = nullptr);
 

@@ -35,8 +35,7 @@ glm::vec3 octahedralDirection(glm::vec2 p) {
     return glm::normalize(glm::vec3(p.x, y, p.y));
 }
 
-// Four quarters' middles: within 1e-3 of the integral of |d|_1^3 where there are 16 texels, and exact in sum
-// to what integral() divides by.
+// Midpoints of 4x4 parts: within 1e-3 of the integral of |d|_1^3 for 16 texels per side.
 double OctahedralMap::solidAngle(int x, int y) const {
     const double step = 2.0 / side;
     double sum = 0;
@@ -45,7 +44,7 @@ double OctahedralMap::solidAngle(int x, int y) const {
         for (int i = 0; i < parts; ++i) {
             const double px = std::abs(step * (x + (i + 0.5) / parts) - 1),
                          py = std::abs(step * (y + (j + 0.5) / parts) - 1), pz = 1 - px - py;
-            // The fold is symmetric: below the horizon the place (1 - y, 1 - x) has the same distance.
+            // The fold is symmetric: below the horizon, (1 - y, 1 - x) has the same distance.
             const double a = pz < 0 ? 1 - py : px, b = pz < 0 ? 1 - px : py;
             const double square = a * a + b * b + pz * pz;
             sum += 1 / (square * std::sqrt(square));
@@ -80,8 +79,8 @@ glm::dvec3 OctahedralMap::integral() const {
 
 namespace {
 
-// The mean over a square of the map, weighted by solid angle; `middle` and its sides in [-1, 1]^2, beyond
-// whose edges it goes on where the sphere does.
+// Mean over a square of the map, weighted by solid angle. `middle` and `width` are in units of [-1, 1]^2;
+// beyond its edges the square continues on the sphere.
 Texel meanOver(const LatLong& light, glm::vec2 middle, float width, int parts) {
     glm::vec3 sum(0);
     float weights = 0;
@@ -102,7 +101,7 @@ Texel meanOver(const LatLong& light, glm::vec2 middle, float width, int parts) {
     return Texel{mean.x, mean.y, mean.z, 0};
 }
 
-// About two places a pixel of the source and axis, where its pixels are narrowest in the map.
+// About two samples per source pixel and axis, where the pixels are narrowest in the map.
 int partsOf(const LatLong& light, int side) {
     const double rows = std::max(light.height(), light.width() / 2);
     return std::clamp(static_cast<int>(std::lround(std::ceil(3 * rows / side))), 2, 16);
@@ -138,7 +137,7 @@ NodeMap atNodes(const OctahedralMap& map, int side) {
     return nodes;
 }
 
-// As mapRadiance() of shaders/lib/environment.glsl reads it.
+// Same interpolation as mapRadiance() of shaders/lib/environment.glsl.
 glm::vec3 NodeMap::interpolated(glm::vec2 place) const {
     const float cells = static_cast<float>(side - 1);
     const glm::vec2 at = (place * 0.5f + 0.5f) * cells;

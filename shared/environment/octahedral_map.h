@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radiance of all directions on a square (Cigolle et al. 2014, "A Survey of Efficient Representations for
-// Independent Unit Vectors"), with +Y in its middle and -Y at its four corners.
+// Octahedral maps: radiance of all directions on a square (Cigolle et al. 2014, "A Survey of Efficient
+// Representations for Independent Unit Vectors"). +Y is at the centre and -Y at the four corners.
 #pragma once
 
 #include "shared/environment/lat_long.h"
@@ -13,15 +13,15 @@
 
 namespace diptych {
 
-// Places p are in [-1, 1]^2. The solid angle of an area element there is |d|_1^3 of its direction d.
+// Points p are in [-1, 1]^2. The solid angle per area there is |d|_1^3, for a unit direction d.
 glm::vec2 octahedralPlace(const glm::vec3& direction);
 glm::vec3 octahedralDirection(glm::vec2 place);  // unit
 
-// A texel of four floats, which compilers keep in one register.
+// A texel of four floats, which fits one vector register.
 using Texel = float __attribute__((vector_size(16)));
 
-// side x side texels with a border of one: the texels that are next to them on the sphere, so that bilinear
-// interpolation has no seam.
+// side x side texels with a border of one. Border texels repeat their neighbours on the sphere, so that
+// bilinear interpolation has no seam.
 struct OctahedralMap {
     int side = 0;
     std::vector<Texel> texels{};  // (side + 2)^2; the fourth component is 0
@@ -57,10 +57,10 @@ private:
     }
 };
 
-// The same on nodes: side x side of them, side odd, from edge to edge. The sphere's folds, where the square
-// is not smooth (x, y or z is 0), run along nodes and along diagonals of the cells between them, so that
-// linear interpolation over the triangles on their two sides errs by the square of a cell, not by a cell; and
-// opposite ends of an edge are one node, so that there is no seam.
+// A map with values at side x side nodes, side odd, from edge to edge. The map has folds where x, y or z
+// is 0. They run along nodes and along diagonals of the cells. Linear interpolation over the two triangles
+// of a cell then has an error quadratic in the cell size, also at folds. Opposite ends of an edge are the
+// same node, so there is no seam.
 struct NodeMap {
     int side = 0;
     std::vector<Texel> nodes{};
@@ -82,15 +82,15 @@ struct NodeMap {
     glm::vec3 interpolated(glm::vec2 place) const;
 };
 
-// The radiance at nodes, each the mean over the directions that are nearer to it than to others.
+// Radiance at nodes, each the mean over the directions nearest to it.
 NodeMap resampledToNodes(const LatLong& light, int side);
-// A map at nodes.
+// Bilinear samples of a map at nodes.
 NodeMap atNodes(const OctahedralMap& map, int side);
 
-// The radiance in a map of `side` texels, each the mean over its own directions.
+// Radiance in a map of side x side texels, each the mean over its directions.
 OctahedralMap resampled(const LatLong& light, int side);
 
-// The map and its means of four texels, weighted by solid angle, down to a side of `least`.
+// Mip pyramid of the map: means of 2x2 texels weighted by solid angle, down to a side of `least`.
 std::vector<OctahedralMap> pyramid(OctahedralMap map, int least);
 
 }  // namespace diptych

@@ -19,18 +19,18 @@ namespace diptych {
 namespace {
 
 constexpr int leastSamples = 32;
-// Cells a side of the widest lobe: with 12 what is dark beside a bright horizon was off by up to 9 %.
+// Cells per side of the widest lobe. With 12, dark areas next to a bright horizon had errors of up to 9 %.
 constexpr int leastNodes = 24;
 
-// A direction of light about the normal +Z, what it weighs, and the pyramid's level that it reads where the
-// texels of level 0 have the solid angle of the middle of the square.
+// Light direction about the normal +Z, its weight, and the pyramid level to read, for texels of the solid
+// angle at the centre of the square.
 struct LobeSample {
     glm::vec3 direction;
     float weight, level;
 };
 
-// Half vectors by D n.h (Walter et al. 2007, equation 35), over Hammersley's points (van der Corput's radical
-// inverse in base 2).
+// Half vectors distributed by D n.h (Walter et al. 2007, equation 35), from Hammersley points (van der
+// Corput's radical inverse in base 2).
 std::vector<LobeSample> lobeSamples(double alpha, int count, float bias, int sourceSide) {
     std::vector<LobeSample> samples;
     const double alpha2 = alpha * alpha, texel = 4.0 / sourceSide / sourceSide;
@@ -48,7 +48,7 @@ std::vector<LobeSample> lobeSamples(double alpha, int count, float bias, int sou
                            static_cast<float>(cosine),
                            static_cast<float>(0.5 * std::log2(solid / texel)) + bias});
     }
-    // A single sample of the widest lobe lies on the horizon: its middle stands for it.
+    // The only sample of the widest lobe lies on the horizon; the normal replaces it.
     if (samples.empty())
         samples.push_back(
             {{0, 0, 1}, 1, static_cast<float>(0.5 * std::log2(std::numbers::pi / texel)) + bias});
@@ -66,7 +66,7 @@ struct LobeFrame {
     glm::vec3 world(const glm::vec3& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
-// log2 of 1 to sqrt(3), within 2e-3: levels are blended by it.
+// log2 on 1 to sqrt(3), within 2e-3; precise enough to blend levels.
 float smallLog2(float x) {
     const float t = x - 1;
     return t * (1.42f - t * (0.56f - 0.155f * t));
@@ -90,7 +90,7 @@ NodeMap mapOf(int side, const F& f) {
     return map;
 }
 
-// The sum over all texels of `source`, weighted by `kernel` of the cosine with a direction.
+// Weighted mean over all texels of `source`; the weight is `kernel` of the cosine to a direction.
 template <class Kernel>
 NodeMap summed(const OctahedralMap& source, int side, const Kernel& kernel) {
     struct Part {
@@ -119,8 +119,8 @@ NodeMap summed(const OctahedralMap& source, int side, const Kernel& kernel) {
 
 NodeMap filtered(const std::vector<OctahedralMap>& source, double alpha, int side,
                  const FilterQuality& quality) {
-    // No more than twice what the source has texels under the lobe, about 4 pi alpha^2: more would read the
-    // same ones. (With once as many a lobe of roughness 0.15 was off by 1.6 times as much.)
+    // At most twice as many samples as the source has texels under the lobe, about 4 pi alpha^2; more
+    // would read the same ones. With half as many, a lobe of roughness 0.15 had 1.6 times the error.
     const int most = source.front().side, texels = static_cast<int>(2 * alpha * alpha * most * most);
     const std::vector<LobeSample> samples =
         lobeSamples(alpha, std::min(quality.samples, std::max(texels, leastSamples)), quality.bias, most);
@@ -175,7 +175,7 @@ std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map) {
 
 void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, double alpha) {
     if (texels.empty()) return;
-    // The integral of the lobe, of n.h^2 = (1 + n.l) / 2, by 4096 midpoints in its cumulative density.
+    // Integral of the lobe over n.h^2 = (1 + n.l) / 2, from 4096 midpoints of its cumulative density.
     double sum = 0;
     constexpr int points = 4096;
     const double alpha2 = alpha * alpha;
@@ -189,7 +189,7 @@ void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, 
         for (int x = 0; x < filtered.side; ++x) {
             const glm::vec3 n = octahedralDirection(filtered.placeOf(x, y));
             for (const BrightTexel& texel : texels) {
-                // 1 - n.h^2 is |n - l|^2 / 4, which does not cancel near the peak.
+                // 1 - n.h^2 equals |n - l|^2 / 4, which avoids cancellation near the peak.
                 const glm::vec3 apart = n - texel.direction;
                 const float sine2 = 0.25f * glm::dot(apart, apart), n_dot_l = 1 - 2 * sine2;
                 if (!(n_dot_l > 0)) continue;
@@ -203,7 +203,7 @@ void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, 
 NodeMap filteredExhaustively(const OctahedralMap& source, double alpha, int side) {
     const auto a2 = static_cast<float>(alpha * alpha);
     return summed(source, side, [a2](float n_dot_l) {
-        // n.h^2 = (1 + n.l) / 2 where the viewer is at n; D / 4 is the density of l.
+        // n.h^2 = (1 + n.l) / 2 for a viewer at n; D / 4 is the density of l.
         const float k = 0.5f * (1 + n_dot_l) * (a2 - 1) + 1;
         return n_dot_l > 0 ? n_dot_l * a2 / (k * k) : 0;
     });
@@ -227,8 +227,8 @@ double levelAlpha(std::size_t level) {
            std::exp2(static_cast<double>(level - 1) / gpu::ENVIRONMENT_LEVELS_AN_OCTAVE);
 }
 
-// The lobe of a bright point is (1 + (x / 2 alpha)^2)^-2 at x from it; bilinear interpolation over texels of
-// h errs there by h^2 / (8 alpha^2) of its peak: 1.6 % with 10 / alpha texels a side.
+// The lobe of a point light at distance x is (1 + (x / 2 alpha)^2)^-2. Bilinear interpolation over texels
+// of size h has an error of h^2 / (8 alpha^2) of the peak: 1.6 % with 10 / alpha texels per side.
 int levelSide(std::size_t level, int most) {
     if (level == 0) return most + 1;
     const auto wanted = static_cast<int>(std::ceil(5 / levelAlpha(level)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An environment filtered for the specular lobe (Karis 2013, "Real Shading in Unreal Engine 4": the viewer,
-// the normal and the mirrored direction are one), by filtered importance sampling (Krivanek and Colbert 2008,
+// Filters an environment for the specular lobe, with viewer, normal and reflected direction equal (Karis
+// 2013, "Real Shading in Unreal Engine 4"), by filtered importance sampling (Krivanek and Colbert 2008,
 // "Real-time Shading with Filtered Importance Sampling").
 #pragma once
 
@@ -11,37 +11,38 @@
 namespace diptych {
 
 struct FilterQuality {
-    int samples = 256;  // directions a texel of a level
-    float bias = 0;     // mip levels by which what a direction stands for is widened
+    int samples = 256;  // directions per texel of a level
+    float bias = 0;     // mip levels added to each direction's level
     bool operator==(const FilterQuality&) const = default;
 };
 
-// The mean of the radiance under GGX of width `alpha` times n.l, for every node of a map of `side`. A sample
-// reads `source`, a pyramid(), at the level whose texels are as large as its share of the solid angle: that
-// of the source's own texels there, whatever the result's resolution. The level is clamped to the pyramid's.
+// Mean of radiance weighted by GGX of width `alpha` and n.l, for every node of a map of `side`. A sample
+// reads `source`, a pyramid(), at the level whose texels have the sample's solid angle. The solid angle is
+// that of the source's texels in this direction, so it does not depend on the result's resolution. Levels
+// are clamped to the pyramid.
 NodeMap filtered(const std::vector<OctahedralMap>& source, double alpha, int side,
                  const FilterQuality& quality);
 
-// What single texels have above a bound, as light from one direction each: filtered by samples it would
-// sparkle or vanish.
+// Light of single bright texels above a bound, as light from one direction. Sampling it would cause
+// fireflies or miss it.
 struct BrightTexel {
     glm::vec3 direction;
     Texel power;  // radiance times solid angle, W/m^2
 };
-// Takes from the map what its brightest texels, mostBrightTexels at most, have above 8 times its mean.
+// Removes from the map the part of its brightest texels, at most mostBrightTexels, above 8 times its mean.
 std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map);
 inline constexpr std::size_t mostBrightTexels = 256;
-// Adds what they are under the same lobe.
+// Adds these texels under the same lobe.
 void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, double alpha);
 
-// The same by the sum over every texel of one level of the source: what it is held against.
+// Reference for filtered(): sums over every texel of one level of the source.
 NodeMap filteredExhaustively(const OctahedralMap& source, double alpha, int side);
 
-// Irradiance over pi, summed over every texel, and over those that were taken from it.
+// Irradiance / pi, summed over every texel and over the texels removed from it.
 NodeMap irradiance(const OctahedralMap& source, int side, const std::vector<BrightTexel>& bright = {});
 
-// Levels of the specular lobe (contract/environment.h): the GGX width of one, and how many nodes a side
-// hold what is filtered by it, where the source has `most` texels: odd.
+// Levels of the specular lobe (contract/environment.h): GGX alpha, and nodes per side, odd, for a source
+// of `most` texels per side.
 double levelAlpha(std::size_t level);
 int levelSide(std::size_t level, int most);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The channels (debug modes) of shared/contract/debug_mode.h as C++ data.
+// Channels (debug modes) of shared/contract/debug_mode.h as C++ data.
 #pragma once
 
 #include "shared/contract/debug_mode.h"
@@ -15,11 +15,11 @@ namespace diptych {
 
 enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
-// What its numbers are: vectors of length 1, 0 to 1, 0 or more, or any.
+// Valid range of the values: unit vectors, 0 to 1, 0 or more, or any.
 enum class Domain { unit, share, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
 
-// How a channel is shown as a picture; usual: as its kind and metric determine.
+// How a channel is shown as an image; usual: by its kind and metric.
 enum class Shown { usual, radiance, display, normalised };
 
 struct DebugMode {
@@ -34,7 +34,7 @@ struct DebugMode {
     Shown shown = Shown::usual;
 };
 
-std::span<const DebugMode> debugModes();                        // in ascending order of their numbers
+std::span<const DebugMode> debugModes();                        // in ascending order of number
 const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unknown
 const DebugMode& debugMode(int number);                         // throws std::out_of_range
 std::string_view nameOf(Metric metric);
@@ -48,30 +48,29 @@ constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
 
-// Those of what lies between the surface and the camera, which depend on its place alone.
+// Channels of the medium between surface and camera; they depend on the position alone.
 constexpr bool isOfHaze(int mode) {
     return mode == static_cast<int>(gpu::DEBUG_lit_haze) ||
            mode == static_cast<int>(gpu::DEBUG_transmittance);
 }
 
-// Channels that shading finds: all those, and what lights are seen.
+// Channels that shading computes: all of the above, and light visibility.
 constexpr bool isShaded(int mode) {
     return isLit(mode) || isOfHaze(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
            mode == static_cast<int>(gpu::DEBUG_local_visibility);
 }
 
-// The one that is dark in a scene without ambient light and lightmaps.
+// 0 in a scene without ambient light and lightmaps.
 constexpr bool isAmbient(int mode) {
     return mode == static_cast<int>(gpu::DEBUG_lit_ambient);
 }
 
-// And the one that is dark without an environment. No light that casts a shadow is in either.
+// 0 without an environment. Neither this nor ambient light includes shadow-casting lights.
 constexpr bool isOfEnvironment(int mode) {
     return mode == static_cast<int>(gpu::DEBUG_lit_environment);
 }
 
-// The EXR channel names of a mode: R, G, B for lit, Z for depth, "albedo.R", "normals.X", "roughness.Y" for
-// others.
+// EXR channel names: R, G, B for lit, Z for depth, and for example "albedo.R", "normals.X", "roughness.Y".
 std::vector<std::string> exrChannels(const DebugMode& mode);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which channels a path makes with which Settings.
+// Which paths support a channel with which Settings.
 #pragma once
 
 #include "shared/frame/debug_modes.h"
@@ -9,10 +9,11 @@
 
 namespace diptych {
 
-// Whether the reference makes the channel: it is about the scene, not about how a path works.
+// Whether the reference supports the channel: it describes the scene, not how a path works.
 bool isMadeByReference(const DebugMode& mode);
 
-// Why a Frame of these Settings has no such channel and which has, fit for a message; empty where it has one.
+// Why a Frame of these Settings does not support the channel, and what does; text for a message, else
+// empty.
 std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The row of every Setting: for what reads, writes and explains them.
+// One row per Setting, for all code that reads, writes and explains Settings.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -9,7 +9,7 @@
 
 namespace diptych {
 
-// Several rows share these words and checks.
+// Texts and checks that several rows share.
 namespace row {
 
 inline constexpr std::string_view needs_evsm = "has no effect without --shadows evsm or evsm4";
@@ -26,9 +26,9 @@ inline constexpr std::string_view every_light = "the reference evaluates every l
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
 inline constexpr std::string_view only_reference = "only the reference takes several samples of a surface";
 
-inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
+inline constexpr int largest_side = 16384;  // at most maxImageDimension2D of current Vulkan 1.3 devices
 inline constexpr int most_pages = 16384;
-inline constexpr int most_samples = 65536;  // more take a day for a small picture
+inline constexpr int most_samples = 65536;  // more would take a day for a small image
 
 inline constexpr std::string_view needs_env =
     "has no effect without --env (--env scene uses the environment in the scene's file)";
@@ -88,7 +88,7 @@ inline bool hasCascades(const Settings& s) {
     return hasShadows(s) && !hasClipmap(s);
 }
 inline bool isShadowedForwardPlus(const Settings& s) {
-    return s.path == Path::forward_plus && hasShadows(s);  // its surfaces' normals are packed alike
+    return s.path == Path::forward_plus && hasShadows(s);  // its geometric normals are quantized, too
 }
 inline bool hasEvsm4(const Settings& s) {
     return s.shadows == Shadows::evsm4;
@@ -141,7 +141,7 @@ void Settings::rows(Visit&& visit) {
                             .reference = "the reference has no G-buffer",
                             .unless = row::isShadowedForwardPlus},
                 .sweep = "all",
-                .for_surfaces = "full"},  // the geometric normal is not packed either
+                .for_surfaces = "full"},  // geometric normals are not quantized either
           &Settings::gbuffer);
     visit(Field{.option = "lighting",
                 .help = "shading of the deferred path's G-buffer: by fragments of a full-screen triangle, or "
@@ -344,7 +344,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "shadows",
                 .help = "shadow technique",
                 .off = "off",
-                .one_for_reference = "pcf",  // it traces them, whatever the technique
+                .one_for_reference = "pcf",  // it traces rays with every technique
                 .sweep = "all",
                 .for_surfaces = "off"},
           &Settings::shadows);

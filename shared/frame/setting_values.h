@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kinds of value that a Setting may have: enumerations, each with its names, and small structs.
+// Value types of Settings: enumerations with their names, and small structs.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace diptych {
 template <class E>
 using EnumName = std::pair<E, std::string_view>;
 
-// The values of an enumeration and their names on the command line and in JSON, in the order of --help.
-// Specialised below each enumeration.
+// Values of an enumeration with their names on the command line and in JSON, in the order of --help.
+// Specialized below each enumeration.
 template <class E>
 inline constexpr std::array<EnumName<E>, 0> enum_names{};
 
@@ -23,7 +23,7 @@ constexpr std::span<const EnumName<E>> enumNames() {
     return enum_names<E>;
 }
 
-// "?" of what is no value of the enumeration.
+// "?" for an invalid value.
 template <class E>
 constexpr std::string_view nameOf(E value) {
     for (const auto& [candidate, name] : enumNames<E>())
@@ -37,7 +37,7 @@ inline constexpr auto enum_names<Path> = std::to_array<EnumName<Path>>({{Path::d
                                                                         {Path::forward_plus, "forward_plus"},
                                                                         {Path::reference, "reference"}});
 
-// The paths that a device draws, in the order in which they are compared.
+// Paths that a GPU renders, in comparison order.
 inline constexpr std::array drawn_paths{Path::deferred, Path::forward_plus};
 
 enum class Assignment { every, tiled, clustered, per_object };
@@ -70,8 +70,9 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
-// Texels of 8 bits as the device decodes and filters them; decoded to 16 bits and floats before upload; or as
-// the device does, of opaque surfaces with roughness in the normal map's alpha and metallic in base colour's.
+// device: 8-bit texels, decoded and filtered by the device. exact: decoded on the CPU to 16-bit and float
+// texels. packed: as device, but opaque surfaces have roughness in the normal map's alpha and metallic in
+// base colour's.
 enum class TexturePrecision { device, exact, packed };
 template <>
 inline constexpr auto enum_names<TexturePrecision> =
@@ -79,9 +80,9 @@ inline constexpr auto enum_names<TexturePrecision> =
                                                {TexturePrecision::exact, "exact"},
                                                {TexturePrecision::packed, "packed"}});
 
-// How blended surfaces are put in order: sorted, draws from far to near; unsorted, as in the scene;
-// triangles, those of all draws from far to near. By sums that need no order: weighted, by depth; moments, by
-// what is in front. list: by fragment. off: not drawn.
+// Order of blended surfaces. sorted: draws far to near. unsorted: scene order. triangles: all triangles
+// far to near. Order-independent: weighted, by depth; moments, by transmittance in front. list: sorted per
+// fragment. off: not drawn.
 enum class Transparency { sorted, unsorted, triangles, weighted, moments, list, off };
 template <>
 inline constexpr auto enum_names<Transparency> =
@@ -93,15 +94,15 @@ inline constexpr auto enum_names<Transparency> =
                                            {Transparency::list, "list"},
                                            {Transparency::off, "off"}});
 
-// Where the vertices of skinned and morphed meshes are posed: once a frame by a kernel, or at every draw by
-// the vertex shader.
+// Where skinned and morphed vertices are deformed: once per frame in compute, or in the vertex shader of
+// every draw.
 enum class Skinning { compute, vertex };
 template <>
 inline constexpr auto enum_names<Skinning> =
     std::to_array<EnumName<Skinning>>({{Skinning::compute, "compute"}, {Skinning::vertex, "vertex"}});
 
-// What turns the normal of a skinned vertex: the mean of its joints' inverse transposes, or the inverse
-// transpose of the mean of their matrices. glTF leaves it open; both agree where a vertex follows one joint.
+// Transform of a skinned normal: the mean of the joints' inverse transposes, or the inverse transpose of
+// the mean of their matrices. glTF does not specify it. Both agree for a vertex with one joint.
 enum class SkinNormals { joints, blended };
 template <>
 inline constexpr auto enum_names<SkinNormals> = std::to_array<EnumName<SkinNormals>>(
@@ -112,23 +113,23 @@ template <>
 inline constexpr auto enum_names<SpecularAlbedo> =
     std::to_array<EnumName<SpecularAlbedo>>({{SpecularAlbedo::table, "table"}, {SpecularAlbedo::fit, "fit"}});
 
-// What is left to a dielectric's base of light that its layer reflects a coloured part of: 1 less the largest
-// component of F, or less each (glTF 2.0, appendix B, leaves both open to implementations; the first keeps
-// the base's hue).
+// Light that reaches a dielectric's base below a coloured layer: 1 minus the largest component of F, or 1
+// minus each component. glTF 2.0, appendix B, leaves this to implementations; the first preserves the
+// base's hue.
 enum class BaseLayer { max, component };
 template <>
 inline constexpr auto enum_names<BaseLayer> =
     std::to_array<EnumName<BaseLayer>>({{BaseLayer::max, "max"}, {BaseLayer::component, "component"}});
 
-// How a spot's light falls from the inner to the outer angle, t being the share of the way back in cosines:
+// Falloff of a spot from the inner to the outer angle, by t linear in the cosine, 1 at the inner angle:
 // t^2 (KHR_lights_punctual), or t^2 (3 - 2 t).
 enum class SpotFalloff { gltf, smoothstep };
 template <>
 inline constexpr auto enum_names<SpotFalloff> = std::to_array<EnumName<SpotFalloff>>(
     {{SpotFalloff::gltf, "gltf"}, {SpotFalloff::smoothstep, "smoothstep"}});
 
-// What of a light's intensity is left at the distance d: 1 - (d / range)^4 (KHR_lights_punctual), or its
-// square (Karis 2013, "Real Shading in Unreal Engine 4").
+// Factor on a light's intensity at distance d: 1 - (d / range)^4 (KHR_lights_punctual), or its square
+// (Karis 2013, "Real Shading in Unreal Engine 4").
 enum class RangeWindow { gltf, squared };
 template <>
 inline constexpr auto enum_names<RangeWindow> =
@@ -142,9 +143,9 @@ inline constexpr auto enum_names<Multiscatter> =
                                            {Multiscatter::fdez, "fdez"},
                                            {Multiscatter::walk, "walk"}});
 
-// How the depth of the scene's nearest surfaces is stored. d32f: reversed, 1 at the near plane, so that the
-// steps of a float are small where those of 1 / distance are; d32f_standard: 0 at the near plane; d24, d16:
-// equal steps, where turning them round changes nothing.
+// Storage of the scene's depth. d32f: reversed, 1 at the near plane, which suits the precision of floats.
+// d32f_standard: 0 at the near plane. d24, d16: reversed integers, whose precision does not depend on the
+// direction.
 enum class DepthFormat { d32f, d32f_standard, d24, d16 };
 template <>
 inline constexpr auto enum_names<DepthFormat> =
@@ -158,7 +159,7 @@ template <>
 inline constexpr auto enum_names<LitFormat> = std::to_array<EnumName<LitFormat>>(
     {{LitFormat::fp32, "fp32"}, {LitFormat::fp16, "fp16"}, {LitFormat::b10g11r11, "b10g11r11"}});
 
-// What shades the deferred path's G-buffer: fragments of a full-screen triangle, or workgroups of threads.
+// Shading of the deferred path's G-buffer: by a full-screen triangle, or in compute.
 enum class Lighting { fragment, compute };
 template <>
 inline constexpr auto enum_names<Lighting> =
@@ -169,7 +170,7 @@ template <>
 inline constexpr auto enum_names<ShadingPrecision> = std::to_array<EnumName<ShadingPrecision>>(
     {{ShadingPrecision::fp32, "fp32"}, {ShadingPrecision::fp16, "fp16"}});
 
-// How the specular lobe takes light of an environment.
+// Specular light of an environment.
 enum class Ibl { split, sampled };
 template <>
 inline constexpr auto enum_names<Ibl> = std::to_array<EnumName<Ibl>>({{Ibl::split, "split"},
@@ -210,15 +211,14 @@ template <>
 inline constexpr auto enum_names<EvsmDepth> = std::to_array<EnumName<EvsmDepth>>(
     {{EvsmDepth::from_zero, "0..1"}, {EvsmDepth::from_minus_one, "-1..1"}});
 
-// What a fragment shades with several samples a pixel: once for all that its triangle covers, or each of
-// them.
+// Shading rate of a fragment with MSAA: once for all covered samples, or for each.
 enum class MsaaShading { pixel, sample };
 template <>
 inline constexpr auto enum_names<MsaaShading> =
     std::to_array<EnumName<MsaaShading>>({{MsaaShading::pixel, "pixel"}, {MsaaShading::sample, "sample"}});
 
-// The samples of a pixel that deferred lighting shades each for itself: all; those that differ in any bit of
-// the G-buffer; those that differ by more than is seen; those of pixels that one triangle does not cover.
+// Which samples of a pixel deferred lighting shades separately: all; samples with different G-buffer bits;
+// samples that differ visibly; samples of pixels that no triangle covers completely.
 enum class MsaaEdges { all, exact, similar, coverage };
 template <>
 inline constexpr auto enum_names<MsaaEdges> =
@@ -227,21 +227,21 @@ inline constexpr auto enum_names<MsaaEdges> =
                                         {MsaaEdges::similar, "similar"},
                                         {MsaaEdges::coverage, "coverage"}});
 
-// The mean of a pixel's samples: of their radiance, or weighted by what a tone curve leaves of it.
+// Mean of a pixel's samples: of their radiance, or weighted by a tone curve.
 enum class Resolve { linear, tonemapped };
 template <>
 inline constexpr auto enum_names<Resolve> =
     std::to_array<EnumName<Resolve>>({{Resolve::linear, "linear"}, {Resolve::tonemapped, "tonemapped"}});
 
-// Whose changes from pixel to pixel specular anti-aliasing filters: the interpolated normal, or the one that
-// a normal map has turned.
+// Normal whose screen-space variation specular antialiasing filters: the interpolated normal, or the
+// normal-mapped one.
 enum class SpecularNormals { geometry, mapped };
 template <>
 inline constexpr auto enum_names<SpecularNormals> = std::to_array<EnumName<SpecularNormals>>(
     {{SpecularNormals::geometry, "geometry"}, {SpecularNormals::mapped, "mapped"}});
 
-// How roughness grows with these changes: alpha^2 by their variance within a pixel (Tokuyoshi and Kaplanyan
-// 2019), or perceptual roughness by the largest of them, as three.js has it.
+// How roughness grows with this variation: alpha^2 by its variance within a pixel (Tokuyoshi and Kaplanyan
+// 2019), or perceptual roughness by its largest component, as in three.js.
 enum class SpecularKernel { variance, slope };
 template <>
 inline constexpr auto enum_names<SpecularKernel> = std::to_array<EnumName<SpecularKernel>>(

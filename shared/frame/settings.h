@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Everything that may change a pixel of a Frame. A Setting is a member of Settings and a row of
-// setting_rows.h, and the row holds every fact about it: the command line, JSON, what can be rendered,
-// what a path ignores, what a sweep tries and what the reference follows are read from there.
+// setting_rows.h. The row has every fact about it, for the command line, JSON, validity checks, ignored
+// settings, sweeps and the reference.
 #pragma once
 
 #include "shared/frame/setting_values.h"
@@ -27,22 +27,23 @@ struct Settings {
     LitFormat lit_format = LitFormat::fp32;
     ShadingPrecision shading_precision = ShadingPrecision::fp32;
     Size size;
-    std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
-    double time = 0.0;   // s
-    std::string animation;  // "" all of them; an index or a name
+    std::string camera;     // "": the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m
+                            // far=m"
+    double time = 0.0;      // s
+    std::string animation;  // "": all; an index or a name
     Skinning skinning = Skinning::compute;
     SkinNormals skin_normals = SkinNormals::joints;
-    std::string env = "none";   // file of a lat-long environment, or scene
+    std::string env = "none";   // file name of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y
     bool env_sun = false;
     float ibl_intensity = 1.0f;
     Ibl ibl = Ibl::split;
     IblDiffuse ibl_diffuse = IblDiffuse::sh;
     int ibl_samples = 256;
-    float ibl_bias = 0.0f;     // mip levels
-    Rgb ambient;               // W/(sr m^2)
-    bool scene_lights = true;  // the scene's own lights
-    std::string lights;        // "" none, "point:64,spot:16", or a file's name
+    float ibl_bias = 0.0f;  // mip levels
+    Rgb ambient;            // W/(sr m^2)
+    bool scene_lights = true;
+    std::string lights;  // "": none; "point:64,spot:16", or a file name
     std::uint32_t seed = 0;
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
@@ -59,7 +60,7 @@ struct Settings {
     int shadow_cascades = 4;
     int shadow_kernel = 3;  // texels
     ShadowFit shadow_fit = ShadowFit::view;
-    float shadow_distance = 0.0f;  // m; 0: as far as the scene reaches
+    float shadow_distance = 0.0f;  // m; 0: the scene's extent
     float shadow_bias = 0.5f;      // texels
     ShadowCasters shadow_casters = ShadowCasters::needed;
     int clipmap_pages = 512;
@@ -76,7 +77,7 @@ struct Settings {
     Resolve resolve = Resolve::linear;
     bool alpha_to_coverage = false;
     bool spec_aa = false;
-    float spec_aa_variance = 0.15915494f;  // square pixels
+    float spec_aa_variance = 0.15915494f;  // pixels squared
     float spec_aa_limit = 0.18f;
     SpecularNormals spec_aa_normals = SpecularNormals::geometry;
     SpecularKernel spec_aa_kernel = SpecularKernel::variance;
@@ -96,30 +97,30 @@ struct Settings {
 
     bool operator==(const Settings&) const = default;
 
-    // One value from the words of the command line, e.g. set("size", "640x360"). Throws std::runtime_error
-    // naming option, value and what is accepted. "off" and "none" both call off whatever can be.
+    // Sets one value from command line text, e.g. set("size", "640x360"). Throws std::runtime_error with
+    // option, value and accepted values. "off" and "none" both switch off whatever can be.
     void set(std::string_view option, const std::string& value);
-    // The way back: the words that set() understands. Throws std::runtime_error of an unknown option.
+    // Inverse of set(). Throws std::runtime_error for an unknown option.
     std::string valueOf(std::string_view option) const;
 
-    // Why this combination has no meaning or is not built yet, naming the option and its value;
-    // nothing where it can be rendered.
+    // Why this combination is invalid or not supported, with the option and its value; nothing if it can
+    // be rendered.
     std::optional<std::string> problem() const;
 
-    // Calls visit(Field, pointer to member) for every row, in the order of the members. In setting_rows.h.
+    // Calls visit(Field, pointer to member) for every row, in member order. In setting_rows.h.
     template <class Visit>
     static void rows(Visit&& visit);
-    // Calls visit(Field, member) for every member of `self`, which may be const, in the same order.
+    // Calls visit(Field, member) for every member of `self`, which may be const, in member order.
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit);
 };
 
-// By path, why a Setting changes no bit of what the path draws; empty where the path reads it.
+// Why a Setting does not affect the image of a path; empty if the path reads it.
 struct IgnoredBecause {
     std::string_view deferred = {};
     std::string_view forward_plus = {};
     std::string_view reference = {};
-    bool (*unless)(const Settings&) = nullptr;  // what makes their path read it after all
+    bool (*unless)(const Settings&) = nullptr;  // condition under which the path reads it nevertheless
 
     constexpr std::string_view of(Path path) const {
         switch (path) {
@@ -134,83 +135,87 @@ struct IgnoredBecause {
     }
 };
 
-// Which values mean something at all. Where there is no check, all that the type can hold do.
+// Range check of a value; without a check, every value of the type is valid.
 struct ValidValues {
     std::string_view are = {};  // "is at least 0"
     bool (*check)(const Settings&) = nullptr;
 };
 
-// Why no value but the default can be rendered; empty where every one can.
+// Why only the default can be rendered; empty if every value can.
 struct DefaultOnly {
     std::string_view because = {};              // "has no effect without --haze on"
-    bool (*unless)(const Settings&) = nullptr;  // what lifts it; nullptr: nothing
+    bool (*unless)(const Settings&) = nullptr;  // condition that removes the restriction; nullptr: none
 };
 
-// All facts about one Setting. Values stand in the words of Settings::set().
+// All facts about one Setting. Values are text for Settings::set().
 struct Field {
-    std::string_view option;  // "--" + option on the command line; in JSON with _ for -
+    std::string_view option;  // "--" + option on the command line; in JSON with _ instead of -
     std::string_view help;
 
-    // What the words "off" and "none" set; nothing where it cannot be called off.
+    // Value set by "off" and "none"; nothing if it cannot be switched off.
     std::optional<std::string_view> off = std::nullopt;
     ValidValues valid = {};
     DefaultOnly default_only = {};
     IgnoredBecause ignored = {};
-    // What the reference takes every value for but what calls it off; empty: it tells them apart.
+    // Value that the reference uses for all values except `off`; empty: it distinguishes them.
     std::string_view one_for_reference = {};
 
-    // What a sweep of speed against accuracy tries: nothing (a scene's content, on which the reference
-    // depends, is no such choice), "all" values of an enumeration or switch, or these, separated by commas;
-    // of a size, parts of the given one.
+    // Values in a sweep of speed against accuracy: "all" of an enumeration or switch, or a comma-separated
+    // list; for sizes, fractions of the given size. Empty for scene content, which the reference depends
+    // on.
     std::string_view sweep = {};
-    // Whose swept values are combined with this one's, separated by commas, "*" for every other Setting.
-    // All else is tried one at a time.
+    // Settings whose swept values are combined with this one's, comma-separated; "*": every other Setting.
+    // All others are varied one at a time.
     std::string_view sweep_with = {};
 
-    // The reference in mode surface shades what forward+ captures: what that capture is told in place of
-    // what the reference is. Nothing: the same as the reference, and the default of what it alone reads.
+    // With --reference-mode surface the reference shades surfaces captured by forward+. This is the value
+    // for that capture. Nothing: the reference's value, or the default for settings that only the
+    // reference reads.
     std::optional<std::string_view> for_surfaces = std::nullopt;
 };
 
-// Every row's Field, in order; and the one of an option, which throws std::runtime_error where there is none.
+// Fields of all rows in order, and the Field of one option; the latter throws std::runtime_error if
+// unknown.
 std::span<const Field> settingFields();
 const Field& settingField(std::string_view option);
 
-// What Settings::set() accepts in short: "deferred|forward_plus|reference", "WxH", "F". Throws
-// std::runtime_error where there is no such option.
+// Short text of the values that Settings::set() accepts: "deferred|forward_plus|reference", "WxH", "F".
+// Throws std::runtime_error for an unknown option.
 std::string acceptedValues(std::string_view option);
 
-// Why the path of `settings` ignores an option of them, "deferred has no depth pre-pass"; empty where it
-// reads it.
+// Why the path of `settings` ignores an option, e.g. "deferred has no depth pre-pass"; empty if it reads
+// it.
 std::string_view ignoredBecause(const Settings& settings, std::string_view option);
-// The same with what its path ignores at its default: equal where they are one picture.
+// The same with ignored settings at their defaults. Equal effective settings give the same image.
 Settings effectiveSettings(const Settings& settings);
 
-// What the reference is told beside a path with these Settings: the effective ones of path = reference.
+// Settings of the reference for a path's Settings: effective settings with path = reference.
 Settings referenceSettings(const Settings& settings);
-// What a path is told beside the reference: the same without what the reference alone reads.
+// The same with settings that only the reference reads at their defaults.
 Settings withoutReference(const Settings& settings);
-// The same with what the reference alone reads taken from `reference`.
+// The same with settings that only the reference reads taken from `reference`.
 Settings withReferenceOf(const Settings& settings, const Settings& reference);
-// What forward+ is told to capture for the reference in mode surface: the surfaces that these Settings show,
-// with nothing packed and nothing of what lights them that a capture does not need.
+// Settings of the forward+ capture for --reference-mode surface: the same surfaces, without quantization
+// and without lighting that a capture does not need.
 Settings surfaceSettings(const Settings& settings);
 
-// Two Settings whose swept values are combined, `a` the slower; b is "*" for every other one.
+// Two Settings whose swept values are combined, with `a` in the outer loop; b is "*" for every other
+// Setting.
 struct SweepPair {
     std::string_view a, b;
 };
 std::vector<SweepPair> sweepPairs();
 
-// The words of Field::sweep for Settings::set(), in order; of a size as parts of `given`'s. Empty: it is not
-// swept. Throws std::runtime_error where there is no such option.
+// Values of Field::sweep for Settings::set(), in order; sizes as fractions of `given`. Empty if not swept.
+// Throws std::runtime_error for an unknown option.
 std::vector<std::string> sweptValues(const Settings& given, std::string_view option);
-// "1/2" of a size is that part of `given`'s, each side rounded and at least 1; any other word stays.
+// Converts a fraction such as "1/2" to a size relative to `given`, rounded and at least 1; returns other
+// words unchanged.
 std::string wordsFor(const Settings& given, std::string_view option, const std::string& word);
 
-// Every setting by its option's name (- written _), as JSON text; and the way back: a key that is absent
-// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error. The
-// object may stand alone or in { "settings": ... }.
+// All settings as JSON, by option name with _ instead of -; and its inverse. A missing key keeps the value
+// of `base`. An unknown key or a value of the wrong type throws std::runtime_error. The text may be the
+// object itself or { "settings": ... }.
 std::string toJson(const Settings& settings, int indent = 2);
 Settings settingsFromJson(const std::string& text, const Settings& base = {});
 

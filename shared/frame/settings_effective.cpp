@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of the Settings a path reads, and what the reference follows.
+// Which Settings a path reads, and which ones the reference follows.
 #include "shared/frame/settings.h"
 
 #include "shared/frame/setting_rows.h"

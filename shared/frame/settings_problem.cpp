@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings can be rendered, and in words why the others cannot.
+// Which Settings can be rendered, and messages why others cannot.
 #include "shared/frame/settings.h"
 
 #include "shared/frame/setting_rows.h"
@@ -9,7 +9,7 @@
 namespace diptych {
 namespace {
 
-// Combinations of several Settings that have no meaning; what concerns one of them is in its row.
+// Invalid combinations of several Settings. Rules about a single one are in its row.
 using Rule = std::optional<std::string> (*)(const Settings&);
 
 std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
@@ -68,7 +68,7 @@ constexpr Rule rules[] = {surfacesHaveOneSample,    deferredKnowsNoObjects, tile
                           storedDepthsAreShaded,    levelsHavePages,        onlyTheReferenceWalks,
                           sumsOfLayersHaveOneSample};
 
-// "''" of a value without any.
+// "''" for an empty value.
 std::string quotedValue(const Settings& settings, std::string_view option) {
     const std::string value = settings.valueOf(option);
     return value.empty() ? "''" : value;

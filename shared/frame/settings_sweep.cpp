@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep tries of each of the Settings.
+// Values that a sweep tries.
 #include "shared/frame/settings.h"
 
 #include <fmt/format.h>

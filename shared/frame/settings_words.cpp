@@ -25,8 +25,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// One kind of value: the words of the command line, JSON, and what is accepted. read() and fromJson() say
-// whether they understood; the value is then whole, else untouched or meaningless.
+// Conversion of one type: command line text, JSON, accepted values. read() and fromJson() return whether
+// they succeeded; on failure the value may be anything.
 template <class T>
 struct Codec;
 
@@ -60,7 +60,7 @@ requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) struct Codec<T> {
         return error == std::errc() && rest == end && !text.empty() &&
                std::isfinite(static_cast<double>(value));
     }
-    // A float goes through its shortest decimal, so that a report prints 0.1 and not 0.10000000149011612.
+    // A float uses its shortest decimal: 0.1, not 0.10000000149011612.
     static Json json(T value) {
         if constexpr (!std::is_same_v<T, float>) return value;
         double shortest = 0;
@@ -99,7 +99,7 @@ struct Codec<std::string> {
     }
 };
 
-// Several numbers: one word with `separator` between them, in JSON an array (or that word).
+// Several numbers: one word with `separator` between them; in JSON an array or that word.
 template <class T, std::size_t n>
 bool readList(T* (&parts)[n], std::string_view text, char separator) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -151,7 +151,7 @@ struct Codec<Rgb> {
     }
 };
 
-// The words of an enumeration's "compact|full"; of other values none.
+// Names of an enumeration such as "compact|full"; empty for other types.
 std::vector<std::string> alternatives(const std::string& accepted) {
     std::vector<std::string> words;
     if (accepted.find('|') == accepted.npos) return words;
@@ -174,7 +174,7 @@ std::string keyOf(std::string_view option) {
     return key;
 }
 
-// "off" and "none" say the same of whatever can be called off: the setting's own word for it.
+// "off" and "none" stand for the setting's own off value.
 std::string ownWord(const Field& field, const std::string& word) {
     return field.off && (word == "off" || word == "none") ? std::string(*field.off) : word;
 }
@@ -189,7 +189,7 @@ bool readJson(Member& member, const Field& field, const Json& json) {
     return own == word ? Value::fromJson(member, json) : Value::read(member, own);
 }
 
-// Calls visit(Field, member) for the one row of `option`; throws where there is none.
+// Calls visit(Field, member) for the row of `option`; throws if there is none.
 template <class Self, class Visit>
 void visitField(Self& settings, std::string_view option, Visit&& visit) {
     bool found = false;
@@ -213,7 +213,7 @@ std::string toJson(const Settings& settings, int indent) {
 
 namespace {
 
-// What an option was called before: --sort on|off.
+// Former name of the option: --sort on|off.
 constexpr std::string_view earlier_name = "sort";
 std::string sortedOrNot(const std::string& value) {
     if (value != "on" && value != "off")

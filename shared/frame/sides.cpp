@@ -16,11 +16,11 @@ namespace {
 constexpr std::string_view view_options[] = {"size", "camera",       "time",   "animation",
                                              "env",  "scene-lights", "lights", "seed"};
 
-// Settings that change how a picture is made, and not a bit of it.
+// Settings that change how an image is rendered, but not the image.
 constexpr std::string_view same_picture[] = {"light-kernel", "prepass",  "cull",
                                              "lighting",     "skinning", "shadow-casters"};
 
-// assign: only per_object has other light than the rest.
+// assign: only per_object changes the light.
 bool changesLight(const SettingDifference& of) {
     if (of.option == "assign") {
         const std::string_view per_object = nameOf(Assignment::per_object);
@@ -51,7 +51,7 @@ void checkOption(Path path, const std::string& given, const std::string& option)
            (field.ignored.of(reads).empty() ? fmt::format("; {} {} sets it", sideOption(reads), given) : ""));
 }
 
-// "ambient=1,0,0,shadows=off": a piece without = goes on with the value before it.
+// "ambient=1,0,0,shadows=off": a piece without = continues the previous value.
 SideSettings::Words wordsOf(Path path, const std::string& list) {
     SideSettings::Words words;
     std::istringstream pieces(list);

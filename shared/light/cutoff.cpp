@@ -18,7 +18,7 @@ namespace diptych {
 
 namespace {
 
-// The intensity that a receiver sees from far in the direction of most, W/sr.
+// Intensity from afar in the direction of the maximum, W/sr.
 double luminousIntensity(const Light& light) {
     const double i = luminance(glm::dvec3(light.color)) * static_cast<double>(light.intensity);
     const double r = static_cast<double>(light.radius);
@@ -43,15 +43,15 @@ bool endless(const Light& light) {
 
 struct SurfacePoint {
     glm::dvec3 position, normal;
-    double area;  // m^2 that it stands for
+    double area;  // m^2 that the point represents
 };
 
 struct WorldTriangle {
     glm::dvec3 a, b, c;
 };
 
-// `count` points, spread by area along the triangles in order; within one by the R2 sequence (Roberts 2018,
-// "The unreasonable effectiveness of quasirandom sequences").
+// `count` points distributed by area along the triangles in order; within a triangle by the R2 sequence
+// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
 std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, std::size_t count) {
     std::vector<WorldTriangle> triangles;
     std::vector<double> areas;  // running sum
@@ -94,7 +94,7 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, st
     return points;
 }
 
-// What of a light's intensity leaves into a direction, 0 to 1.
+// Fraction of a light's largest intensity in a direction, 0 to 1.
 double shape(const Light& light, const glm::dvec3& direction) {
     const double c = glm::dot(direction, light.direction);
     if (light.kind == LightKind::spot) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gives lights without a range one, so that not every light list must hold them.
+// Gives infinite lights a range, so that not every light list contains them.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -10,18 +10,18 @@
 
 namespace diptych {
 
-// The distance, m, at which a light of luminous `intensity` (the luminance of its colour times its intensity,
-// W/sr; of an area light its radiance times its area) makes a white Lambertian surface that faces it as dim
-// as `cutoff`, W/(sr m^2): sqrt(intensity / (pi cutoff)).
+// Distance, m, at which a white Lambertian surface facing the light has luminance `cutoff`, W/(sr m^2):
+// sqrt(intensity / (pi cutoff)). `intensity` is the luminance of the light's colour times its intensity,
+// W/sr; for area lights, of its radiance times its area.
 double cutoffRange(const Light& light, double cutoff);
 
-// The lights with ranges where they had none. `cutoff` 0: as they were.
+// The lights, with a range for those without one. `cutoff` 0: unchanged.
 std::vector<Light> withCutoff(std::vector<Light> lights, double cutoff);
 
-// Of the flux that lights without a range send onto the scene's surfaces, unshadowed, onto the side that
-// faces the light: the share, 0 to 1, that the cutoff takes away, by its window and beyond it. Estimated at
-// 4,096 points spread over the triangles by area, the same ones every time; a standard error of a few
-// hundredths of itself. 0 where no light is without a range.
+// Fraction, 0 to 1, of the unshadowed flux from infinite lights onto the scene that the cutoff removes, by
+// its window and beyond the range. Both sides of a surface receive light. Estimated at 4,096 fixed points
+// distributed over the triangles by area; the relative standard error is a few hundredths. 0 if no light
+// is infinite.
 double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> lights, double cutoff);
 
 }  // namespace diptych

@@ -13,17 +13,17 @@ namespace diptych {
 
 namespace {
 
-// What float32 may lose between a light's bound and the pixels that it lights: positions are rounded a dozen
-// times on either side, 6e-8 of the distance from the camera each time.
+// Bound of float32 rounding between a light's bound and the pixels it lights: about a dozen roundings on
+// each side, each 6e-8 of the distance from the camera.
 constexpr double radius_rounding = 4e-6;
 
-// Slices in an octave of depth + offset, log2, the coarsest that is tried: four, so that one is an eighth to
-// a quarter as deep.
+// Coarsest slices that are tried, log2: four per octave of depth + offset, so a slice's depth range is an
+// eighth to a quarter of its distance.
 constexpr gpu::uint octaveShift = 23 - 2;
 constexpr gpu::uint mostSlices = 128;
 constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
-// LIGHT_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
-// lavapipe's limit.
+// Keeps the loops of the LIGHT_THREADS threads of a light that reaches all cells far below lavapipe's
+// limit.
 constexpr std::uint64_t mostCells = 131072;
 static_assert(mostCells / gpu::LIGHT_THREADS < 65535 / 2);
 
@@ -41,10 +41,10 @@ gpu::uint tilesAcross(int pixels, gpu::uint shift) {
 struct TypicalLight {
     double radius = 1;  // m
     double depth = 1;   // m
-    double far = 0;     // where the last one ends, m
+    double far = 0;     // largest depth that a light reaches, m
 };
 
-// Of those in front of the camera that end somewhere.
+// Median of the finite lights in front of the camera.
 TypicalLight typicalLight(std::span<const gpu::LightBound> bounds) {
     std::vector<double> radii, depths;
     TypicalLight light;
@@ -70,20 +70,20 @@ void sizeTiles(gpu::LightGrid& grid, const View& view, gpu::uint shift) {
     grid.tiles = {tilesAcross(view.width, shift), tilesAcross(view.height, shift)};
 }
 
-// The volume, m^3, in which the centre of a cell lies where the typical light reaches the cell: that of the
+// Volume, m^3, of the positions of a cell's centre at which the typical light reaches the cell: the
 // Minkowski sum of a box and a sphere, by Steiner's formula.
 double reachVolume(const gpu::LightGrid& grid, bool orthographic, const TypicalLight& light) {
     const double r = light.radius, depth = light.depth + static_cast<double>(grid.slice_offset);
     const double side = static_cast<double>(grid.pixel) * (orthographic ? 1 : light.depth) *
                         static_cast<double>(1u << grid.tile_shift);
-    // Between the depth of the first and of the last slice of an octave.
+    // Average over the first and last slice of an octave.
     const double deep = 0.75 * depth / static_cast<double>(1u << (23 - std::min(grid.slice_shift, 23u)));
     return side * side * deep + 2 * (side * side + 2 * side * deep) * r +
            std::numbers::pi * (2 * side + deep) * r * r + 4 * std::numbers::pi / 3 * r * r * r;
 }
 
-// Chooses the sizes of tiles and slices that cost least, for making lists and for evaluating lights at pixels
-// together. The lights that cells hold are counted for one grid and scaled to the others by reachVolume().
+// Chooses tile and slice sizes that minimize the total cost of list building and shading. The number of
+// lights per cell is estimated for one grid and scaled to others by reachVolume().
 void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds,
                  const DeviceCosts& costs, std::uint64_t most) {
     const bool orthographic = view.camera.orthographic;
@@ -142,10 +142,10 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
         if (i >= lights.directional + lights.point && spot < lights.spot) {
             const gpu::SpotCone& cone = lights.spot_cones[spot];
             axis = toView(cone.direction);
-            // The shader rounds offset + scale * cos, so the spot may shine a little beyond its cone.
+            // The shader rounds offset + scale * cos, so a spot may light slightly outside its cone.
             cosCone = std::clamp(static_cast<double>(-cone.offset / cone.scale) - 2e-6, -1.0, 1.0);
             sinCone = std::sqrt(1 - cosCone * cosCone);
-            // The smallest sphere around the sector of a sphere that the spot lights.
+            // Smallest bounding sphere of the spot's spherical sector.
             if (std::isfinite(radius) && cosCone > 0) {
                 const double along = cosCone > std::sqrt(0.5) ? radius / (2 * cosCone) : radius * cosCone;
                 centre = apex + axis * along;
@@ -186,7 +186,8 @@ SliceDepths sliceDepths(const gpu::LightGrid& grid, gpu::uint s) {
 
 std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                            std::span<const gpu::LightBound> bounds) {
-    // Tiles of one axis that the interval [lo, hi] touches at depths [near, far], one more on either side.
+    // Tiles along one axis that the interval [lo, hi] touches at depths [near, far], plus one on either
+    // side.
     const auto tiles = [&](double lo, double hi, double near, double far, float centre, gpu::uint count) {
         const double from = orthographic ? lo : lo / (lo < 0 ? near : far);
         const double to = orthographic ? hi : hi / (hi < 0 ? far : near);
@@ -241,15 +242,14 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, c
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };
-    // Of the masks, and of the candidates of tiles and slices.
+    // Of the masks, and of the candidates per tile and slice.
     const auto longestRow = [&] {
         return std::max(count(), std::uint64_t{grid.tiles.x} * grid.tiles.y + grid.slices);
     };
     while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
     const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds) * (in_front ? 2 : 1);
-    // Evaluating a packet of four lights costs as much as three packets of one, so wide packets pay for long
-    // lists.
+    // An entry of four lights costs as much as three entries of one, so wide entries suit long lists.
     grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;
     grid.null_light = static_cast<gpu::uint>(lights.lights.size()) - 1;
     const auto packets = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
@@ -258,7 +258,7 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, c
     grid.all_end = grid.all_spot_end + packets(grid.local_lights - grid.spot_end);
     const std::uint64_t kinds =
         (grid.point_end > 0) + (grid.spot_end > grid.point_end) + (grid.local_lights > grid.spot_end);
-    // Each part of each list may end with a packet that is not full.
+    // The last entry of each light type may be partly filled.
     const std::uint64_t wanted = grid.all_end + pairs / grid.width + kinds * grid.lists;
     grid.capacity = static_cast<gpu::uint>(std::min(wanted, buffer_bytes / (4 * grid.width)));
     return grid;

@@ -14,26 +14,26 @@ namespace {
 
 constexpr auto listTypes = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
 
-// No buffer of the lists is larger, whatever the device allows.
+// Size limit of each buffer, even if the device allows more.
 constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
 
-constexpr std::uint32_t threads = 64;  // of a workgroup of all kernels but the prefix sum
+constexpr std::uint32_t threads = 64;  // per workgroup, in all compute shaders but the prefix sum
 
 std::uint32_t workgroups(std::uint32_t count) {
     return (count + threads - 1) / threads;
 }
 
-// Slices that one thread of gather walks: fewer make more threads, which wait for each other less.
+// Slices per thread in gather: fewer slices mean more threads, which wait less for each other.
 constexpr gpu::uint slicesOfThread = 8;
 
-// In rows, as no device need run more than 65,535 workgroups along an axis.
+// In rows, because devices need to support only 65,535 workgroups per axis.
 glm::uvec3 inRows(std::uint64_t count, gpu::uint depth = 1) {
     constexpr std::uint64_t row = 32768;
     const std::uint64_t groups = (count + threads - 1) / threads;
     return {std::min(groups, row), (groups + row - 1) / row, depth};
 }
 
-// The list of all local lights in packets, each kind beginning a new packet.
+// List of all local lights; each light type starts a new entry.
 std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
     std::vector<gpu::uint> all;
     const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint packetsEnd) {
@@ -82,7 +82,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
                   lights.spot_cones.size() * sizeof(gpu::SpotCone) / texel,
                   lights.area_lights.size() * sizeof(gpu::AreaLight) / texel,
                   bounds.size() * sizeof(gpu::LightBound) / texel, std::uint64_t{grid_.lists} + 1,
-                  std::uint64_t{grid_.capacity},  // a texel each, whatever a packet's width
+                  std::uint64_t{grid_.capacity},  // one texel per entry, whatever its width
                   std::uint64_t{grid_.words} * grid_.list_stride / 4});
     addressed_ = most > device.limits().maxTexelBufferElements;
     const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t each,
@@ -91,7 +91,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
                          usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     };
-    // One more than the cells have: that of all lights, for what lies in none.
+    // One more than there are cells: the last is the list of all lights, for positions in no cell.
     heads_ = buffer("light list heads", std::uint64_t{grid_.lists} + 1, sizeof(gpu::LightListHead),
                     texelsOrAddress);
     indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4, texelsOrAddress);
@@ -174,7 +174,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdDispatch(commands, size.x, size.y, size.z);
     };
-    // Only tiled lists read the depth, but lavapipe follows every descriptor of a bound set.
+    // Only tiled lists read the depth, but lavapipe accesses every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     const BufferRef candidates = passes.buffer("light candidates", candidates_),
@@ -214,7 +214,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
             dispatch(commands, pipeline, size);
         });
     };
-    // Both kernels write parts of the masks, scatter atomically.
+    // Both shaders write parts of the masks; scatter uses atomics.
     const glm::uvec3 byLight = inRows(std::uint64_t{grid_.local_lights} * gpu::LIGHT_THREADS);
     if (gathers) step(Shader::light_candidates_comp, byLight).uses(candidates, read).uses(candidates, write);
     Pass& mark = gathers ? step(Shader::light_gather_comp,

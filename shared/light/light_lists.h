@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light lists on the device: the buffers of one view and the passes that fill them.
+// Light lists on the GPU: the buffers of one view and the passes that fill them.
 #pragma once
 
 #include "shared/light/light_grid.h"
@@ -14,15 +14,15 @@
 
 namespace diptych {
 
-// What fills the masks: threads of each light that walk the cells it may reach, or threads of each tile that
-// test the lights which may reach both the tile and a slice. Both apply the same test, so the lists are the
-// same.
+// How masks are filled. scatter: threads per light iterate over the cells in its range. gather: threads
+// per tile test the lights that may reach both the tile and a slice. Both use the same test, so the lists
+// are equal.
 enum class ListKernel { scatter, gather };
 
 // Descriptor types of SET_LISTS, indexed by binding.
 std::span<const VkDescriptorType> listBindings();
 
-// The layout of the kernels, one for all views.
+// Layout of the compute shaders, shared by all views.
 class ListLayouts {
 public:
     ListLayouts() = default;
@@ -36,55 +36,53 @@ private:
     OwnedPipelineLayout pipeline_;
 };
 
-// For a buffer that shaders read as texels or, where `addressed`, by its address.
+// Usage of a buffer that shaders read as texels or, if `addressed`, by its address.
 constexpr VkBufferUsageFlags texelsOrAddress =
     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 OwnedBufferView texelsUnless(bool addressed, Device& device, const std::string& name, const GpuBuffer& buffer,
                              VkFormat format);
 
-// The light lists of one view. Kernels first make bit masks, one bit for each list and light, whose order
-// needs no sorting; then count the bits, place the lists by a prefix sum, and write them as indices. No light
-// is ever dropped: a list that does not fit into the buffer is replaced by the list of all lights, and such
-// lists are counted.
+// Light lists of one view. Compute shaders first fill bit masks, one bit per list and light, which need no
+// sorting. They then count the bits, allocate the lists by a prefix sum, and write indices. No light is
+// dropped: a list that does not fit the buffer becomes the list of all lights, and is counted.
 class LightLists {
 public:
     struct Choice {
-        gpu::uint lists = gpu::LISTS_NONE;  // LISTS_*; none: buffers to bind and no pass
+        gpu::uint lists = gpu::LISTS_NONE;  // LISTS_*; LISTS_NONE: buffers to bind, without passes
         ListKernel kernel = ListKernel::scatter;
-        bool in_front = false;  // tiled, and something is blended: FEATURE_lights_in_front
+        bool in_front = false;  // tiled lists with blended surfaces: FEATURE_lights_in_front
     };
 
-    // `frame_set` of addPasses() must hold View and what this binds. Throws std::runtime_error where memory
-    // ends.
+    // `frame_set` of addPasses() must contain View and the bindings of bind(). Throws std::runtime_error
+    // if memory runs out.
     LightLists(Device& device, Uploader& uploader, const ListLayouts& layouts, const Choice& choice,
                const View& view, const GpuLights& lights);
 
     const gpu::LightGrid& grid() const { return grid_; }
     bool any() const { return choice_.lists != gpu::LISTS_NONE; }
-    // Whether shaders read lights and lists by their addresses, as one of these has more texels than a texel
-    // buffer of the device.
+    // Whether shaders read lights and lists by address, because one of them exceeds the device's largest
+    // texel buffer.
     bool addressed() const { return addressed_; }
     void specialise(Variant& variant) const;  // light_lists, list_width, addressed_lights, lights_in_front
 
     // Writes the bindings LIGHT_GRID, LIST_HEADS, LIST_INDICES and LIST_COUNTS of a frame's set.
     void bind(DescriptorSets& frame) const;
 
-    // Passes named "assign ..."; tiled lists read `depth`, which earlier passes have drawn. `variant`: the
-    // scene's.
+    // Adds passes named "assign ...". Tiled lists read `depth`, which earlier passes have drawn.
+    // `variant`: of the scene.
     void addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant, VkDescriptorSet frame_set,
                    ImageRef depth);
 
-    // Declares that the pass's fragment shaders walk the lists.
+    // Declares that shaders of the pass read the lists.
     void read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
 
-    std::uint64_t overflowed() const;  // lists of the last frame that found no room; reads back
+    std::uint64_t overflowed() const;  // lists of the last frame that overflowed; reads back
     std::uint64_t bytes() const;
-    // The local lights that the last frame's list at a pixel holds, as their places in GpuLights::lights, in
-    // ascending order; empty without lists. `depth`: what the pixel shows, view depth, m. Reads back. A
-    // surface of several samples that lies behind its tile's depths has another list, that of all lights, and
-    // so has a tile's blended surface.
+    // Local lights of the last frame's list at a pixel, as indices into GpuLights::lights, ascending;
+    // empty without lists. `depth`: view depth of the pixel, m. Reads back. Not for blended surfaces in
+    // tiled lists, and not for multisampled surfaces behind their tile's depths: those use other lists.
     std::vector<gpu::uint> lightsAt(int x, int y, float depth) const;
-    // What the last frame left, for tests: heads, then all numbers of the index buffer.
+    // Buffers of the last frame, for tests.
     const GpuBuffer& heads() const { return heads_; }
     const GpuBuffer& indices() const { return indices_; }
     const GpuBuffer& masks() const { return masks_; }

@@ -11,33 +11,34 @@
 
 namespace diptych {
 
-// Lights as the shaders read them, by kind and each kind in the order given, but points and spots that cast
-// before those that do not: every sum over lights in every path runs in this order.
+// Lights as shaders read them: by type, each type in the given order, but casting points and spots before
+// others. Every sum over lights in every path runs in this order.
 struct GpuLights {
-    std::vector<gpu::Light> lights;         // directional, point, spot, rect, disc, tube, and the null light
-    std::vector<gpu::SpotCone> spot_cones;  // and the null light's
-    std::vector<gpu::AreaLight> area_lights;  // and the null light's
+    std::vector<gpu::Light> lights;           // directional, point, spot, rect, disc, tube, null light
+    std::vector<gpu::SpotCone> spot_cones;    // then the null light's
+    std::vector<gpu::AreaLight> area_lights;  // then the null light's
     std::vector<Importance> importance;       // of all but the null light
-    std::vector<std::size_t> sources;         // of the same: its place among the lights it was made of
-    // --assign per_object: the directional light that is always shaded per pixel, the brightest one that is
-    // not marked not_important; the sun that casts, where one does.
+    std::vector<std::size_t> sources;         // likewise: index in the input
+    // --assign per_object: directional light that is always shaded per pixel: the brightest that is not
+    // marked not_important. If the sun casts shadows, it is this one.
     std::optional<std::size_t> base;
-    bool environment = false;  // an environment lights the scene beside them
-    glm::vec3 ambient{0};      // W/(sr m^2), from everywhere
+    bool environment = false;  // the scene has an environment as well
+    glm::vec3 ambient{0};      // W/(sr m^2), uniform
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
-    std::uint32_t casting_points = 0, casting_spots = 0;  // the first of their kind
+    std::uint32_t casting_points = 0, casting_spots = 0;  // first of their type
     std::uint32_t area() const { return rect + disc + tube; }
     std::uint32_t local() const { return point + spot + area(); }
     std::uint32_t count() const { return directional + local(); }
 };
 
-// Light::inverse_range_squared of a range in metres, 1/m^2: the least float32 whose product with the squared
-// range is at least 1, so that no light arrives from the range on. 0 for a range whose square is infinite.
+// Light::inverse_range_squared for a range in metres, 1/m^2: the smallest float32 whose product with the
+// squared range is at least 1, so that no light arrives from the range on. 0 if the squared range is
+// infinite.
 float inverseSquaredRange(float range);
 
-// `eye`: the camera, world, m. World positions are made relative to it in double. A light that gives
-// nothing (black, or zero range) is left out. `casters`: places of the points and spots that cast shadows, in
-// ascending order; they are important, so that --assign per_object shades them per pixel.
+// `eye`: the camera, world, m. Positions are made relative to it in double. Lights without effect (black,
+// or zero range) are skipped. `casters`: indices of the shadow-casting points and spots, ascending. They
+// count as important, so --assign per_object shades them per pixel.
 GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
                     std::span<const std::size_t> casters = {});
 

@@ -13,7 +13,7 @@
 
 namespace diptych {
 
-extern const unsigned char ltcFile[];  // made from ltc.exr by CMake
+extern const unsigned char ltcFile[];  // generated from ltc.exr by CMake
 extern const std::size_t ltcFileSize;
 
 namespace {

@@ -5,11 +5,11 @@
 
 namespace diptych {
 
-// The table of shared/light/ltc.h as the shaders sample it: bilinear, kept at its edges.
+// The table of shared/light/ltc.h as shaders sample it: bilinear, clamped to its edges.
 class LtcImage {
 public:
     LtcImage() = default;
-    // `needed`: some light is shaded with it; else it is one texel, because a binding must hold an image.
+    // `needed`: whether a light uses it; else the image is one texel, because the binding needs an image.
     // Uploaded when `uploader` is flushed.
     LtcImage(Device& device, Uploader& uploader, bool needed);
 

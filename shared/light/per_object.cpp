@@ -39,8 +39,8 @@ const gpu::AreaLight* areaOf(const GpuLights& lights, std::size_t i) {
     return i >= first ? &lights.area_lights[i - first] : nullptr;
 }
 
-// An area light from afar: the area that it shows, m^2, by which its radiance becomes intensity: the most of
-// all directions, and into the unit direction `to_place` from its centre.
+// Projected area of an area light from afar, m^2, which converts radiance to intensity: the largest over
+// all directions, and in the unit direction `to_place` from its centre.
 struct Shown {
     double most, there;
 };
@@ -58,7 +58,7 @@ Shown shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_pla
     return {flat, flat * (area.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
 }
 
-// From the light's axis to the sphere around the box; the cosine of the nearest direction.
+// Cosine of the smallest angle between the light's axis and a direction to the box's bounding sphere.
 double nearestCosine(const glm::dvec3& axis, const glm::dvec3& to_centre, double radius) {
     const double distance = glm::length(to_centre);
     if (distance <= radius) return 1;
@@ -66,29 +66,27 @@ double nearestCosine(const glm::dvec3& axis, const glm::dvec3& to_centre, double
     return std::cos(std::max(0.0, off - std::asin(radius / distance)));
 }
 
-// Shaders compare in float32, of positions that are float32 relative to the camera: a box is taken a little
-// larger.
+// Enlarges the box by more than the shaders' float32 rounding of positions and comparisons.
 ObjectPlace widened(ObjectPlace object) {
     constexpr double relative = 1e-5;
     object.half += relative * (glm::abs(object.centre) + object.half);
     return object;
 }
 
-// The shares of lights in a group that has room for `room` of `members`, or in a better one, by light: those
-// that they have in better ones are `taken`. Puts the brightest in front, of equals those that come first in
-// the scene: `sources` says where a light stands there. Equal is what is so in float32: double's rounding
-// ranks nothing.
+// Fractions of lights in a group with capacity `room` for `members`, or in a better group; `taken` are
+// those in better groups. Moves the brightest members to the front, ties in scene order (`sources`).
+// Brightness is compared in float32, so that double rounding ranks nothing.
 std::vector<double> sharesIn(std::vector<std::size_t>& members, std::size_t room,
                              std::span<const double> brightness, std::span<const std::size_t> sources,
                              std::span<const double> taken) {
     if (members.size() <= room) return std::vector<double>(brightness.size(), 1.0);
     const auto key = [&](std::size_t i) { return std::pair(-static_cast<float>(brightness[i]), sources[i]); };
     std::ranges::nth_element(members, members.begin() + static_cast<std::ptrdiff_t>(room), {}, key);
-    const double threshold = brightness[members[room]];  // of the first without room
+    const double threshold = brightness[members[room]];  // of the first light beyond the capacity
     std::vector<double> shares;
     for (std::size_t i = 0; i < brightness.size(); ++i)
         shares.push_back(std::max(taken[i], fade(brightness[i], threshold)));
-    // What the brighter ones leave is for those that are exactly as bright.
+    // Lights of exactly the threshold's brightness share the remaining capacity.
     double left = static_cast<double>(room);
     std::vector<std::size_t> equal;
     for (const std::size_t i : members)
@@ -154,7 +152,7 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
         if (always) pixel[i] = 1;
         if (!always && lights.importance[i] == Importance::not_important) pixel[i] = 0;
     }
-    // Those that are left when the pixels have theirs.
+    // Lights that are not among the per-pixel ones.
     if (pixels < ranked.size())
         others.insert(others.end(), ranked.begin() + static_cast<std::ptrdiff_t>(pixels), ranked.end());
     const std::vector<double> either = sharesIn(others, vertexLights, brightness, lights.sources, pixel);
@@ -162,7 +160,7 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
     std::vector<LightShares> shares(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (!(brightness[i] > 0)) continue;
-        // Vertices know no area lights.
+        // Vertices do not support area lights.
         const double vertex = areaOf(lights, i) ? 0 : either[i] - pixel[i];
         shares[i] = {pixel[i], vertex, 1 - (pixel[i] + vertex)};
     }
@@ -175,7 +173,7 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
     sum.linear_x += glm::vec3(linear * l.x);
     sum.linear_y += glm::vec3(linear * l.y);
     sum.linear_z += glm::vec3(linear * l.z);
-    // 5/32 (3 l l' - 1): without a trace, its last square is minus the others.
+    // 5/32 (3 l l' - 1) is traceless: its last square is minus the others.
     sum.xx += glm::vec3(square * (l.x * l.x - 1.0 / 3));
     sum.yy += glm::vec3(square * (l.y * l.y - 1.0 / 3));
     sum.xy += glm::vec3(square * (l.x * l.y));

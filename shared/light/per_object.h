@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lights chosen by object, as engines did before tiles and froxels; after Unity's built-in pipeline ("Forward
-// rendering path details"): ranked by their brightness at the object, the first few are shaded per pixel,
-// four more per vertex, the rest as spherical harmonics. No Vulkan.
+// Light selection per object, as in engines before tiles and froxels; after Unity's built-in pipeline
+// ("Forward rendering path details"). Lights are ranked by brightness at the object. The first few are
+// shaded per pixel, the next four per vertex, the rest as spherical harmonics. No Vulkan.
 #pragma once
 
 #include "shared/contract/object_lights.h"
@@ -13,56 +13,55 @@
 
 namespace diptych {
 
-// Where an object is: an axis-aligned box, from the camera, world axes, m.
+// Bounding box of an object, axis-aligned, in world axes from the camera, m.
 struct ObjectPlace {
     glm::dvec3 centre{0}, half{0};
-    bool harmonics = true;  // false: what would be in them is dropped (an object with a lightmap)
+    bool harmonics = true;  // false: its harmonics are dropped (an object with a lightmap)
 };
 
-// How bright light `i` is at an object: the luminance (Rec.709) of its irradiance, W/m^2, window and cone as
-// they are where the box is nearest to it. Distances are softened by half the box's radius, so that a light
-// inside the box does not outrank all others whatever its strength. 0 only where no point of the box gets any
-// light.
+// Brightness of light `i` at an object: luminance (Rec.709) of its irradiance, W/m^2, with window and cone
+// at the nearest point of the box. Distances are softened by half the box's radius, so that a light inside
+// the box does not outrank all others. 0 only if no point of the box receives light.
 double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object);
 
-// The share of a light in the better of two groups: 0 where it is as bright as `threshold`, the brightest
-// light that the group has no room for, 1 from fadeRange times that on, smooth between, so that nothing pops
-// where two lights change places. 1 where there is no such light.
+// Fraction of a light in the better of two groups. 0 at the brightness `threshold` of the brightest light
+// beyond the group's capacity, 1 from fadeRange times that on, smooth in between: so nothing pops when two
+// lights swap ranks. 1 if there is no such light (`threshold` 0).
 double fade(double brightness, double threshold);
 inline constexpr double fadeRange = 4;
 
-// What becomes of each light at an object; the three shares of a light that reaches it sum to 1. An area
-// light has none per vertex: the harmonics have it, as a patch in its centre.
+// How a light at an object is split; the sum is 1 if the light reaches the object. Area lights have no
+// vertex fraction: the harmonics include it, as a patch at the light's centre.
 struct LightShares {
     double pixel = 0, vertex = 0, harmonics = 0;
 };
 
-// `pixels`: lights per pixel. By marks (Light::importance) an important light is shaded per pixel wherever it
-// reaches, beside those that `pixels` has room for; one that is not important never. GpuLights::base is
-// shaded per pixel even if there is no room. Lights that are exactly as bright as the first one without room
-// fill what is left of it, in the scene's order.
+// `pixels`: lights per pixel. Marks (Light::importance): important lights are shaded per pixel in their
+// range, in addition to `pixels` others; unimportant ones never are. GpuLights::base is always shaded per
+// pixel. Lights of exactly the threshold's brightness fill the remaining capacity in scene order.
 std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object,
                                      std::uint32_t pixels);
 
-// Adds a light of irradiance `e` from the unit direction `to_light`: the clamped cosine's bands are 1/4, n.l
-// / 2 and 5/32 (3 (n.l)^2 - 1). `directed` in [0, 1]: 0 comes from all sides alike, and its powers dim the
+// Adds a light of irradiance `e` from the unit direction `to_light`. The bands of the clamped cosine are
+// 1/4, n.l / 2 and 5/32 (3 (n.l)^2 - 1). `directed` in [0, 1], 0 for uniform light: its powers scale the
 // bands.
 void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dvec3& to_light,
                   double directed = 1);
 
-// The irradiance at an object's centre of light `i`: softened by the box's radius, inside which the light
-// comes from ever more sides.
+// Adds the irradiance of light `i` at an object's centre, softened by the box's radius: inside it the
+// light becomes more uniform.
 void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
                   const ObjectPlace& object, double share);
 
 struct ObjectLightLists {
-    std::vector<gpu::ObjectLights> objects;  // as the places given
+    std::vector<gpu::ObjectLights> objects;  // same order as the input
     std::vector<gpu::ObjectLight> entries;
-    std::uint32_t longest = 0;   // local lights per pixel of one object
-    std::uint32_t features = 0;  // OBJECT_LIGHTS_*, by what there may be, wherever lights and objects are
+    std::uint32_t longest = 0;   // largest number of local lights per pixel of one object
+    std::uint32_t features = 0;  // OBJECT_LIGHTS_* of possible groups, wherever lights and objects are
 };
 
-// On all cores. A light that reaches no point of an object is in none of its lists: the shaders' exact zeros.
+// Uses all cores. Lights that reach no point of an object are in none of its lists: their contribution is
+// exactly zero.
 ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPlace> objects,
                                   std::uint32_t pixels);
 

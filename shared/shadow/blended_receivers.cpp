@@ -14,9 +14,9 @@ namespace diptych {
 
 namespace {
 
-using Corners = std::array<glm::dvec3, 3>;  // world axes, from the eye
+using Corners = std::array<glm::dvec3, 3>;  // world axes, relative to the eye
 
-// What of a convex polygon lies on the side of the plane where dot(side, (p, 1)) >= 0 (Sutherland and Hodgman
+// Part of a convex polygon on the side of the plane where dot(side, (p, 1)) >= 0 (Sutherland and Hodgman
 // 1974, "Reentrant Polygon Clipping").
 void cut(std::vector<glm::dvec3>& polygon, const glm::dvec4& side, std::vector<glm::dvec3>& kept) {
     kept.clear();
@@ -29,7 +29,7 @@ void cut(std::vector<glm::dvec3>& polygon, const glm::dvec4& side, std::vector<g
     std::swap(polygon, kept);
 }
 
-// What the view shows of each triangle, in triangles.
+// Visits the triangles clipped to the view.
 template <class Visit>
 void eachSeen(const BlendedReceivers& blended, const Visit& visit) {
     const glm::dmat4 rows = glm::transpose(blended.view.clipFromWorld());
@@ -37,7 +37,7 @@ void eachSeen(const BlendedReceivers& blended, const Visit& visit) {
                            rows[3] - rows[1], rows[3] - rows[2], rows[2]};
     std::vector<glm::dvec3> polygon, spare;
     for (const DrawItem& item : blended.draws.blended()) {
-        if (item.sides == Sides::back) continue;  // its fronts, in the same list, are the same triangles
+        if (item.sides == Sides::back) continue;  // front faces, in the same list, have the same triangles
         const PlacedTriangles of =
             blended.geometry.triangles(blended.pose, blended.pose.instances[item.instance]);
         glm::dmat4 fromObject = of.world_from_object;
@@ -76,19 +76,19 @@ public:
     }
 
 private:
-    // Far above what float32 rounds of a distance.
+    // Far above the float32 rounding of a distance.
     static constexpr double rounding = 1e-5;
 
     double sideOf(std::size_t level) const { return clipmap_.levels[level].area.texel * clipmap_.grid.page; }
 
-    // As shaders/lib/clipmap.glsl has it.
+    // As in shaders/lib/clipmap.glsl.
     std::size_t levelAt(double distance) const {
         const double octaves = std::ceil(std::log2(std::max(distance, 0.0) / clipmap_.levels[0].area.end));
         return static_cast<std::size_t>(
             std::clamp(octaves, 0.0, static_cast<double>(clipmap_.levels.size() - 1)));
     }
 
-    // The numbers of those that the triangle's box meets in light space.
+    // Indices of pages that overlap the triangle's box in light space.
     const std::vector<std::size_t>& pages(const Corners& corners, std::size_t level) {
         pages_.clear();
         const bool whole = level + 1 == clipmap_.levels.size();
@@ -108,7 +108,7 @@ private:
         return pages_;
     }
 
-    // By its longest edge.
+    // Splits the triangle at its longest edge.
     void halve(const Corners& c) {
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i)
@@ -120,7 +120,7 @@ private:
         mark({middle, b, apex});
     }
 
-    static constexpr double room = 1e-3;  // pages: what float32 rounds of a place in one
+    static constexpr double room = 1e-3;  // pages; bound of float32 rounding of a position in a page
 
     const Clipmap& clipmap_;
     const glm::dvec3 eye_;

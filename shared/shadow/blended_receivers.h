@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where blended surfaces receive the sun's shadow: a picture's depth, of what is opaque, does not show them.
-// From their triangles, on the host. No Vulkan; in double.
+// Receivers among blended surfaces, which are not in the depth buffer. Computed from their triangles on
+// the CPU, in double. No Vulkan.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -11,24 +11,24 @@
 
 namespace diptych {
 
-// A view's blended draws. What is referred to outlives it.
+// Blended draws of a view. The referenced objects must outlive it.
 struct BlendedReceivers {
     const DrawList& draws;  // of `pose` and `view`
     const Pose& pose;
     const Geometry& geometry;
     const View& view;
 
-    // View depths of what lies in the view, m; nothing where nothing blended does. What something opaque
-    // hides is counted too.
+    // View depths of visible blended geometry, m; nothing if there is none. Ignores occlusion by opaque
+    // surfaces.
     std::optional<DepthRange> depths() const;
 
-    // Sets the bits of the pages that are read there (clipmap_mark.comp does of what is opaque), and where a
-    // part of a triangle is not smaller than a page, of neighbours of these. `marks`: a bit for each
+    // Marks the clipmap pages that blended receivers sample (clipmap_mark.comp does it for opaque ones).
+    // Where part of a triangle is not smaller than a page, it may also mark neighbours. `marks`: a bit per
     // ClipmapPage.
     void mark(const Clipmap& clipmap, std::span<gpu::uint> marks) const;
 };
 
-// Of both; nothing where there is neither.
+// Union of both; nothing if both are empty.
 std::optional<DepthRange> united(const std::optional<DepthRange>& a, const std::optional<DepthRange>& b);
 
 }  // namespace diptych

@@ -14,10 +14,10 @@ namespace diptych {
 
 namespace {
 
-// How much the practical split is that of equal ratios.
+// Weight of the logarithmic split in the practical split.
 constexpr double logarithmicShare = 0.75;
-// The first cascade begins at the near plane, but no nearer than this share of the distance: a near plane of
-// a millimetre would else take all but the last cascade for a view's first metre.
+// The first cascade begins at the near plane, but not nearer than this fraction of the shadow distance.
+// Otherwise a near plane of 1 mm would spend all but the last cascade on the first metre.
 constexpr double nearestShare = 1.0 / 500;
 
 struct Sphere {
@@ -25,7 +25,7 @@ struct Sphere {
     double radius;
 };
 
-// Around the part of the view between two view depths. It depends on the depths and the lens alone.
+// Bounding sphere of the view between two depths. It depends only on the depths and the projection.
 Sphere sphereOf(const View& view, double begin, double end) {
     const double aspect = static_cast<double>(view.width) / view.height;
     double depth = (begin + end) / 2, radius = 0;
@@ -33,8 +33,8 @@ Sphere sphereOf(const View& view, double begin, double end) {
         const double side = view.camera.ymag * std::hypot(aspect, 1);
         radius = std::hypot(side, (end - begin) / 2);
     } else {
-        // Half the diagonal of the picture at a view depth of 1; the centre is as far from the corners of
-        // both ends, or the far end's own where that alone is the larger.
+        // Half the image's diagonal at view depth 1. The centre has the same distance from the corners of
+        // both ends, unless the sphere around the far end is larger.
         const double side = std::tan(view.camera.yfov / 2) * std::hypot(aspect, 1);
         depth = std::min((begin + end) / 2 * (1 + side * side), end);
         radius = std::max(std::hypot(end - depth, end * side), std::hypot(begin - depth, begin * side));
@@ -42,7 +42,7 @@ Sphere sphereOf(const View& view, double begin, double end) {
     return {view.eye() - view.backward() * depth, radius};
 }
 
-// As far as the scene reaches, in steps: while the camera moves it mostly stays the same.
+// Extent of the scene, rounded up in steps, so that it mostly stays constant while the camera moves.
 double reachOf(const View& view, const Bounds& bounds) {
     double reach = glm::length(bounds.max - bounds.min);
     for (const glm::dvec3& corner : cornersOf(bounds))
@@ -96,7 +96,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
         least = glm::min(least, cascades.space.from(corner));
         most = glm::max(most, cascades.space.from(corner));
     }
-    // Room for what rounding may move, and a range that is not empty where the scene is flat.
+    // Margin for rounding, and a range that is not empty for flat scenes.
     const double room = 1e-4 * std::max({most.z - least.z, most.x - least.x, most.y - least.y, 1e-9});
     cascades.near = most.z + room;
     cascades.far = least.z - room;
@@ -104,7 +104,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
     const double distance = request.distance > 0 ? request.distance : reachOf(view, bounds);
     double far = std::min(view.camera.far, distance), begin = 0, near = view.camera.near;
     if (request.shown) {
-        // Room for how float32 rounds a view depth in another way.
+        // Margin for different float32 roundings of a view depth.
         constexpr double rounding = 1e-5;
         far = std::min(far, request.shown->far * (1 + rounding));
         begin = near = std::min(request.shown->near * (1 - rounding), far);
@@ -137,8 +137,8 @@ gpu::ShadowLight gpuShadowLight(const Cascades& cascades, const View& view, gpu:
         .y = cascades.space.y,
         .depth_offset = static_cast<float>((cascades.space.from(view.eye()).z - cascades.far) * scale),
         .to_light = cascades.space.z,
-        // Four units in the last place: of the depth that a position is made of, of the
-        // position, of the depth in the map and of the one that is compared with it.
+        // Four units in the last place: depth of a position, position, depth in the map, and compared
+        // depth.
         .rounding = 4 * std::numeric_limits<float>::epsilon(),
         .ends = glm::vec4(0),
         .fades = glm::vec4(0),

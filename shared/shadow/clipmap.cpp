@@ -13,12 +13,12 @@ namespace diptych {
 
 namespace {
 
-// A level's texels are no narrower than this share of the scene: what float32 rounds of a vertex's place in a
-// page, and of a depth, is then below the bias of half a texel.
+// Lower bound of a level's texels relative to the scene: float32 rounding of a vertex's position in a
+// page, and of a depth, then stays below the bias of half a texel.
 constexpr double finestShare = 2 * double{std::numeric_limits<float>::epsilon()};
 
-// Texels around a page: how far a surface is moved before it is read, how far the filter reads, and one for
-// what rounding puts beside its page.
+// Border around a page, texels: the receiver's offset, the filter's radius, and one for rounding at page
+// boundaries.
 int gutterOf(const ClipmapRequest& request) {
     const double moved = request.bias + std::numbers::sqrt2 * (request.kernel + 1) / 2.0;
     return static_cast<int>(std::ceil(moved + request.kernel / 2.0 + 2));
@@ -33,8 +33,8 @@ PageGrid gridOf(const Bounds& bounds, const glm::dvec3& to_light, const ClipmapR
         least = glm::min(least, grid.space.from(corner));
         most = glm::max(most, grid.space.from(corner));
     }
-    // In steps, so that a caster that moves a little moves no other page: outwards to whole sixteenths of a
-    // power of two, with room for what rounding may move.
+    // Rounds outwards to sixteenths of a power of two, with a margin for rounding errors. So a small
+    // movement of a caster does not move other pages.
     const glm::dvec3 extent = most - least;
     const double largest = std::max({extent.x, extent.y, extent.z, 1e-9}), room = 1e-4 * largest;
     const double step = std::exp2(std::ceil(std::log2(largest))) / 16;
@@ -88,7 +88,7 @@ PageAddress Clipmap::addressOf(const Place& place) const {
 Clipmap::Place Clipmap::parentOf(const Place& place) const {
     const std::size_t next = std::min(place.level + 1, levels.size() - 1);
     if (next + 1 == levels.size()) return {next, 0, 0};
-    // An arithmetic shift: pages below 0 have parents below 0.
+    // Arithmetic shift: pages with negative coordinates have parents with negative coordinates.
     const PageAddress address = addressOf(place);
     return {next, static_cast<int>((address.x >> 1) - levels[next].first.x),
             static_cast<int>((address.y >> 1) - levels[next].first.y)};
@@ -119,8 +119,8 @@ Clipmap fitClipmap(const View& view, const Bounds& bounds, const glm::dvec3& to_
             {.exponent = exponent,
              .first = glm::i64vec2(first),
              .area = {.end = reach, .corner = first * side, .texel = side / request.page}});
-        // Beyond what anything asks for, levels go on as far as a few pages hold the scene: a pool that is
-        // too small falls back step by step.
+        // Further levels than requested continue until a few pages cover the scene, so that a small pool
+        // falls back gradually.
         if (reach >= farthest && side >= grid.side / 2) break;
     }
     clipmap.levels.push_back({.area = {.end = std::numeric_limits<double>::infinity(),

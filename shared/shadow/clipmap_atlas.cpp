@@ -24,7 +24,7 @@ constexpr Access readByShaders = access::sampledDepth(inFragment);
 constexpr ImageState readable{readByShaders.layout, readByShaders.stages, readByShaders.access},
     copied{access::copiedToImage.layout, access::copiedToImage.stages, access::copiedToImage.access};
 
-// Pages whose casters are in memory, and drawn by one submit, at a time.
+// Number of pages drawn in one submit; their casters are in memory at the same time.
 constexpr std::size_t pagesAtOnce = 32;
 
 void change(VkCommandBuffer commands, const GpuImage& image, const ImageState& from, const ImageState& to) {
@@ -176,7 +176,7 @@ std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, co
     const Cascades space{.space = grid.space, .near = grid.near, .far = grid.far, .areas = {}};
     for (std::size_t first = 0; first < stale.size(); first += pagesAtOnce) {
         const std::span now(stale.data() + first, std::min(pagesAtOnce, stale.size() - first));
-        // With the world's origin, not the camera: what is drawn depends on the page alone.
+        // Relative to the world's origin, not the camera, so that the texels depend on the page alone.
         std::vector<DrawList> lists;
         std::vector<gpu::Draw> draws;
         for (const PageDraw& page : now) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pages of clipmaps on the device: one image of equal slots, and what is drawn into them.
+// Clipmap pages on the GPU: one image of equal slots, and the passes that draw them.
 #pragma once
 
 #include "shared/draw/frame_inputs.h"
@@ -18,20 +18,21 @@
 namespace diptych {
 
 struct AtlasShape {
-    std::uint32_t pages = 0;  // slots, at most
-    std::uint32_t slot = 0;   // texels of a slot's side
+    std::uint32_t pages = 0;  // largest number of slots
+    std::uint32_t slot = 0;   // texels along a slot's side
     std::uint32_t perRow() const;
     glm::uvec2 size() const;                      // texels
     glm::uvec2 cornerOf(std::uint32_t at) const;  // of a slot, texels
     auto operator<=>(const AtlasShape&) const = default;
 };
 
-// Depth as in shared/contract/shadow.h, always in the layout in which shaders read it. Every page is drawn
-// to the same place of one image and copied to its slot: devices interpolate depth from the framebuffer's
-// origin, and so a page has the same bits wherever its slot is.
+// Depth as in shared/contract/shadow.h, always in the layout for shader reads. Pages are drawn at one
+// position of a separate image and copied to their slots. Devices interpolate depth from the framebuffer's
+// origin, so this makes a page's bits independent of its slot.
 class ClipmapAtlas {
 public:
-    // Throws std::runtime_error naming --clipmap-pages where the device has no image so large.
+    // Throws std::runtime_error naming --clipmap-pages if the device does not support an image of this
+    // size.
     ClipmapAtlas(Device& device, const AtlasShape& shape);
 
     const AtlasShape& shape() const { return shape_; }
@@ -39,28 +40,27 @@ public:
     VkImageView view() const { return image_.view(); }
     std::uint64_t bytes() const;
 
-    // Has the cache forget what shows something that has moved since the last call.
+    // Invalidates cached pages that show geometry that has moved since the last call.
     void follow(const Pose& pose, const Geometry& geometry, const LightSpace& space);
-    // Draws those pages that are not drawn yet, and waits. `all`: every caster into each. Returns how many
-    // they were.
+    // Draws stale pages and waits. `all`: every caster in each. Returns the number of drawn pages.
     std::size_t draw(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const PageGrid& grid,
                      std::span<const PageDraw> pages, bool all);
-    // All texels, whatever they belong to; the cache does not hear of it.
+    // Fills all texels without invalidating the cache.
     void fill(float value);
-    // A slot's texels, row by row.
+    // Texels of a slot, row by row.
     std::vector<float> read(std::uint32_t at) const;
 
 private:
-    // What a caster's shadow follows from.
+    // Everything that a caster's shadow depends on.
     struct Caster {
         int mesh = 0, primitive = 0;
         glm::dmat4 world_from_object{1};
-        glm::dvec3 bounds_min{0}, bounds_max{0};  // object
+        glm::dvec3 bounds_min{0}, bounds_max{0};  // object space
         std::vector<glm::dmat4> world_from_mesh;  // by joint
         std::vector<double> weights;              // of morph targets
-        bool blends = false;                      // casts nothing then
+        bool blends = false;                      // blended geometry casts no shadow
         AlphaMode alpha_mode = AlphaMode::opaque;
-        float alpha = 1, alpha_cutoff = 0;  // of a mask, like the next
+        float alpha = 1, alpha_cutoff = 0;  // of a mask, like base_color
         TextureSlot base_color{};
         bool operator==(const Caster&) const = default;
     };
@@ -68,20 +68,20 @@ private:
     AtlasShape shape_;
     GpuImage image_;
     ClipmapCache cache_;
-    std::vector<Caster> casters_;  // that the pages show
+    std::vector<Caster> casters_;  // as drawn in the pages
 };
 
-// The atlases of one scene. A view keeps its own for as long as it lives, as what it reads must not be
-// replaced; the next view goes on with the pages that the last has left.
+// Atlases of one scene. A view keeps its atlas while it lives, because the pages it samples must not be
+// replaced. The next view reuses the atlas with its pages.
 class ClipmapAtlases {
 public:
-    // `frame`: the layout of SET_FRAME.
+    // `frame`: layout of SET_FRAME.
     ClipmapAtlases(Device& device, VkDescriptorSetLayout frame);
 
-    // One that no view has. Those of another shape that no view has are given up.
+    // An atlas that no view uses. Releases unused atlases of other shapes.
     std::shared_ptr<ClipmapAtlas> lend(const AtlasShape& shape);
 
-    // Of the kernel that marks pages.
+    // For the compute shader that marks pages.
     VkDescriptorSetLayout marks() const { return marks_; }
     VkPipelineLayout pipeline() const { return pipeline_; }
 

@@ -14,11 +14,11 @@ namespace diptych {
 
 namespace {
 
-using Level = std::set<std::pair<int, int>>;  // y and x of its pages in its window
+using Level = std::set<std::pair<int, int>>;  // y and x of its pages in the window
 
-// Pages that share a parent.
+// Pages with the same parent.
 struct Siblings {
-    double distance = 0;  // of the parent's middle from the centre, across the light
+    double distance = 0;  // of the parent's centre from the clipmap's centre, across the light
     Clipmap::Place parent;
     std::vector<std::pair<int, int>> pages;
 };
@@ -42,7 +42,7 @@ std::vector<Siblings> siblingsOf(const Clipmap& clipmap, std::size_t level, cons
     return all;
 }
 
-// The pages by level, as many as fit beside the whole scene's, which is not among them.
+// Pages per level, reduced to `most`; excludes the whole scene's page.
 std::vector<Level> fitting(const Clipmap& clipmap, std::vector<Level> levels, std::size_t most) {
     std::size_t count = 0;
     for (const Level& level : levels) count += level.size();
@@ -79,7 +79,7 @@ ServedPages ClipmapCache::serve(const Clipmap& clipmap, std::span<const gpu::uin
     }
     const std::vector<Level> levels = fitting(clipmap, std::move(marked), slots_ - 1);
 
-    // Pages that are held already stay where they are, whatever is given a slot before them.
+    // Pages that are already resident keep their slots, independent of the order of assignment.
     std::vector<Clipmap::Place> places;
     for (std::size_t i = 0; i < whole; ++i)
         for (const auto& [y, x] : levels[i]) places.push_back({i, x, y});
@@ -104,7 +104,7 @@ ServedPages ClipmapCache::serve(const Clipmap& clipmap, std::span<const gpu::uin
     return served;
 }
 
-// The slot that it has or gets.
+// Slot of a page; assigns one if needed.
 std::uint32_t ClipmapCache::take(const PageAddress& page) {
     if (const auto found = held_.find(page); found != held_.end()) return found->second.slot;
     std::uint32_t slot = static_cast<std::uint32_t>(held_.size());

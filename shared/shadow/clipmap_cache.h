@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which pages of a clipmap have a slot in the atlas, over all pictures that are drawn from it. No Vulkan.
+// Assignment of clipmap pages to slots of the atlas, over all images drawn with it. No Vulkan.
 #pragma once
 
 #include "shared/shadow/clipmap.h"
@@ -17,36 +17,36 @@ struct PageDraw {
     std::uint32_t slot = 0;
 };
 
-// What one picture is served by.
+// Pages of one image.
 struct ServedPages {
-    std::vector<PageDraw> resident;  // every page that the picture may read, the whole scene's among them
-    // Of each ClipmapPage in the shaders' order: which of `resident` serves it, and of which level that is.
+    std::vector<PageDraw> resident;  // all pages that the image may sample, including the whole scene's
+    // Per ClipmapPage in shader order: index in `resident` of the page that serves it, and that page's
+    // level.
     struct Entry {
         std::uint32_t resident = 0, level = 0;
     };
     std::vector<Entry> table;
-    // Marked pages: requested = served by themselves + by a coarser level.
+    // Marked pages: requested = resident + replaced by a coarser level (fallback).
     std::uint32_t requested = 0, fallback = 0;
 };
 
-// Pages keep their slots while they are not needed, until others need them; then those go first that were
-// needed longest ago. Which pages are resident follows from the marks alone, never from what was drawn
-// before.
+// Pages keep their slots until others need them; the least recently needed go first. Residency depends on
+// the marks alone, never on earlier images.
 class ClipmapCache {
 public:
     explicit ClipmapCache(std::uint32_t slots) : slots_(slots) {}
 
-    // `marks`: a bit for each ClipmapPage. Where the pool does not hold all marked pages, those of the finest
-    // level that share a parent are replaced by it, the farthest from the centre first, level after level;
-    // with a pool of one page the whole scene's serves everything. Pages of another grid are forgotten.
+    // `marks`: a bit per ClipmapPage. If the marked pages exceed the slots, marked siblings of the finest
+    // level are replaced by their parent, farthest from the centre first, level by level. With one slot
+    // the whole scene's page serves everything. Pages of another grid are dropped.
     ServedPages serve(const Clipmap& clipmap, std::span<const gpu::uint> marks);
 
-    // Of pages that serve() has given a slot: those that must be drawn, and that they have been.
+    // stale(): pages of serve() that must be drawn. drawn(): marks a page as drawn.
     std::vector<PageDraw> stale(std::span<const PageDraw> pages) const;
     void drawn(const PageDraw& page);
 
-    // Something has moved in, into or out of this part of light space (of the world's origin): pages that
-    // read it must be drawn anew.
+    // Geometry has moved within, into or out of this area of light space, relative to the world's origin:
+    // invalidates pages that overlap it.
     void moved(const glm::dvec2& lower, const glm::dvec2& upper);
 
     std::uint32_t slots() const { return slots_; }
@@ -54,7 +54,7 @@ public:
 private:
     struct Held {
         std::uint32_t slot = 0;
-        std::uint64_t needed = 0;  // the last serve() that it was for
+        std::uint64_t needed = 0;  // the last serve() that needed it
         bool drawn = false;
     };
     std::uint32_t take(const PageAddress& page);

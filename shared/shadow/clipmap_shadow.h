@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clipmap of one view: which pages its picture needs, and what shading and marking read.
+// Clipmap of one view: the pages that its image needs, and data for shading and marking.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -24,21 +24,20 @@ public:
     VkImageView atlas() const { return atlas_->view(); }
     ClipmapAtlas& pages() { return *atlas_; }
 
-    // What follows ShadowLight in the shaders' texels. Pages have no slots before prepare().
+    // Texels after ShadowLight. Pages have no slots before prepare().
     std::vector<glm::vec4> texels(const View& view, double bias) const;
 
-    // Draws the depth of what the view shows, marks the pages that it needs and those of what is blended, and
-    // gives them slots. Both paths are served by these marks, whatever depth they have themselves. Frame's
-    // set must hold View and texels(). `view`: of the constructor.
+    // Draws the view's depth, marks the pages that opaque and blended surfaces need, and assigns slots.
+    // Both paths use these marks, whatever depth they have themselves. The frame's set must contain View
+    // and texels(). `view`: as passed to the constructor.
     void prepare(const FrameInputs& inputs, const View& view);
-    // A frame's own marks of what is opaque, which the next frame's pages would be chosen by: passes named
-    // "mark shadow pages".
-    // Before the list runs for the first time, pages that are not drawn yet are. Once a view.
+    // Adds passes named "mark shadow pages": a frame's own marks of opaque surfaces, for the next frame.
+    // Draws stale pages before the list first runs. Call it once per view.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth);
 
     const ServedPages& served() const { return served_; }
     ShadowPages counts() const;
-    // The marks that a run left, a bit for each ClipmapPage.
+    // Marks of the last run, a bit per ClipmapPage.
     std::vector<gpu::uint> readMarks() const;
     std::uint64_t bytes() const { return marks_.size(); }
     std::uint64_t imageBytes() const { return atlas_->bytes(); }
@@ -51,7 +50,7 @@ private:
     Uploader& uploader_;
     const ClipmapAtlases& layouts_;
     const Pose& pose_;
-    bool all_;  // casters are drawn, not those that a page needs
+    bool all_;  // draw all casters in each page
     VkExtent2D extent_;
     Clipmap clipmap_;
     std::shared_ptr<ClipmapAtlas> atlas_;
@@ -59,7 +58,7 @@ private:
     OwnedSampler sampler_;
     DescriptorSets sets_;  // of prepare() and of the frame
     ServedPages served_;
-    std::size_t cold_ = 0;  // pages that were not there when they were chosen
+    std::size_t cold_ = 0;  // number of pages that were stale in prepare()
 };
 
 }  // namespace diptych

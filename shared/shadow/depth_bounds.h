@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --shadow-fit depth: the view depths that a picture shows, found on the device (Lauritzen, Salvi and Lefohn
-// 2010, "Sample Distribution Shadow Maps").
+// --shadow-fit depth: range of visible view depths, computed on the GPU (Lauritzen, Salvi and Lefohn 2010,
+// "Sample Distribution Shadow Maps").
 #pragma once
 
 #include "shared/draw/frame_inputs.h"
@@ -13,15 +13,15 @@
 
 namespace diptych {
 
-// A draw of depth and its reduction.
+// A depth pass and its reduction.
 class DepthBounds {
 public:
     explicit DepthBounds(Device& device);
 
-    // Passes named "shadow depth bounds": what `inputs` draws that is not blended, depth alone, in the list's
-    // size.
+    // Adds passes named "shadow depth bounds", which draw the depth of the opaque items of `inputs` at the
+    // list's size.
     void addPasses(PassList& passes, const FrameInputs& inputs);
-    // Of the last run that has ended; nothing where the picture shows nothing. `view`: of the run's inputs.
+    // Result of the last completed run; nothing if the image is empty. `view`: of the run's inputs.
     std::optional<DepthRange> range(const View& view) const;
 
     std::uint64_t bytes() const { return bounds_.size() + seen_.size(); }
@@ -34,15 +34,15 @@ private:
     GpuBuffer bounds_, seen_;
 };
 
-// Draws now, and waits; with those of what is blended. `inputs` of `pose` and `view`.
+// Draws and waits; includes blended surfaces. `inputs`: of `pose` and `view`.
 std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const Pose& pose, const View& view);
 
-// How much the shown depths vary while the camera moves to the right in `steps` steps of `step` m: standard
-// deviations, shares of the means. 0 where fewer than two of the pictures show anything.
+// Variation of the visible depths while the camera moves right in `steps` steps of `step` m: standard
+// deviation over mean. 0 if fewer than two images show anything.
 struct DepthVariation {
     double near = 0, far = 0;
 };
-// `inputs` of `view`.
+// `inputs`: of `view`.
 DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, const Pose& pose,
                               const View& view, double step, int steps);
 

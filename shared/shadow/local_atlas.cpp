@@ -18,9 +18,9 @@ namespace diptych {
 
 namespace {
 
-// Nearer to the light nothing casts: a share of its reach.
+// Near distance relative to the light's range; closer geometry casts no shadow.
 constexpr double nearestCaster = 1e-5;
-// What rounding may move, a share of distances.
+// Margin for rounding, relative to distances.
 constexpr double atlasSlack = 1e-3;
 
 AtlasLight atlasLight(const Light& light, const Bounds& bounds) {
@@ -30,7 +30,7 @@ AtlasLight atlasLight(const Light& light, const Bounds& bounds) {
         result.axes = {x, glm::cross(light.direction, x), light.direction};
         if (shadowTiles(light) == 1) result.tangent = std::tan(double{light.outer_cone});
     }
-    // A cone without width still has a pixel.
+    // A cone of zero width still covers a pixel.
     result.tangent = std::max(result.tangent, 1e-3) * (1 + atlasSlack);
     double farthest = 0;
     for (const glm::dvec3& corner : cornersOf(bounds))
@@ -40,14 +40,14 @@ AtlasLight atlasLight(const Light& light, const Bounds& bounds) {
     return result;
 }
 
-// Whether all points lie beyond one plane, by their signed distances from it.
+// Whether all points are outside a plane, by their signed distances.
 template <class Points, class Distance>
 bool allBeyond(const Points& points, const Distance& distance) {
     return std::ranges::all_of(points, [&](const auto& point) { return distance(point) < 0; });
 }
 
-// Whether a box may meet the part of a face that light reaches; corners from the light. `wider`: than the
-// face by this factor.
+// Whether a box may overlap the lit part of a face; corners relative to the light. `wider`: factor on the
+// face's width.
 bool meets(const AtlasLight& light, gpu::uint face, std::array<glm::dvec3, 8> corners, double wider) {
     const std::array<glm::dvec3, 3> axes = faceAxes(light, face);
     double size = 0;
@@ -66,7 +66,7 @@ bool meets(const AtlasLight& light, gpu::uint face, std::array<glm::dvec3, 8> co
            !allBeyond(corners, [&](const glm::dvec3& c) { return light.far - c.z + slack; });
 }
 
-// Whether the view may show a part of what light reaches in a face.
+// Whether the lit part of a face may be in view.
 bool isInView(const AtlasLight& light, gpu::uint face, const View& view) {
     const std::array<glm::dvec3, 3> axes = faceAxes(light, face);
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
@@ -89,7 +89,7 @@ bool isInView(const AtlasLight& light, gpu::uint face, const View& view) {
     return !allBeyond(points, [&](const glm::dvec4& p) { return p.w - p.z + slack; });
 }
 
-// The part of the picture's height that the light may reach, at most 1.
+// Fraction of the image's height that the light may reach, at most 1.
 double influenceOf(const AtlasLight& light, const View& view) {
     if (view.camera.orthographic) return std::min(light.far / view.camera.ymag, 1.0);
     const double distance = glm::distance(light.position, view.eye());
@@ -97,14 +97,14 @@ double influenceOf(const AtlasLight& light, const View& view) {
     return std::min(light.far / (distance * std::tan(view.camera.yfov / 2)), 1.0);
 }
 
-// Every other bit of a number, from `first` on.
+// Every other bit of a number, starting at bit `first`.
 int everyOtherBit(std::uint64_t number, int first) {
     int result = 0;
     for (int bit = 0; bit < 31; ++bit) result |= static_cast<int>(number >> (2 * bit + first) & 1) << bit;
     return result;
 }
 
-// Along a curve in Z-order: squares of falling powers of two leave no gap.
+// Places tiles along a Z-order curve: squares of decreasing powers of two leave no gap.
 void place(LocalAtlas& atlas) {
     std::vector<std::size_t> order(atlas.tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -115,7 +115,7 @@ void place(LocalAtlas& atlas) {
         tile.corner = {everyOtherBit(next, 0), everyOtherBit(next, 1)};
         next += static_cast<std::uint64_t>(tile.size) * static_cast<std::uint64_t>(tile.size);
     }
-    // What is not needed is not kept.
+    // Shrinks the atlas to the used area.
     const auto area = [](int side) {
         return static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
     };
@@ -164,7 +164,7 @@ LocalAtlas layOutAtlas(std::span<const Light> lights, const Bounds& bounds, Worl
                     return meets(made, face, corners, wider);
                 });
             };
-            // A filter reads beyond the face, at most as far again.
+            // A filter samples beyond the face, up to twice its width.
             const bool shown = isInView(made, face, view) && any(seen, 1);
             if (!shown || !any(casting, 2)) {
                 ++(shown ? atlas.empty : atlas.unseen);

@@ -21,7 +21,8 @@ namespace diptych {
 
 namespace {
 
-// Leaves out what lies beyond a tile's light, which the clip planes keep: there all depths are nearly 0.
+// Culls casters beyond the light's range. The clip planes would keep them, because depths there are nearly
+// 0.
 void cullBeyond(DrawList& casters, const LocalAtlas& atlas, const AtlasTile& tile, const glm::dvec3& eye) {
     const AtlasLight& light = atlas.lights[tile.light];
     const glm::dvec3 along = faceAxes(light, tile.face)[2];
@@ -75,7 +76,7 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
     : frame_(frame),
       request_{settings.shadow_size, settings.shadow_kernel, double{settings.shadow_bias}},
       nearest_(makeNearestSampler(device)) {
-    // In the order of the buffer: points, then spots.
+    // In buffer order: points, then spots.
     std::vector<Light> casters;
     for (gpu::uint i = 0; i < lights.casting_points; ++i)
         casters.push_back(sources[lights.sources[lights.directional + i]]);
@@ -139,7 +140,7 @@ void LocalShadows::addPasses(PassList& passes, const FrameInputs& inputs) {
     image_ = passes.image({.name = "local shadow maps",
                            .format = depthFormat,
                            .extent = {side, side},
-                           .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,  // by tests: what no tile owns
+                           .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,  // tests fill texels outside tiles
                            .array = true});
     std::vector<std::function<void(VkCommandBuffer)>> draws;
     for (const Map& map : maps_) draws.push_back(recordCasters(inputs, map.casters, map.draws.handle()));

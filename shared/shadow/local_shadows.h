@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shadows of points and spots on the device: their atlas, what is drawn into it, and what shading reads.
+// Shadows of point and spot lights on the GPU: their atlas, its passes, and data for shading.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -16,12 +16,12 @@
 
 namespace diptych {
 
-// Everything that one view of a scene needs for the shadows of the points and spots that cast. Where none
-// does, or nothing is there to be seen or to cast, it has no pass.
+// Shadows of one view's casting points and spots. Adds no pass without such lights, visible geometry or
+// casters.
 class LocalShadows {
 public:
-    // Writes its bindings to `frame`, the sets of SET_FRAME. `seen`: what the picture draws. `sources`: what
-    // `lights` was made of, in world space.
+    // Writes its bindings to `frame`, SET_FRAME. `seen`: draws of the image. `sources`: world-space lights
+    // from which `lights` was made.
     LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
                  const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
                  std::span<const Light> sources, DescriptorSets& frame, const Settings& settings);
@@ -32,19 +32,18 @@ public:
     bool draws() const { return !atlas_.tiles.empty(); }
     void specialise(Variant& variant) const;  // local_shadows, shadow_kernel
 
-    // A pass named "local shadow maps", before the first that reads them. Binds the atlas, which is the
-    // list's.
+    // Adds a pass named "local shadow maps" before the first that samples them, and binds the atlas, an
+    // image of the list.
     void addPasses(PassList& passes, const FrameInputs& inputs);
-    // Declares that the pass's fragment shaders read the atlas.
+    // Declares that shaders of the pass sample the atlas.
     void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
 
-    std::uint64_t bytes() const;  // of buffers; the atlas is the pass list's
-    // How far across a light's rays something is read for a surface, a share of the distance from the light:
-    // at most, of all tiles; 0 where there is none.
+    std::uint64_t bytes() const;  // of buffers; the atlas belongs to the pass list
+    // Largest filter radius over all tiles, relative to the distance from the light; 0 without tiles.
     double reach() const;
     const LocalAtlas& atlas() const { return atlas_; }
-    ImageRef image() const { return image_; }  // of the pass list that passes were added to last
-    // In words, for people: how many lights cast and how many do not, the atlas, what is not drawn.
+    ImageRef image() const { return image_; }  // in the pass list of the last addPasses()
+    // Text for people: number of lights with and without shadows, the atlas, missing tiles.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
@@ -56,7 +55,7 @@ private:
     AtlasRequest request_;
     LocalAtlas atlas_;
     gpu::uint kinds_ = 0;    // LOCAL_SHADOWS_*
-    std::vector<Map> maps_;  // one a tile
+    std::vector<Map> maps_;  // one per tile
     std::vector<std::string> notes_;
     GpuBuffer texels_;
     OwnedBufferView texels_view_;

@@ -29,8 +29,8 @@ MomentSupport momentSupport(const Device& device) {
 
 namespace {
 
-// Peters and Klein 2015 take 3e-5 for what rounds less than 16 bits do; floats of 16 bits round the moments'
-// shares 64 times as much as integers do.
+// Peters and Klein 2015 use 3e-5 for formats more precise than 16 bits. 16-bit floats round moments 64
+// times as coarsely as 16-bit integers.
 MomentFormat fourMomentFormat(const MomentSupport& device) {
     constexpr double least = 3e-5, of16Bits = 6e-5;
     if (device.shares16) return {VK_FORMAT_R16G16B16A16_UNORM, false, of16Bits, {}};
@@ -85,7 +85,7 @@ ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef 
     const ImageRef moments = image("shadow moments", layers);
     const bool blurs = request.variant.get(gpu::FEATURE_shadow_kernel) > 1;
     const ImageRef scratch = blurs ? image("shadow blur", 1) : moments;
-    // Views of one layer: others may be in another layout.
+    // Views of a single layer, because other layers may be in another layout.
     const auto bind = [&](std::uint32_t set, ImageRef source, const Part& from, VkImageLayout layout,
                           ImageRef target, const Part& to) {
         sets_.image(set, gpu::BINDING_MOMENT_SOURCE, passes.view(source, from), sampler_, layout);

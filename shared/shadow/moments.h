@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moments of the sun's shadow maps: their format, and the passes that make and blur them.
+// Moments of the sun's shadow maps: format, and passes that generate and blur them.
 #pragma once
 
 #include "shared/contract/shadow.h"
@@ -12,43 +12,43 @@
 
 namespace diptych {
 
-// Whether --shadows is one of those that filter moments.
+// Whether the shadow technique filters moments.
 bool hasMoments(Shadows shadows);
 
-// What a device can do with formats of moments.
+// Support for moment formats.
 struct MomentSupport {
-    bool filters32 = false;  // stores RG32F and RGBA32F from shaders and filters them linearly
-    bool shares16 = false;   // stores RGBA16 unorm from shaders and filters it linearly
+    bool filters32 = false;  // storage without format and linear filtering of RG32F and RGBA32F
+    bool shares16 = false;   // storage without format and linear filtering of RGBA16 unorm
 };
 MomentSupport momentSupport(const Device& device);
 
-// In what moments are stored.
+// Storage format of moments.
 struct MomentFormat {
     VkFormat format = VK_FORMAT_R32G32_SFLOAT;
-    bool half = false;    // floats of 16 bits
-    double bias = 0;      // of msm4: ShadowLight::moment_bias, which hides what the format rounds
-    std::string because;  // in words, where it is not what was asked for or was left to the program
+    bool half = false;    // 16-bit floats
+    double bias = 0;      // for msm4: ShadowLight::moment_bias, which compensates the format's rounding
+    std::string because;  // reason, if the format differs from the request or was chosen automatically
 };
-// Of `shadows`, one of hasMoments(). `asked` is for warped depth alone.
+// `shadows`: one of hasMoments(). `asked` applies to warped depth alone.
 MomentFormat momentFormat(Shadows shadows, EvsmPrecision asked, const MomentSupport& device);
 
-// The largest exponent whose second moment the format holds: half the logarithm of its largest number, 44.36
-// or 5.54.
+// Largest exponent whose second moment the format can represent: half the logarithm of its largest number,
+// 44.36 or 5.54.
 double largestExponent(bool half);
 
 class MomentMaps {
 public:
-    // What the moments are made of.
+    // Inputs of the moments.
     struct Request {
         MomentFormat format;
-        Variant variant{};  // the features shadows and shadow_kernel
+        Variant variant{};  // features shadows and shadow_kernel
         float exponent = 40, negative = 5, nearest = 0;
     };
 
     explicit MomentMaps(Device& device);
 
-    // Adds, for every layer of `depth` (`size` texels wide and high), a pass of its moments and, where the
-    // kernel is wider than a texel, two that blur them through one layer of scratch. Returns the moments.
+    // Adds, for each layer of `depth` (`size` x `size` texels), a pass that computes its moments and, for
+    // kernels wider than a texel, two passes that blur them through a scratch layer. Returns the moments.
     ImageRef addPasses(PassList& passes, Pipelines& pipelines, ImageRef depth, std::uint32_t size,
                        std::uint32_t layers, const Request& request);
 
@@ -56,7 +56,7 @@ private:
     OwnedDescriptorSetLayout layout_;
     OwnedPipelineLayout pipeline_layout_;
     OwnedSampler sampler_;
-    DescriptorSets sets_;  // of each layer: depth to moments, moments to scratch, scratch to moments
+    DescriptorSets sets_;  // per layer: depth to moments, moments to scratch, scratch to moments
 };
 
 }  // namespace diptych

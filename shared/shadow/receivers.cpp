@@ -14,12 +14,12 @@ namespace diptych {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-// Of view depths, of the picture's sides and of the map's depth range: for what float32 rounds.
+// Margin for float32 rounding of view depths, the image's extent and the map's depth range.
 constexpr double rounding = 1e-5;
-// The same of positions, as a share of their distance from the camera: twice ShadowLight::rounding.
+// The same for positions, relative to their distance from the camera: twice ShadowLight::rounding.
 constexpr double positions = 1e-6;
 
-// The corners of the view between two view depths, in world axes from the eye; a little more of it.
+// Corners of the view between two depths, slightly enlarged, in world axes relative to the eye.
 std::array<glm::dvec3, 8> sliceOf(const View& view, const DepthRange& depths) {
     const double aspect = static_cast<double>(view.width) / view.height;
     std::array<glm::dvec3, 8> corners;
@@ -38,7 +38,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Convex, counter-clockwise (Andrew 1979's monotone chain).
+// Convex hull, counter-clockwise (monotone chain, Andrew 1979).
 std::vector<glm::dvec2> hullOf(std::array<glm::dvec2, 8> points) {
     std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) {
         return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -60,7 +60,7 @@ std::vector<glm::dvec2> hullOf(std::array<glm::dvec2, 8> points) {
     return hull;
 }
 
-// Whether a square of half a side `half` around `centre` is wholly beyond one edge of the hull.
+// Whether a square of half side `half` around `centre` is outside one edge of the hull.
 bool beside(const std::vector<glm::dvec2>& hull, const glm::dvec2& centre, double half) {
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const glm::dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
@@ -73,7 +73,7 @@ bool beside(const std::vector<glm::dvec2>& hull, const glm::dvec2& centre, doubl
 struct CellRange {
     int begin = 0, end = 0;
 };
-// The cells that an interval of clip space meets.
+// Cells that an interval of clip space overlaps.
 CellRange cellsOf(double low, double high) {
     const double count = ReceiverMask::cells;
     const auto at = [count](double clip) { return std::clamp((clip + 1) / 2 * count, -1.0, count); };
@@ -86,7 +86,7 @@ CellRange cellsOf(double low, double high) {
 ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
                            std::span<const SeenBox> seen, const CascadeRequest& request, bool compares)
     : size_(request.size), deepest_(std::size_t{cells} * cells, unbounded) {
-    // The first cascade serves whatever is nearer too, as the shaders have it.
+    // In shaders, too, the first cascade covers everything nearer.
     const bool first = &area == &cascades.areas.front();
     const DepthRange depths{first ? 0 : area.begin * (1 - rounding), area.end * (1 + rounding)};
     const glm::dmat4 clip = cascades.clipFromWorld(area, request.size, view.eye());

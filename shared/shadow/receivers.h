@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which part of a cascade's map the picture may read, and from how deep: what casts nowhere into that need
-// not be drawn (Bittner, Mattausch, Silvennoinen and Wimmer 2011, "Shadow Caster Culling for Efficient Shadow
+// Parts of a cascade's map that visible receivers may sample, with their depth. Casters outside them are
+// culled (Bittner, Mattausch, Silvennoinen and Wimmer 2011, "Shadow Caster Culling for Efficient Shadow
 // Mapping", with boxes instead of pixels). No Vulkan; in double.
 #pragma once
 
@@ -12,35 +12,34 @@
 
 namespace diptych {
 
-// A grid over a cascade's map. A cell holds how far from the light a receiver may lie in it: something that
-// is seen (a box of `seen`), in the cascade's part of the view. Casters reach what lies under them: a box
-// matters where it is not wholly farther from the light than all receivers of the cells that it meets, with
-// the texels around it that a filter reads.
+// A grid over a cascade's map. A cell stores the largest distance from the light of a receiver: visible
+// geometry (`seen`) in the cascade's part of the view. A caster matters unless it is farther from the
+// light than all receivers of the cells it overlaps, with the filter's border.
 class ReceiverMask {
 public:
-    // `area`: one of `cascades`. `compares`: what is farther from the light than a receiver leaves its
-    // visibility as it is, as with comparisons; moments change with it.
+    // `area`: one of `cascades`. `compares`: true for depth comparisons, where geometry beyond a receiver
+    // does not affect it; false for moments, where it does.
     ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
                  std::span<const SeenBox> seen, const CascadeRequest& request, bool compares);
 
-    // `caster`: in the clip space of the cascade.
+    // `caster`: in clip space of the cascade.
     bool reachedBy(const ClipBox& caster) const;
 
-    // The part of the map that may be read, texels from the upper left: receivers with what a filter reads
-    // around them. None where nothing that is seen lies in the cascade.
+    // Area of the map that may be sampled, in texels from the upper left: receivers with the filter's
+    // border. Empty if no visible receiver is in the cascade.
     struct Texels {
         int x = 0, y = 0, width = 0, height = 0;
     };
     Texels read() const;
 
-    // Of a side.
+    // per side
     static constexpr int cells = 128;
-    // Of the cell's receivers, the least depth; infinity where there is none. Tests look at it.
+    // Smallest depth of the cell's receivers; infinity without any. For tests.
     double deepest(int x, int y) const { return deepest_[static_cast<std::size_t>(y * cells + x)]; }
 
 private:
     double size_;        // of the map's side, texels
-    double margin_ = 0;  // clip space: what is read around a receiver
+    double margin_ = 0;  // clip space; sampled border around a receiver
     std::vector<double> deepest_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where that lies which is drawn or casts shadows.
+// Bounds of the scene's geometry.
 #pragma once
 
 #include "shared/draw/geometry.h"
@@ -12,10 +12,10 @@
 namespace diptych {
 
 std::array<glm::dvec3, 8> cornersOf(const Bounds& bounds);
-// Of a primitive's box, transformed.
+// Corners of a primitive's transformed box.
 std::array<glm::dvec3, 8> cornersOf(const PrimitiveRange& range, const glm::dmat4& fromObject);
 
-// World space, of every instance.
+// Bounds of all instances, world space.
 Bounds boundsOf(const Pose& pose, const Geometry& geometry);
 
 }  // namespace diptych

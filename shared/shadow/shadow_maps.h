@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All shadows of one view, as the paths read them.
+// All shadows of one view, as the paths use them.
 #pragma once
 
 #include "shared/shadow/local_shadows.h"
@@ -12,7 +12,7 @@ namespace diptych {
 
 class ShadowMaps {
 public:
-    // As of SunShadow and LocalShadows.
+    // Parameters as of SunShadow and LocalShadows.
     ShadowMaps(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
                const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
                std::span<const Light> sources, DescriptorSets& frame, const Settings& settings)
@@ -23,28 +23,35 @@ public:
         sun.specialise(variant);
         local.specialise(variant);
     }
-    // As of SunShadow: before all that follows, and once `inputs` are complete.
+    // As SunShadow::prepare() and choosePages(): prepare() comes first, choosePages() once `inputs` are
+    // complete.
     void prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
                  const View& view, const std::optional<CastingSun>& casting) {
         sun.prepare(inputs, uploader, atlases, pose, view, casting);
     }
     void choosePages(const FrameInputs& inputs) { sun.choosePages(inputs); }
-    // Passes before the first that reads what they draw.
+    // Adds passes before the first that samples the maps.
     void addPasses(PassList& passes, const FrameInputs& inputs) {
         sun.addPasses(passes, inputs);
         local.addPasses(passes, inputs);
     }
-    // Declares that these shaders of the pass read it.
+    // Declares that these shaders of the pass sample the maps.
     void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const {
         sun.read(pass, stages);
         local.read(pass, stages);
     }
-    // Passes that follow the one that draws `depth`.
+    // Adds passes after the one that draws `depth`.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
         sun.addMarks(passes, inputs, depth);
     }
-    std::uint64_t bytes() const { return sun.bytes() + local.bytes(); }  // of buffers; maps are the list's
-    std::uint64_t imageBytes() const { return sun.imageBytes(); }        // that are not the pass list's
+    std::uint64_t bytes() const {
+        return sun.bytes() + local.bytes();
+    }  // of buffers; maps belong to the
+       // pass list
+    std::uint64_t imageBytes() const {
+        return sun.imageBytes();
+    }  // images that do not belong to the
+       // pass list
     std::vector<std::string> notes() const {
         std::vector<std::string> all = sun.notes();
         all.insert(all.end(), local.notes().begin(), local.notes().end());

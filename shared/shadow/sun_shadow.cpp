@@ -31,10 +31,10 @@ CascadeRequest cascadeRequest(const Settings& settings) {
             .bias = double{settings.shadow_bias}};
 }
 
-// Exponents where none is asked for: below the largest that the formats hold, by a little.
+// Default exponents: slightly below the formats' limits.
 constexpr float exponent32 = 40.0f, exponent16 = 5.5f, negativeExponent = 5.0f;
 
-// Penumbras of --shadows pcss are at most this part of a map wide.
+// Largest width of --shadows pcss penumbras, as a divisor of the map's side.
 constexpr int mapOfWidest = 32;
 
 gpu::uint featureOf(Shadows shadows) {
@@ -57,7 +57,7 @@ gpu::uint featureOf(Shadows shadows) {
     return gpu::SHADOWS_NONE;
 }
 
-// Throws std::runtime_error naming the exponent that the format which the device leaves cannot hold.
+// Throws std::runtime_error naming the exponent if it exceeds the limit of the available format.
 MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
     MomentMaps::Request request{
         .format = momentFormat(settings.shadows, settings.evsm_precision, momentSupport(device)),
@@ -83,13 +83,13 @@ MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
     return request;
 }
 
-// From the filter's middle to a corner, and one texel.
+// From the filter's centre to a corner, plus one texel.
 double reachOf(double width) {
     return width * std::numbers::sqrt2 / 2 + 1;
 }
 
-// Whether some of what is drawn may lie in the view depths that the cascade serves: by its bounding boxes,
-// with room for what float32 rounds.
+// Whether visible geometry may lie in the cascade's view depths, by bounding boxes, with a margin for
+// float32 rounding.
 bool servesSome(const CascadeArea& area, const DrawList& seen) {
     constexpr double room = 1e-5;
     return std::ranges::any_of(seen.items, [&](const DrawItem& item) {
@@ -98,7 +98,7 @@ bool servesSome(const CascadeArea& area, const DrawList& seen) {
     });
 }
 
-// Leaves out the first and the last cascades of which nothing that is seen reads; says so.
+// Removes first and last cascades without visible receivers, and adds a note.
 void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::string>& notes) {
     const auto serves = [&](const CascadeArea& area) { return servesSome(area, seen); };
     const auto first = std::ranges::find_if(cascades.areas, serves);
@@ -111,8 +111,8 @@ void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::s
     cascades.areas = count > 0 ? std::vector(first, end) : std::vector<CascadeArea>{};
 }
 
-// Where a cascade blends into the next, that one's filter reaches farther. `widest`: of the filter in each
-// cascade, texels.
+// Where a cascade blends into the next, the next one's filter is larger in world space. `widest`: filter
+// width in each cascade, texels.
 std::vector<ShadowReach> reachOf(const Cascades& cascades, const std::function<double(double)>& widest) {
     std::vector<ShadowReach> reach;
     for (std::size_t i = 0; i < cascades.areas.size(); ++i) {
@@ -187,7 +187,7 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
     setLight(device, uploader, texels);
 }
 
-// None where nothing casts into any.
+// Leaves maps_ empty without casters.
 void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
                             const Cascades& cascades) {
     const bool all = settings_.shadow_casters == ShadowCasters::all;
@@ -237,9 +237,9 @@ void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const 
         request_.shown->near, request_.shown->far, steps, texel, 100 * varies.near, 100 * varies.far));
 }
 
-// What shading needs beside the cascades.
+// Shading parameters other than the cascades.
 void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, double angle, Device& device) {
-    double penumbra = 0;  // the widest that may be, m
+    double penumbra = 0;  // largest possible, m
     if (hasMoments(settings_.shadows)) {
         moments_ = momentsOf(settings_, device);
         moment_maps_.emplace(device);
@@ -259,7 +259,7 @@ void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, dou
                                          moments_->format.half ? 16 : 32));
     }
     if (filter_ == gpu::SHADOWS_PCSS) {
-        const double disc = std::tan(std::min(angle, 3.14) / 2);  // at pi it would be infinite
+        const double disc = std::tan(std::min(angle, 3.14) / 2);  // limited, because it is infinite at pi
         penumbra = 2 * disc * (cascades.near - cascades.far);
         light.disc = static_cast<float>(disc);
         light.widest = static_cast<float>(request_.kernel);
@@ -295,7 +295,7 @@ void SunShadow::choosePages(const FrameInputs& inputs) {
 
 void SunShadow::specialise(Variant& variant) const {
     if (!casts_) return;
-    // Without a map it is only known what is turned from the sun.
+    // Without maps, shading only darkens surfaces that face away from the sun.
     variant.set(gpu::FEATURE_shadows, any() ? filter_ : gpu::SHADOWS_PCF)
         .set(gpu::FEATURE_shadow_kernel, static_cast<gpu::uint>(settings_.shadow_kernel))
         .set(gpu::FEATURE_shadow_cascades, static_cast<gpu::uint>(maps_.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shadow of the sun on the device: its maps, what is drawn into them, and what shading reads.
+// Shadow of the sun on the GPU: its maps, their passes, and data for shading.
 #pragma once
 
 #include "shared/draw/draw_list.h"
@@ -20,62 +20,62 @@
 
 namespace diptych {
 
-// The light that casts: its number among the directional ones, and the angle of its disc, rad.
+// The casting sun: its index among the directional lights, and the angular diameter of its disc, rad.
 struct CastingSun {
     gpu::uint light = 0;
     double angle = 0;
 };
 
-// Everything that one view of a scene needs for the shadow of its brightest directional light. Where the
-// Settings ask for none, or no light casts, or nothing is there to cast or to be seen, it has no pass.
+// Shadow of one view's sun, the brightest directional light. Adds no pass if shadows are off, or without a
+// casting light, casters or visible geometry.
 class SunShadow {
 public:
-    // `frame`: the sets of SET_FRAME, to which it writes its bindings.
+    // `frame`: SET_FRAME, in which it writes its bindings.
     SunShadow(Device& device, DescriptorSets& frame, const Settings& settings);
     SunShadow(const SunShadow&) = delete;
     SunShadow& operator=(const SunShadow&) = delete;
 
-    // Once, before all that follows: lays the cascades, for which --shadow-fit depth draws what `inputs`
-    // shows of `view`.
+    // Call it once, before the following. Fits the cascades; --shadow-fit depth draws the view's depth for
+    // that.
     void prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
                  const View& view, const std::optional<CastingSun>& sun);
-    // Once `inputs` are complete: chooses the clipmap's pages by what the view shows.
+    // Call it once `inputs` are complete. Assigns the clipmap's pages by visibility.
     void choosePages(const FrameInputs& inputs);
 
     bool any() const { return !maps_.empty() || clipmap_; }
     void specialise(Variant& variant) const;  // shadows, shadow_kernel, shadow_cascades
 
-    // Passes named "shadow maps", before the first that reads them. Binds the maps, which are the list's.
+    // Adds passes named "shadow maps" before the first that samples them, and binds the maps, images of
+    // the list.
     void addPasses(PassList& passes, const FrameInputs& inputs);
-    // Declares that the pass's fragment shaders read the maps.
+    // Declares that shaders of the pass sample the maps.
     void read(Pass& pass, VkPipelineStageFlags2 stages = inFragment) const;
-    // Marks the clipmap's pages that the picture needs, once its depth is drawn.
+    // Marks the clipmap pages that the image needs, after its depth is drawn.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth);
 
-    std::uint64_t bytes() const;  // of buffers; the maps are the pass list's
-    std::uint64_t imageBytes() const {
-        return clipmap_ ? clipmap_->imageBytes() : 0;
-    }  // that are not its own
-    // How far the filter reaches, by view depth.
+    std::uint64_t bytes() const;  // of buffers; the maps belong to the pass list
+    // Images that do not belong to the pass list.
+    std::uint64_t imageBytes() const { return clipmap_ ? clipmap_->imageBytes() : 0; }
+    // Filter radius by view depth.
     const std::vector<ShadowReach>& reach() const { return reach_; }
-    // The same by the clipmap's level that serves.
+    // Filter radius by resident clipmap level.
     const std::vector<ShadowReach>& levelReach() const { return level_reach_; }
     ShadowPages pages() const { return clipmap_ ? clipmap_->counts() : ShadowPages{}; }
     ClipmapShadow* clipmap() { return clipmap_ ? &*clipmap_ : nullptr; }
-    // Of --shadow-fit depth: the view depths that cascades serve.
+    // --shadow-fit depth: view depths that cascades cover.
     const std::optional<DepthRange>& shown() const { return request_.shown; }
-    // That are drawn into each map.
+    // Number of triangles drawn into each map.
     std::vector<std::uint64_t> triangles() const;
-    // In words, for people: which light casts, what was drawn and what was not.
+    // Text for people: the casting light, and which maps are drawn.
     const std::vector<std::string>& notes() const { return notes_; }
-    // What any scene has: the triangles of each map.
+    // Details for every scene: triangles per map.
     const std::vector<std::string>& details() const { return details_; }
 
 private:
     struct Map {
         DrawList casters;
         GpuBuffer draws;
-        VkRect2D read;  // what shading may read of it: nothing else is drawn
+        VkRect2D read;  // area that shading may sample; drawing is limited to it
     };
     void setLight(Device& device, Uploader& uploader, const std::vector<glm::vec4>& texels);
     void addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
@@ -89,14 +89,15 @@ private:
     const Settings settings_;
     CascadeRequest request_;
     gpu::uint filter_;                            // SHADOWS_*
-    std::optional<MomentMaps::Request> moments_;  // of --shadows evsm, evsm4, msm4
+    std::optional<MomentMaps::Request> moments_;  // --shadows evsm, evsm4, msm4
     std::optional<MomentMaps> moment_maps_;
-    std::optional<DepthBounds> depth_bounds_;  // of --shadow-fit depth
-    bool casts_ = false;                       // the sun does: what is turned from it is dark, whatever casts
-    std::vector<Map> maps_;  // one for each cascade that something seen may read; none where nothing casts
+    std::optional<DepthBounds> depth_bounds_;  // --shadow-fit depth
+    bool casts_ = false;                       // the sun casts shadows: surfaces facing away are dark even
+                                               // without casters
+    std::vector<Map> maps_;  // one per cascade that visible receivers may sample; empty without casters
     std::vector<ShadowReach> reach_;
     std::optional<ClipmapShadow> clipmap_;
-    gpu::ShadowLight sun_{};  // of the clipmap
+    gpu::ShadowLight sun_{};  // for the clipmap
     const View* view_ = nullptr;
     Uploader* uploader_ = nullptr;
     std::vector<ShadowReach> level_reach_;
@@ -104,7 +105,7 @@ private:
     GpuBuffer light_;
     OwnedBufferView light_view_;
     OwnedSampler nearest_, linear_;
-    ImageRef image_;  // that shading reads: depth or moments
+    ImageRef image_;  // depth or moments that shading samples
 };
 
 }  // namespace diptych

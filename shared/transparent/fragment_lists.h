@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The buffers that hold the nearest blended fragments of every pixel (shaders/lib/fragment_list.glsl).
+// Buffers of the nearest blended fragments of each pixel (shaders/lib/fragment_list.glsl).
 #pragma once
 
 #include "shared/contract/transparency.h"
@@ -14,28 +14,28 @@ namespace diptych {
 
 class FragmentLists {
 public:
-    // Empty where the Settings ask for none or nothing is blended. A picture that needs larger buffers than a
-    // device binds is made in parts of so many rows that they fit. Throws std::runtime_error where the device
-    // lacks what sorts fragments.
+    // Empty unless --transparency list and there are blended surfaces. If the buffers would exceed the
+    // device's largest binding, they cover only part of the image's rows at a time. Throws
+    // std::runtime_error if the device does not support sorting fragments.
     FragmentLists(Device& device, const DrawList& draws, const Settings& settings);
 
     bool any() const { return layers_ > 0; }
     std::uint32_t layers() const { return layers_; }
-    std::uint32_t rows() const { return rows_; }  // of the picture that the buffers hold at a time
+    std::uint32_t rows() const { return rows_; }  // rows of the image that the buffers cover at a time
     std::uint64_t bytes() const { return any() ? keys_.size() + fragments_.size() : 0; }
 
     void bind(DescriptorSets& sets) const;
-    // A pass that empties the lists; with `counters` also what they have counted so far.
+    // Adds a pass that clears the lists; `counters`: also their counters.
     void addClear(PassList& passes, bool counters) const;
-    // Declares that a pass's fragment shaders read and write them.
+    // Declares that fragment shaders of the pass read and write the lists.
     void use(PassList& passes, Pass& pass) const;
 
-    // Of the last picture: fragments that found no room, and the pixels that have some. Waits.
+    // Counts of the last image: fragments that overflowed, and pixels with blended fragments. Waits.
     struct Overflow {
         std::uint64_t fragments = 0, pixels = 0;
     };
     Overflow overflow() const;
-    // For tests: [layers][pixels] keys and fragments of the part that was drawn last. Waits.
+    // For tests: [layers][pixels] keys and fragments of the rows drawn last. Waits.
     struct Contents {
         std::vector<std::uint64_t> keys;
         std::vector<glm::vec4> fragments;

@@ -25,9 +25,9 @@ namespace diptych {
 namespace {
 
 constexpr VkFormat depthsFormat = VK_FORMAT_R32_SFLOAT, sumsFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr const char* name = "transparent";  // of every pass: their times are one
+constexpr const char* name = "transparent";  // of all passes, so that they are timed together
 
-// What the shading of blended surfaces reads, whatever it draws to.
+// Declares what shading of blended surfaces reads.
 Pass& shades(Pass& pass, PassList& passes, const FrameInputs& inputs) {
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
@@ -48,7 +48,7 @@ ImageRef addImage(PassList& passes, const char* image, VkFormat format) {
     return passes.image({.name = image, .format = format, .life = Life::transient});
 }
 
-// What earlier passes of the same picture have left, which the pass's fragment shaders read.
+// Image of an earlier pass that fragment shaders of the pass read.
 struct ReadImage {
     gpu::uint binding;
     ImageRef image;
@@ -69,8 +69,8 @@ void addOver(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
         .record(recordBlended(inputs, [&](const DrawItem& item) { return blendedKey(inputs, item); }));
 }
 
-// Sums of all layers, then their mean over the picture. With `moments` the sums are weighted by moments that
-// a pass before has drawn.
+// Draws sums over all layers, then composites their mean over the image. With `moments`, an earlier pass
+// draws moments that weight the sums.
 void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit, bool moments) {
     const ImageRef depths = addImage(passes, "optical depth", depthsFormat);
     ImageRef powers{};
@@ -122,8 +122,8 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
                          inputs.blended));
 }
 
-// The nearest fragments of each pixel, found by their depths, then shaded, then put together: a part of the
-// picture's rows at a time.
+// Finds the nearest fragments of each pixel by depth, shades them, and composites them, for part of the
+// image's rows at a time.
 void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
     const FragmentLists& lists = *inputs.fragments;
     const auto bound = std::make_shared<DescriptorSets>(blendedSet(inputs));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is blended over the opaque picture: one pass of both paths.
+// Blending of transparent surfaces over the opaque image, shared by both paths.
 #pragma once
 
 #include "shared/draw/captures.h"
@@ -9,21 +9,21 @@
 
 namespace diptych {
 
-// Distances between which the view's blended surfaces lie, m, none nearer than its near plane; both 1 where
-// there are none.
+// Range of view distances of the blended surfaces, m, not nearer than the near plane; both 1 without such
+// surfaces.
 gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view);
 
-// Throws std::runtime_error where blended surfaces are lit by longer lists than one draw walks: fragments
-// that are blended have no sums that a second draw could go on from.
+// Throws std::runtime_error if the light lists of blended surfaces are too long for one draw: blended
+// fragments have no partial sums that a second draw could continue.
 void checkLightsOfBlended(const FrameInputs& inputs);
 
-// Blends the view's blended draws over `lit`, which holds the opaque surfaces and the background, where
-// nothing opaque is in front of them: `depth`, which stays as it is. Adds no pass where there are none.
+// Draws blended surfaces over `lit`, which contains opaque surfaces and the background. Tests against
+// `depth` without writing it. Adds no pass without blended surfaces.
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);
 
-// The same over the lit of the capture that is the list's last pass, where it has one: `images`' last ones,
-// which are put in the order in which they are ready. Other channels are those of the opaque surfaces; lit is
-// among them once more, before_blending, of the same image at an earlier pass.
+// The same for the lit of a capture that is the list's last pass. `images`: those of that pass are sorted
+// by the pass that completes them. Other channels remain those of opaque surfaces. lit occurs twice: the
+// earlier one is marked before_blending.
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                            std::vector<CapturedImage>& images);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ways in which a pass may use an image or a buffer, as Vulkan sees them: stages, accesses and layout of
-// synchronization2, and the usage flag that a resource needs for it. Barriers follow from these alone.
+// How a pass uses an image or a buffer: stages, accesses and layout of synchronization2. Barriers are
+// derived from these alone.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -12,12 +12,12 @@ namespace diptych {
 struct Access {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // of an image; buffers have none
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // for images; buffers have none
 
     bool operator==(const Access&) const = default;
 };
 
-// Every access that writes memory; all others read.
+// All accesses that write memory; the others read.
 constexpr VkAccessFlags2 writeAccesses =
     VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
@@ -27,7 +27,7 @@ constexpr bool writes(const Access& access) {
     return (access.access & writeAccesses) != 0;
 }
 
-// Where shaders run, for the accesses below.
+// Shader stages for the accesses below.
 constexpr VkPipelineStageFlags2 inVertex = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
                                 inFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                                 inCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -45,10 +45,10 @@ constexpr Access depthAttachment{
     depthStages,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
-// Tested and not written; the same pass may sample it.
+// Tested without writes; the same pass may sample it.
 constexpr Access depthTest{depthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                            VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
-// The target of a resolve of depth: written in the colour output stage (Vulkan 1.3, 8.5.1), whatever its
+// Target of a depth resolve: written in the colour output stage (Vulkan 1.3, 8.5.1) despite its depth
 // format.
 constexpr Access resolvedDepth{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,

@@ -10,11 +10,11 @@ namespace diptych {
 
 namespace {
 
-// The shader accesses that SHADER_READ stands for.
+// Shader accesses included in SHADER_READ.
 constexpr VkAccessFlags2 shaderReads =
     VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT;
 
-// All that an access mask covers.
+// All accesses that a mask includes.
 VkAccessFlags2 expanded(VkAccessFlags2 access) {
     if ((access & VK_ACCESS_2_MEMORY_READ_BIT) != 0) return ~writeAccesses;
     return (access & VK_ACCESS_2_SHADER_READ_BIT) != 0 ? access | shaderReads : access;
@@ -59,7 +59,7 @@ bool BarrierTracker::sees(const State& state, const Access& access) {
     });
 }
 
-// Returns whether the use needs a barrier, from `from` on.
+// Returns whether the use needs a barrier; sets its source scope `from`.
 bool BarrierTracker::advance(State& state, const Use& use, Access& from) {
     const Access& to = use.access;
     const bool layoutChanges = to.layout != state.layout && to.layout != VK_IMAGE_LAYOUT_UNDEFINED;
@@ -72,13 +72,13 @@ bool BarrierTracker::advance(State& state, const Use& use, Access& from) {
     }
     from = {state.write_stages | state.read_stages, state.write_access,
             use.discards ? VK_IMAGE_LAYOUT_UNDEFINED : state.layout};
-    // What a pass writes is visible to nobody yet, not even to the reads of its own shaders. Readers of what
-    // a change of layout left wait for that change, which ends before the stages of this use.
+    // A write is not visible to any access yet, not even to reads in its own shaders. Later readers wait
+    // for a layout transition, which completes before the stages of this use.
     if (writes(to))
         state = {to.layout, to.stages, to.access & writeAccesses, 0, {}};
     else
         state = {to.layout, to.stages, 0, to.stages, {to}};
-    return layoutChanges || from.stages != 0;  // the first write of a buffer waits for nothing
+    return layoutChanges || from.stages != 0;  // a buffer's first write waits for nothing
 }
 
 std::vector<Barrier> BarrierTracker::before(const std::string& pass, const std::vector<Use>& uses) {
@@ -112,7 +112,7 @@ std::vector<Barrier> BarrierTracker::before(const std::string& pass, const std::
                 fmt::format("pass {}: {} has no such level or layer", pass, resource.name));
         const std::size_t begin = barriers.size();
         for (std::uint32_t layer = use.part.layer; layer < use.part.layer + use.part.layers; ++layer) {
-            std::vector<Barrier> runs;  // of levels of this layer that come from one state
+            std::vector<Barrier> runs;  // of levels in this layer with the same source state
             for (std::uint32_t level = use.part.level; level < use.part.level + use.part.levels; ++level) {
                 Access from;
                 if (!advance(resource.states[std::size_t{layer} * resource.levels + level], use, from))

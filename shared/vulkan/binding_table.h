@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The binding tables of shared/contract as Vulkan's descriptor types.
+// Binding tables of shared/contract as Vulkan descriptor types.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-// The descriptor types by their names in the binding tables of shared/contract.
+// Descriptor types by their names in those tables.
 namespace binding_kind {
 inline constexpr VkDescriptorType uniform_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                                   storage_buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
@@ -20,7 +20,6 @@ inline constexpr VkDescriptorType uniform_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_BU
                                   storage_image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }  // namespace binding_kind
 
-// One row of a binding table.
 struct BindingRow {
     std::uint32_t number;
     const char* name;
@@ -29,7 +28,7 @@ struct BindingRow {
 #define DIPTYCH_BINDING_ROW(number, name, kind, what) \
     ::diptych::BindingRow{number, #name, ::diptych::binding_kind::kind},
 
-// The types of a table, indexed by binding. Does not compile where a number is not the row's place.
+// Descriptor types indexed by binding. Fails to compile if a number is not its row's index.
 template <std::size_t n>
 consteval std::array<VkDescriptorType, n> bindingTypes(const BindingRow (&rows)[n]) {
     std::array<VkDescriptorType, n> types{};

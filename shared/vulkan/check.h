@@ -8,7 +8,7 @@
 
 namespace diptych {
 
-// Throws std::runtime_error "Vulkan: WHAT: the reason; what helps" on an error code.
+// On an error code, throws std::runtime_error "Vulkan: WHAT: reason; advice".
 void checkResult(VkResult result, std::string_view what);
 std::string nameOf(VkResult result);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command buffers, the queries that they write, and their way to the queue.
+// Command buffers, query pools and queue submits.
 #pragma once
 
 #include "shared/vulkan/owned.h"
@@ -10,15 +10,14 @@
 namespace diptych {
 
 OwnedCommandPool makeCommandPool(VkDevice device, std::uint32_t family);
-VkCommandBuffer allocateCommands(VkDevice device, VkCommandPool pool);  // dies with its pool
+VkCommandBuffer allocateCommands(VkDevice device, VkCommandPool pool);  // freed with its pool
 OwnedFence makeFence(VkDevice device);                                  // unsignaled
 
-// `statistics`: of pipeline statistics, VkQueryPipelineStatisticFlagBits. Its queries must be reset before
-// they are used.
+// `statistics`: VkQueryPipelineStatisticFlagBits of pipeline statistics. Queries must be reset before use.
 OwnedQueryPool makeQueryPool(VkDevice device, VkQueryType type, std::uint32_t count,
                              VkQueryPipelineStatisticFlags statistics = 0);
 
-// Between begin and end, to be submitted once.
+// Records between begin and end, for one submit.
 void recordCommands(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record);
 VkResult submitCommands(VkQueue queue, VkCommandBuffer commands, VkFence fence);
 

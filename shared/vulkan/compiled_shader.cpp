@@ -8,7 +8,7 @@ namespace diptych {
 
 namespace {
 
-// Mesa, src/amd/vulkan/radv_shader.c and src/amd/compiler/aco_statistics.cpp.
+// Names from Mesa, src/amd/vulkan/radv_shader.c and src/amd/compiler/aco_statistics.cpp.
 constexpr ShaderCostRow costRows[] = {
     {"vgprs", "VGPRs", &ShaderCost::vector_registers, "VGPRs", true},
     {"sgprs", "SGPRs", &ShaderCost::scalar_registers, "SGPRs", true},

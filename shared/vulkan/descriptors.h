@@ -20,7 +20,7 @@ OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescrip
 OwnedPipelineLayout makePipelineLayout(VkDevice device, std::span<const VkDescriptorSetLayout> sets,
                                        const std::optional<VkPushConstantRange>& constants = {});
 
-// Sets of one layout from one pool; they live as long as it.
+// Descriptor sets of one layout from one pool, which they share ownership with.
 class DescriptorSets {
 public:
     DescriptorSets() = default;

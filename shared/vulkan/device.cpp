@@ -77,7 +77,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.compiler = options.compiler;
     if (s.compiler != nullptr) s.support.limitTo(s.compiler->limits());
     const bool likeGpu = s.compiler != nullptr && !profileOf(s.compiler->info(), 0).software;
-    const std::uint32_t family = s.support.graphicsFamily().value();  // chooseDevice saw to it
+    const std::uint32_t family = s.support.graphicsFamily().value();  // chooseDevice requires one
     s.profile = profileOf(s.info, s.support.timestampBits(), likeGpu ? ProfileChoices::gpu : options.choices);
     if (!s.support.has(DeviceFeature::drawIndirectFirstInstance)) s.profile.culls_by_compute = false;
     s.device.reset(createDevice(s.support));
@@ -155,7 +155,7 @@ double Device::submit(const std::function<void(VkCommandBuffer)>& record, const 
     const VkFence fence = s.fence;
     if (result == VK_SUCCESS) {
         result = vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX);
-        // What may still run must not outlive what it works on, which the exception takes down.
+        // The exception destroys resources that work in flight may still use.
         if (result != VK_SUCCESS) vkDeviceWaitIdle(s.device.get());
     }
     checkResult(result, what.empty() ? "work on the device" : "running " + what);

@@ -44,9 +44,9 @@ double numberOf(const VkPipelineExecutableStatisticKHR& statistic) {
     }
 }
 
-// RADV's name for a device of RADV_FORCE_FAMILY.
+// RADV's device name with RADV_FORCE_FAMILY.
 constexpr std::string_view nullHardware = "Null hardware";
-// A family that RADV has known since it compiles without hardware.
+// Known to every RADV that compiles without hardware.
 constexpr const char* oldestFamily = "vega10";
 
 }  // namespace
@@ -64,7 +64,7 @@ struct DeviceCompiler::State {
     std::unique_ptr<VkDevice, CompilerDeviceDeleter> device;
     PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
-    // By the handles of the device that draws; there, a handle may be another layout later.
+    // Keyed by handles of the drawing device, which may be reused for other layouts.
     std::map<VkDescriptorSetLayout, OwnedDescriptorSetLayout> sets;
     std::map<VkPipelineLayout, OwnedPipelineLayout> layouts;
     std::string pass;
@@ -86,7 +86,7 @@ struct DeviceCompiler::State {
                 .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR};
     }
     void open(const DeviceInfo& chosen, const std::string& choice);
-    void tryPipelines() const;  // a draw and a dispatch that need no descriptors
+    void tryPipelines() const;  // a draw and a dispatch without descriptors
     std::vector<CompiledShader> shadersOf(VkPipeline pipeline,
                                           std::span<const ShaderModule* const> modules) const;
     CompiledPipeline compile(const PipelineRequest& request) const;
@@ -136,7 +136,7 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
             fmt::format("--compile-on {}: no such device; there are {}. RADV can compile for AMD GPUs that "
                         "are not present: install mesa-vulkan-drivers (Debian 13: Mesa 25)",
                         choice, listOf(infos)));
-    std::string family = choice;  // RADV writes them in small letters
+    std::string family = choice;  // RADV uses lower-case names
     for (char& c : family) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto inFamily = [&](const char* name) {
         return EnvironmentVariables(
@@ -148,7 +148,7 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
         throw std::runtime_error(fmt::format("--compile-on {}: RADV ({}) does not list such a GPU", choice,
                                              fmt::join(files, ", ")));
     };
-    // RADV ends the process where it does not know the family.
+    // RADV ends the process for an unknown family.
     const DriverTrial trial = tryInChild([&] {
         const EnvironmentVariables forced = inFamily(family.c_str());
         openFamily();
@@ -167,7 +167,7 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
                         "navi31, gfx1201 and others",
                         choice, listOf(infos), known.crashed ? "RADV" : known.said));
     }
-    const QuietStandardError quiet;  // RADV remarks on the hardware that it does not find
+    const QuietStandardError quiet;  // RADV prints that hardware is missing
     const EnvironmentVariables forced = inFamily(family.c_str());
     openFamily();
 }
@@ -221,7 +221,7 @@ std::vector<CompiledPipeline> DeviceCompiler::compile(std::span<const PipelineRe
     return compiled;
 }
 
-// The first attachment that the device cannot draw to; empty: it can draw to all.
+// Error text of the first unsupported attachment; empty if all are supported.
 std::string DeviceCompiler::State::lackedFormats(const PipelineKey& key) const {
     const auto draws = [&](VkFormat format, VkImageUsageFlags usage) {
         return (support.sampleCounts(format, usage) & key.samples) != 0;
@@ -250,7 +250,7 @@ std::vector<CompiledShader> DeviceCompiler::State::shadersOf(
     std::vector<CompiledShader> shaders;
     for (std::uint32_t i = 0; i < count; ++i) {
         CompiledShader shader;
-        // A fragment shader is the last of a draw's modules; what else there is comes from the first.
+        // The fragment shader is the last module of a draw; other executables belong to the first.
         const bool last = (executables[i].stages & VK_SHADER_STAGE_FRAGMENT_BIT) != 0;
         shader.name = (last ? modules.back() : modules.front())->name;
         shader.subgroup_size = executables[i].subgroupSize;
@@ -276,7 +276,7 @@ CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) 
     const PipelineSite site = this->site(layouts.at(request.layout));
     try {
         if (request.kernel != nullptr) {
-            // RADV divides by zero where not one workgroup fits.
+            // RADV divides by zero if not even one workgroup fits.
             const SpecializationValue value = valueOf(request.kernel_variant);
             const std::uint64_t shared = sharedBytes(specialized(request.kernel->words, value));
             if (shared > support.limits().maxComputeSharedMemorySize) {

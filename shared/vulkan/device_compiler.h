@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles the pipelines that another device makes, by a GPU's own compiler. That needs instance, device,
-// layouts and modules alone: RADV without hardware has those, but no memory, image, fence or command buffer.
+// Compiles another device's pipelines with a GPU's own compiler. It needs only instance, device, layouts
+// and modules. RADV without hardware supports those, but no memory, images, fences or command buffers.
 #pragma once
 
 #include "shared/vulkan/compiled_shader.h"
@@ -15,18 +15,18 @@
 
 namespace diptych {
 
-// A pipeline as a pass has asked for it.
+// A pipeline requested by a pass.
 struct PipelineRequest {
-    std::string pass{};                        // declared last when it was asked for
-    VkPipelineLayout layout = VK_NULL_HANDLE;  // of the device that draws
+    std::string pass{};                        // the last declared pass
+    VkPipelineLayout layout = VK_NULL_HANDLE;  // of the drawing device
     PipelineKey key{};                         // of a draw
     ChooseParts choose{};
-    const ShaderModule* kernel = nullptr;  // of a dispatch; nullptr: it is a draw
+    const ShaderModule* kernel = nullptr;  // of a dispatch; nullptr for a draw
     Variant kernel_variant{};
 
     const Variant& variant() const { return kernel != nullptr ? kernel_variant : key.variant; }
     Variant& variant() { return kernel != nullptr ? kernel_variant : key.variant; }
-    // The file of the shader that it is called by: the kernel, the fragment shader, or of depth alone the
+    // File name of its main shader: the compute shader, the fragment shader, or for depth passes the
     // vertex shader.
     std::string name() const;
     bool operator==(const PipelineRequest& other) const {
@@ -36,17 +36,17 @@ struct PipelineRequest {
 };
 
 struct CompiledPipeline {
-    std::vector<CompiledShader> shaders;  // none: it did not compile
-    std::string error;                    // why not, or what it asks for that the device does not have
+    std::vector<CompiledShader> shaders;  // empty if compilation failed
+    std::string error;                    // reason of the failure, or what the device does not support
 };
 
-// `Device` with DeviceOptions::compiler makes the choices of this compiler's device and tells it of layouts,
-// passes and pipelines.
+// A `Device` with DeviceOptions::compiler makes choices as for this compiler's device and reports its
+// layouts, passes and pipelines to it.
 class DeviceCompiler final : public PipelineCompiler {
 public:
-    // An index of listDevices(), part of a device's name, or a family of AMD GPUs as RADV calls it
-    // ("navi31"), which RADV of Mesa compiles for without one. Throws std::runtime_error naming --compile-on
-    // and what lacks.
+    // `choice`: an index of listDevices(), part of a device's name, or RADV's name of an AMD GPU family
+    // ("navi31"), which RADV can compile for without hardware. Throws std::runtime_error naming
+    // --compile-on and the reason.
     explicit DeviceCompiler(const std::string& choice);
     ~DeviceCompiler() override;
 
@@ -60,9 +60,9 @@ public:
     void ask(VkPipelineLayout layout, const PipelineKey& key, const ChooseParts& choose) override;
     void ask(VkPipelineLayout layout, const ShaderModule& kernel, const Variant& variant) override;
 
-    // Those asked for since the last call, each once, in order.
+    // Distinct requests since the last call, in order.
     std::vector<PipelineRequest> takeRequests();
-    // On all cores.
+    // Uses all cores.
     std::vector<CompiledPipeline> compile(std::span<const PipelineRequest> requests) const;
 
 private:

@@ -6,7 +6,7 @@
 
 namespace diptych {
 
-// One thing that a device can or cannot do here.
+// One capability of a device.
 struct DeviceFact {
     std::string what;
     bool there = false;
@@ -21,7 +21,7 @@ struct DeviceInfo {
     std::string api_version;   // "1.3.230"
     std::vector<DeviceFact> facts;
 
-    bool usable() const;  // every required fact is there
+    bool usable() const;  // all required capabilities are supported
 };
 
 }  // namespace diptych

@@ -8,7 +8,7 @@ namespace diptych {
 DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, ProfileChoices choices) {
     const bool software = info.type == "cpu";
     const bool asSoftware = software && choices != ProfileChoices::gpu;
-    // Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
+    // Measured on lavapipe with two cores. A GPU is assumed to be about 100 times as fast.
     constexpr DeviceCosts lavapipe{.draw = 7'000,
                                    .triangle = 65,
                                    .depth = 1,
@@ -32,7 +32,8 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             .time_stamps = !software && timestampBits > 0,
             .gathers_uniforms = asSoftware,
             .wide_groups = !asSoftware,
-            // Measured: a loop with 16 two-sided branches takes 0.02 s, one with 32 does not end in 10 s.
+            // Measured: a loop with 16 two-sided branches takes 0.02 s; one with 32 does not finish in 10
+            // s.
             .flattens_branches =
                 info.driver.starts_with("SwiftShader") || choices == ProfileChoices::flattening_branches,
             .packets_per_draw = asSoftware ? 65'000u : 1u << 20,

@@ -12,11 +12,10 @@ namespace diptych {
 
 namespace {
 
-// One row of DEVICE_FORMATS.
 struct FormatRow {
     VkFormat format;
     const char* name;
-    std::uint32_t uses, left;  // that this program makes of it; those of them that Vulkan does not promise
+    std::uint32_t uses, left;  // uses by this program; those that Vulkan does not guarantee
     const char* helps;
 };
 
@@ -36,7 +35,7 @@ std::optional<std::size_t> rowOf(VkFormat format) {
     return static_cast<std::size_t>(found - rows.begin());
 }
 
-// In words: a format that lacks these uses cannot be ...
+// Text for: a format that lacks these uses cannot be ...
 std::string wordsOf(std::uint32_t uses) {
     std::string words;
     const auto add = [&](std::uint32_t use, const char* word) {
@@ -84,7 +83,7 @@ DeviceSupport::DeviceSupport(VkPhysicalDevice device) : device_(device) {
     all.pNext = &driver;
     driver.pNext = &subgroups_;
     vkGetPhysicalDeviceProperties(device, &properties_);
-    // Structs and formats of Vulkan 1.3 mean nothing to an older device, which is not usable.
+    // Structs and formats of Vulkan 1.3 are unknown to older devices, which are not usable.
     const bool known = properties_.apiVersion >= VK_API_VERSION_1_3;
     if (known) subgroups_.pNext = &buffers;
     vkGetPhysicalDeviceProperties2(device, &all);
@@ -219,7 +218,8 @@ std::vector<VkDeviceSize> DeviceSupport::bytesLeft() const {
 }
 
 std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<const std::uint32_t> words) {
-    // SPIR-V 1.6, "Capability"; those without a feature are Vulkan 1.3's own, or asked of subgroups.
+    // SPIR-V 1.6, "Capability". Capabilities without a feature are part of Vulkan 1.3 or covered by
+    // subgroup queries.
     struct Capability {
         std::uint32_t number;
         std::optional<DeviceFeature> feature;
@@ -237,7 +237,7 @@ std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<
         Capability{50, {}},                 // ImageQuery
         Capability{51, {}},                 // DerivativeControl
         Capability{52, sampleRateShading},  // InterpolationFunction
-        Capability{56, {}},  // StorageImageWriteWithoutFormat: by format, format_use::stored_unnamed
+        Capability{56, {}},  // StorageImageWriteWithoutFormat: per format, format_use::stored_unnamed
         Capability{61, {}},
         Capability{63, {}},
         Capability{64, {}},  // GroupNonUniform, -Arithmetic, -Ballot

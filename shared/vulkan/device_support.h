@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Everything optional in Vulkan that this program uses: features, formats by their use, limits, extensions.
-// Each is a row of a table here and is asked once, by DeviceSupport: nobody else asks Vulkan
-// (unit.Conventions). tool.HiddenSupport hides row by row from the program (tests/tool/layer).
+// All optional parts of Vulkan that this program uses: features, format uses, limits, extensions. Each is
+// a row of a table here. DeviceSupport queries it once; no other code queries Vulkan (unit.Conventions).
+// tool.HiddenSupport masks each row (tests/tool/layer).
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -17,8 +17,8 @@
 
 namespace diptych {
 
-// version  feature  need  what it is
-//   need   required: a device without it is not usable; optional: switched on where it is there
+// version  feature  need  description
+//   need   required: the device is not usable without it; optional: enabled if supported
 // clang-format off
 #define DEVICE_FEATURES(X)                                                                      \
     X(v13, dynamicRendering,               required, "dynamic rendering")                       \
@@ -42,7 +42,7 @@ namespace diptych {
     X(v12, shaderBufferInt64Atomics,       optional, "64-bit buffer atomics")                   \
     X(v12, shaderFloat16,                  optional, "16-bit floats in shaders")
 
-// use  of an image or a buffer  the bit that Vulkan tells it by  what a format without it cannot be
+// use  of an image or a buffer  Vulkan feature bit  text: "a format without it cannot be ..."
 #define DEVICE_FORMAT_USES(X)                                                                          \
     X(sampled,        optimalTilingFeatures, SAMPLED_IMAGE_BIT,               "sampled in shaders")    \
     X(filtered,       optimalTilingFeatures, SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filtered linearly")     \
@@ -55,9 +55,9 @@ namespace diptych {
     X(texels,         bufferFeatures,        UNIFORM_TEXEL_BUFFER_BIT,        "used as a texel buffer") \
     X(vertices,       bufferFeatures,        VERTEX_BUFFER_BIT,               "used as a vertex attribute")
 
-// format  uses that Vulkan promises  uses that it leaves to the device  what helps where one of these lacks
-//   Uses that this program makes of it. Vulkan 1.3, "Required Format Support". `multisampled`: drawn to with
-//   4 samples a pixel, and read; promised of floats and depths.
+// format  guaranteed uses  optional uses  advice if one is missing
+//   Uses are those of this program. Guarantees: Vulkan 1.3, "Required Format Support". `multisampled`: an
+//   attachment with 4 samples per pixel that shaders read; guaranteed for floats and depth.
 #define DEVICE_FORMATS(X)                                                                             \
     X(R8G8B8A8_UNORM,           sampled | filtered | drawn, 0, "")                                    \
     X(R8G8B8A8_SRGB,            sampled | filtered, 0, "")                                            \
@@ -84,7 +84,7 @@ namespace diptych {
     X(X8_D24_UNORM_PACK32,      0, sampled | depth, "use --depth-format d32f")                        \
     X(D32_SFLOAT,               sampled | multisampled, depth, "")
 
-// limit  the least that a device may have  what this program must have, from physical_device.cpp; 0: any
+// limit  Vulkan's minimum  minimum for this program, from physical_device.cpp; 0: any  description
 #define DEVICE_LIMITS(X)                                                                                \
     X(maxImageDimension2D, 4096, 0, "")                                                                 \
     X(maxImageArrayLayers, 256, 0, "")                                                                  \
@@ -116,12 +116,12 @@ namespace diptych {
     X(maxDrawIndirectCount, 1, 0, "")                                                                   \
     X(standardSampleLocations, 0, 0, "")
 
-// extension  what it tells
+// extension  description
 #define DEVICE_EXTENSIONS(X)                                                                            \
     X(VK_EXT_memory_budget, "memory budgets")
 // clang-format on
 
-// A use of a format, or several, of DEVICE_FORMAT_USES.
+// Uses of a format, a sum of DEVICE_FORMAT_USES.
 namespace format_use {
 enum : std::uint32_t {
 #define DIPTYCH_FORMAT_USE(name, ...) name##_index,
@@ -143,7 +143,7 @@ enum class DeviceFeature {
 #undef DIPTYCH_DEVICE_FEATURE
 };
 
-// The name in Vulkan without VK_FORMAT_; "format 78" for one that is in no row.
+// Vulkan's name without VK_FORMAT_; "format 78" for formats without a row.
 std::string nameOf(VkFormat format);
 
 class DeviceSupport {
@@ -154,47 +154,47 @@ public:
     VkPhysicalDevice handle() const { return device_; }
     const VkPhysicalDeviceProperties& properties() const { return properties_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
-    // Makes the limits that choices depend on no larger than another device's.
+    // Reduces the limits that choices depend on to those of another device.
     void limitTo(const VkPhysicalDeviceLimits& other);
     VkDeviceSize mostBytesOfBuffer() const { return most_bytes_of_buffer_; }
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
-    // Driver's name and version.
+    // Name and version of the driver.
     const std::string& driver() const { return driver_; }
-    // The first queue family that draws and computes; the bits of its time stamps, 0: it has none.
+    // First queue family with graphics and compute; valid bits of its time stamps, 0: no time stamps.
     std::optional<std::uint32_t> graphicsFamily() const { return graphics_family_; }
     std::uint32_t timestampBits() const { return timestamp_bits_; }
 
     bool has(DeviceFeature feature) const { return features_.at(static_cast<std::size_t>(feature)); }
     bool hasExtension(std::string_view name) const;
-    // Operations on subgroups in all of these stages.
+    // Whether all these stages support the subgroup operations.
     bool hasSubgroups(VkShaderStageFlags stages, VkSubgroupFeatureFlags operations) const {
         return (subgroups_.supportedStages & stages) == stages &&
                (subgroups_.supportedOperations & operations) == operations;
     }
-    // Fragment shaders may use 64-bit atomics on buffers and the number of their triangle.
+    // Whether fragment shaders support 64-bit buffer atomics, stores, and the triangle's index.
     bool sortsFragments() const;
-    // Fragment shaders may store to a sample of an image.
+    // Whether fragment shaders can store to samples of an image.
     bool storesSamples() const;
-    // Told of and never used: bindless textures, several views at once, anisotropy.
+    // Reported only: bindless textures, multiview, anisotropy.
     bool hasDescriptorIndexing() const { return descriptor_indexing_; }
     bool hasMultiview() const { return multiview_; }
     bool hasAnisotropy() const { return anisotropy_; }
 
-    // Whether a format has all of these uses, a sum of format_use. Throws std::logic_error where
-    // DEVICE_FORMATS does not list one of them: a use that is in no row would be hidden by no test.
+    // Whether a format supports all of these uses, a sum of format_use. Throws std::logic_error if
+    // DEVICE_FORMATS does not list one of them, because tests could not mask it.
     bool can(VkFormat format, std::uint32_t uses) const;
-    // In words, the lacking use and a remedy; nothing where the format has them all.
+    // Text of the missing use and advice; nothing if all uses are supported.
     std::optional<std::string> lacks(VkFormat format, std::uint32_t uses) const;
-    // Limits of images of a format and usage: extent, levels, layers, samples; all 0: there are none.
+    // Limits for images of a format and usage: extent, levels, layers, samples; all 0 if unsupported.
     VkImageFormatProperties images(VkFormat format, VkImageUsageFlags usage) const;
-    // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
+    // Supported sample counts for a format and usage, a sum of VkSampleCountFlagBits; 0 if unsupported.
     VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
         return images(format, usage).sampleCounts;
     }
-    // The largest side of an image that is drawn to.
+    // Largest side of an image that is drawn to.
     std::uint32_t mostPixels() const;
 
-    // Bytes that are left in each heap now; empty where the device does not say.
+    // Free bytes of each heap; empty if the device does not report it.
     std::vector<VkDeviceSize> bytesLeft() const;
 
 private:
@@ -211,13 +211,13 @@ private:
     std::uint32_t timestamp_bits_ = 0;
 #define DIPTYCH_ONE(...) +1
     std::array<bool, 0 DEVICE_FEATURES(DIPTYCH_ONE)> features_{};
-    std::array<std::uint32_t, 0 DEVICE_FORMATS(DIPTYCH_ONE)> formats_{};  // uses that are there, by row
+    std::array<std::uint32_t, 0 DEVICE_FORMATS(DIPTYCH_ONE)> formats_{};  // supported uses, by row
 #undef DIPTYCH_ONE
     std::vector<std::string> extensions_;
     bool descriptor_indexing_ = false, multiview_ = false, anisotropy_ = false;
 };
 
-// The structs of features that DEVICE_FEATURES names, chained from v10.
+// Feature structs that DEVICE_FEATURES names, chained from v10.
 struct FeatureChain {
     VkPhysicalDeviceVulkan13Features v13{};
     VkPhysicalDeviceVulkan12Features v12{};
@@ -230,8 +230,8 @@ struct FeatureChain {
     FeatureChain& operator=(const FeatureChain&) = delete;
 };
 
-// Why a module cannot be given to the device: the feature that lacks, by what its capabilities ask for;
-// nothing where it can. Throws std::logic_error for a capability that no row of DEVICE_FEATURES stands for.
+// Name of the feature that a module's capabilities need and the device lacks; nothing if it supports the
+// module. Throws std::logic_error for a capability without a row in DEVICE_FEATURES.
 std::optional<std::string> moduleProblem(const DeviceSupport& device, std::span<const std::uint32_t> words);
 
 }  // namespace diptych

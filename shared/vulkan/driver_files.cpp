@@ -30,7 +30,7 @@ std::optional<std::string> driverFilesFault() {
 void avoidCacheOnFullDisk() {
     constexpr std::uintmax_t least = 4 << 20;
     std::filesystem::path folder;
-    // As Mesa looks for it (disk_cache_os.c).
+    // Same search order as Mesa (disk_cache_os.c).
     for (const auto& [variable, below] :
          {std::pair{"MESA_SHADER_CACHE_DIR", ""}, {"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
         if (const char* const value = std::getenv(variable); folder.empty() && value && *value)

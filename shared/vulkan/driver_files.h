@@ -6,14 +6,13 @@
 
 namespace diptych {
 
-// Where the environment narrows the Vulkan loader down to certain driver files (VK_DRIVER_FILES, or
-// VK_ICD_FILENAMES as it was called before), and there is no device: which of them is missing, and what to
-// do. Empty where neither is set.
+// If the environment restricts the Vulkan loader to certain driver files (VK_DRIVER_FILES, or formerly
+// VK_ICD_FILENAMES) and there is no device: the missing file and advice. Empty if neither is set.
 std::optional<std::string> driverFilesFault();
 
-// Has Mesa's drivers do without their shader cache where its disk is full: they map its index, a hole of
-// 1.3 MB, and the first page that finds no room ends the process by SIGBUS (22.3). Before the instance is
-// made.
+// Disables the shader cache of Mesa's drivers if its disk is full. They map its index, a sparse file of
+// 1.3 MB, and the first page that cannot be written kills the process with SIGBUS (Mesa 22.3). Call before
+// creating the instance.
 void avoidCacheOnFullDisk();
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drivers that are opened by other variables of the environment than the user's, and may end the process.
+// Tests drivers in a modified environment and a child process, because they may crash.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// Sets variables of the environment, and sets them back. While no other thread reads it.
+// Sets environment variables and restores them. Not thread-safe.
 class EnvironmentVariables {
 public:
     explicit EnvironmentVariables(const std::vector<std::pair<std::string, std::string>>& values);
@@ -22,7 +22,7 @@ private:
     std::vector<std::pair<std::string, std::optional<std::string>>> before_;
 };
 
-// Discards everything written to standard error while it lives.
+// Discards everything written to standard error during its lifetime.
 class QuietStandardError {
 public:
     QuietStandardError();
@@ -35,13 +35,13 @@ private:
 };
 
 struct DriverTrial {
-    bool crashed = false;  // the child ended before `act` did
-    std::string said;      // what `act` returned, or the message of its exception
+    bool crashed = false;  // the child ended before `act` returned
+    std::string said;      // result of `act`, or the message of its exception
 };
-// Calls `act` in a child process, whose standard error goes nowhere.
+// Calls `act` in a child process with standard error discarded.
 DriverTrial tryInChild(const std::function<std::string()>& act);
 
-// The driver files of Mesa's RADV: among those of VK_DRIVER_FILES, otherwise in the loader's usual folders.
+// Driver files of Mesa's RADV: among those of VK_DRIVER_FILES, otherwise in the loader's default folders.
 std::vector<std::string> radvFiles();
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // If-conversion (Allen, Kennedy, Porterfield and Warren, "Conversion of control dependence to data
-// dependence", POPL 1983) of branches that are structured as SPIR-V has them.
+// dependence", POPL 1983) of SPIR-V's structured branches.
 #include "shared/vulkan/flatten.h"
 
 #include "shared/vulkan/spirv_ops.h"
@@ -18,14 +18,14 @@ using namespace spirv;
 
 constexpr std::size_t nowhere = ~std::size_t{0};
 
-// An instruction that computes from values alone, whatever these are. Integers divided by zero may trap, and
-// what interpolates does so only where a fragment's neighbours are.
+// Whether an instruction computes from values alone and is safe for all inputs. Excludes integer division,
+// which may trap, and interpolation, which depends on neighbouring fragments.
 bool computes(Words in) {
     const std::uint32_t op = opOf(in);
     if (op == OpExtInst)
         return in[4] != extendedModf && in[4] != extendedFrexp && in[4] < extendedInterpolates;
     const bool divides = op == OpUDiv || op == OpSDiv || (op >= OpUMod && op <= OpSMod);
-    // Composites and vectors; conversions, arithmetic, comparisons and bits.
+    // Composites and vectors; conversions, arithmetic, comparisons, bit operations.
     return op == OpUndef || (op >= 77 && op <= 84) || (op >= 109 && op <= 124) ||
            (op >= 126 && op <= 205 && !divides);
 }
@@ -33,7 +33,7 @@ bool computes(Words in) {
 struct Block {
     std::uint32_t label = 0;
     std::vector<Words> body;  // without merge instruction and terminator
-    Words merge, end;         // merge: empty without one
+    Words merge, end;         // merge: empty if there is none
     bool gone = false;
 };
 
@@ -42,7 +42,7 @@ public:
     explicit Flattener(Words words) : words_(words), block_of_(words[3], nowhere) { read(); }
 
     std::vector<std::uint32_t> result() {
-        // The innermost branches come last: once they are gone, those around them are such, too.
+        // Innermost branches come last. Removing them can make the enclosing branches convertible.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t i = blocks_.size(); i-- > 0;)
@@ -109,8 +109,7 @@ private:
         return count;
     }
 
-    // The blocks from `label` to `merge`, one after the other, where they do nothing but compute; empty where
-    // `label` is `merge`.
+    // Chain of blocks from `label` to `merge` if they only compute; empty if `label` is `merge`.
     std::optional<std::vector<Block*>> way(std::uint32_t label, std::uint32_t merge) {
         std::vector<Block*> blocks;
         while (label != merge) {
@@ -159,7 +158,8 @@ private:
     Words words_;
     std::vector<std::size_t> block_of_;  // by label
     std::vector<Block> blocks_;
-    std::vector<std::vector<std::uint32_t>> made_;  // instructions; a vector's words stay where they are
+    std::vector<std::vector<std::uint32_t>> made_;  // new instructions; moving the outer vector does not
+                                                    // move their words
     std::size_t first_ = 0, end_ = 0;               // of the function's blocks
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A SPIR-V module whose small branches are selections: for drivers whose compilers take time that doubles
-// with every branch inside a loop (DeviceProfile::flattens_branches).
+// Converts small branches of a SPIR-V module to selections, for drivers whose compile time doubles with
+// every branch inside a loop (DeviceProfile::flattens_branches).
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace diptych {
 
-// `module` as specialized() leaves it. Where both ways of a branch do nothing but compute, from values alone,
-// both are computed and each result is selected, from the innermost branch outwards. A computation does
-// not change by a bit. Memory, images and derivatives stay behind their conditions.
+// `module`: a result of specialized(). If both sides of a branch only compute from values, both are
+// computed and their results selected, innermost branches first. Computations stay bit for bit the same.
+// Memory accesses, images and derivatives stay conditional.
 std::vector<std::uint32_t> flattened(std::span<const std::uint32_t> module);
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames that the host records while the device still draws earlier ones, for a window. Where times are
-// taken, Device::submit() waits for each.
+// Frames in flight for a window: the CPU records while the GPU draws earlier frames. Timed frames use
+// Device::submit(), which waits.
 #pragma once
 
 #include "shared/vulkan/device.h"
@@ -14,21 +14,19 @@ namespace diptych {
 
 class FramesInFlight {
 public:
-    // At most `count` frames are under way, each in a slot of its own.
+    // At most `count` frames are in flight, each in its own slot.
     explicit FramesInFlight(Device& device, std::uint32_t count = 2);
     ~FramesInFlight();  // waits for all
     FramesInFlight(const FramesInFlight&) = delete;
     FramesInFlight& operator=(const FramesInFlight&) = delete;
 
-    // Waits until the device is done with the oldest frame, and returns its slot, 0 to count - 1, which the
-    // next submit() takes: buffers that the host writes anew for each frame exist once a slot, and may be
-    // written from now on. Throws std::runtime_error where the device is lost.
+    // Waits for the oldest frame and returns its slot, 0 to count - 1, which the next submit() uses.
+    // Per-slot buffers may be written from then on. Throws std::runtime_error if the device is lost.
     std::uint32_t nextSlot();
-    // Records and submits a frame. Frames run in the order of their submits; barriers reach from one to the
-    // next.
-    // `what` is named where the device is lost.
+    // Records and submits a frame. Frames run in submit order, and barriers apply across them. `what`: for
+    // the error message if the device is lost.
     void submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what);
-    void wait();  // until the device is done with all
+    void wait();  // until all frames are done
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(slots_.size()); }
 

@@ -19,7 +19,7 @@ constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT types,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    // General messages are the loader's own remarks on layers and drivers it found.
+    // General messages are the loader's comments on layers and drivers.
     if ((types & ~VkDebugUtilsMessageTypeFlagsEXT{VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT}) == 0)
         return VK_FALSE;
     auto& log = *static_cast<ValidationLog*>(user);

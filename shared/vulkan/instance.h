@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The connection to the drivers, with the validation layers where they are asked for.
+// The Vulkan instance, with validation layers on request.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -13,7 +13,7 @@
 
 namespace diptych {
 
-// What the validation layers said. Their callback may come from any thread.
+// Messages of the validation layers. Their callback may come from any thread.
 struct ValidationLog {
     std::atomic<std::uint64_t> messages{0};
     std::mutex mutex;
@@ -22,9 +22,9 @@ struct ValidationLog {
 
 class VulkanInstance {
 public:
-    // With `log` the Khronos validation layer runs, synchronization validation too, and tells it; the log
-    // must outlive this. `extensions`: names of instance extensions. Throws std::runtime_error, one line,
-    // where there is no Vulkan, an extension or the layer is missing.
+    // `log`: enables Khronos validation with synchronization validation, and receives its messages; must
+    // outlive this. `extensions`: instance extensions. Throws std::runtime_error, one line, if Vulkan, an
+    // extension or the layer is missing.
     explicit VulkanInstance(ValidationLog* log = nullptr, std::span<const char* const> extensions = {});
     ~VulkanInstance();
     VulkanInstance(const VulkanInstance&) = delete;

@@ -12,7 +12,7 @@
 namespace diptych {
 
 namespace {
-constexpr VkDeviceSize blockSize = VkDeviceSize{64} << 20;  // larger requests get a block of their own
+constexpr VkDeviceSize blockSize = VkDeviceSize{64} << 20;  // larger requests get their own block
 
 VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
@@ -81,7 +81,7 @@ std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& p
                                          : use == MemoryUse::readback ? visible | cached
                                                                       : visible;
     std::vector<std::uint32_t> types;
-    // Others have rules of their own: lazily allocated, protected, a vendor's.
+    // Other types have special rules: lazily allocated, protected, vendor-specific.
     constexpr VkMemoryPropertyFlags plain = local | visible | cached;
     for (const VkMemoryPropertyFlags flags : {wanted, must})
         for (std::uint32_t type = 0; type < properties.memoryTypeCount; ++type) {
@@ -116,7 +116,7 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
     const auto leftOf = [&](std::uint32_t type) {
         return heapOf(type) < left.size() ? left[heapOf(type)] : ~VkDeviceSize{0};
     };
-    // What a heap says to have left is an estimate: one that says too little is asked, too, after all others.
+    // A heap's reported budget is an estimate: heaps that report too little are still tried last.
     for (const bool room : {true, false})
         for (const std::uint32_t type : types) {
             for (std::size_t i = 0; room && i < blocks_.size(); ++i)
@@ -138,7 +138,7 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
 
 std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
                                             bool image) {
-    // Of any buffer shaders may ask for the address.
+    // Shaders may use the address of any buffer.
     const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
                                           .pNext = nullptr,
                                           .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT,
@@ -168,7 +168,7 @@ std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize mos
     }
 }
 
-// Empty where the block has no room.
+// Empty if the block has no suitable free range.
 Allocation Memory::take(std::size_t index, const VkMemoryRequirements& needs) {
     Block& block = *blocks_[index];
     Allocation result;
@@ -186,8 +186,8 @@ Allocation Memory::take(std::size_t index, const VkMemoryRequirements& needs) {
 void Memory::release(std::size_t index, VkDeviceSize offset, VkDeviceSize size) {
     Block& block = *blocks_[index];
     block.give(offset, size);
-    // A block of another size is of little use to other allocations, so it is freed. The indices of the
-    // others must not change.
+    // Blocks of non-standard size are of little use to other allocations, so they are freed. The indices
+    // of other blocks must not change.
     if (block.size != blockSize && block.free.size() == 1 && block.free.begin()->second == block.size)
         blocks_[index].reset();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Device memory, sub-allocated: a GPU allows a few thousand allocations, a scene has more resources.
+// Sub-allocation of device memory: GPUs allow a few thousand allocations, and a scene has more resources.
 #pragma once
 
 #include "shared/vulkan/device_support.h"
@@ -17,7 +17,7 @@ namespace diptych {
 
 class Memory;
 
-// A range of a block; returns to its block when it dies. Move-only.
+// A range of a memory block, returned to it on destruction. Move-only.
 class Allocation {
 public:
     Allocation() = default;
@@ -31,7 +31,7 @@ public:
     VkDeviceMemory memory() const { return memory_; }
     VkDeviceSize offset() const { return offset_; }
     VkDeviceSize size() const { return size_; }
-    void* mapped() const { return mapped_; }  // nullptr where the host cannot see it
+    void* mapped() const { return mapped_; }  // nullptr if the CPU cannot access it
 
 private:
     friend class Memory;
@@ -46,32 +46,31 @@ private:
 
 enum class MemoryUse { device, upload, readback };
 
-// The memory types out of `allowed` (a bit each) that a use may have, best first: of the device, its own and
-// then any; to be read back, cached and then any that the host sees.
+// Memory types among `allowed` (one bit each) for a use, best first. device: device-local, then any;
+// readback: host-cached, then any host-visible.
 std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& properties,
                                        std::uint32_t allowed, MemoryUse use);
 
-// How memory is asked for; tests have their own.
+// Allocation functions; tests provide their own.
 struct MemoryCalls {
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocate;
-    // Bytes that are left in each heap, from VK_EXT_memory_budget; empty: the device does not say.
+    // Free bytes of each heap, from VK_EXT_memory_budget; empty if not reported.
     std::function<std::vector<VkDeviceSize>()> left;
 };
 
 class Memory {
 public:
-    Memory(const DeviceSupport& support, VkDevice device);  // `support` outlives it
+    Memory(const DeviceSupport& support, VkDevice device);  // `support` must outlive it
     Memory(VkDevice device, const VkPhysicalDeviceMemoryProperties& properties, MemoryCalls calls);
     ~Memory();
 
-    // First fit in a block of a memory type that suits, the best that has room: heaps that say that they have
-    // none are asked last. Images and buffers live in blocks of their own kind, so that
-    // bufferImageGranularity never matters. Throws std::runtime_error that says what was too large, by the
-    // name `what`, where all are full.
+    // First fit in a block of the best suitable memory type with free space; heaps that report too little
+    // come last. Images and buffers use separate blocks, so bufferImageGranularity does not apply. Throws
+    // std::runtime_error naming `what` and its size if all heaps are full.
     Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool image,
                         const std::string& what);
 
-    VkDeviceSize allocated() const;  // bytes of all blocks
+    VkDeviceSize allocated() const;  // total size of all blocks
     std::size_t blocks() const;
 
 private:
@@ -79,8 +78,7 @@ private:
     struct Block;
     Allocation take(std::size_t block, const VkMemoryRequirements& needs);
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
-    // The index of a new block of `most` bytes, or where they are not there of `least`; nothing where the
-    // type's heap is full.
+    // Index of a new block of `most` bytes, or else of `least`; nothing if the type's heap is full.
     std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
                                         bool image);
     std::uint32_t heapOf(std::uint32_t type) const { return properties_.memoryTypes[type].heapIndex; }

@@ -7,7 +7,7 @@
 
 namespace diptych {
 
-// One Vulkan object and the device that destroys it. Move-only.
+// A Vulkan object with the device that destroys it. Move-only.
 template <class Handle, auto Destroy>
 class Owned {
 public:

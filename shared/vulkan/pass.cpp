@@ -25,7 +25,7 @@ Pass& Pass::covers(VkExtent2D extent) {
     return *this;
 }
 
-// The layout, which depends on the format, is filled in when the pass's uses are listed.
+// The layout depends on the format and is set in PassList::usesOf().
 Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages) {
     images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, {}, true});
     return *this;

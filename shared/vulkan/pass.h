@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One pass of a frame and all that it may declare.
+// One pass of a frame and its declarations.
 #pragma once
 
 #include "shared/vulkan/barriers.h"
@@ -20,15 +20,16 @@ struct BufferRef {
     bool valid() const { return index != ~std::size_t{0}; }
 };
 
-enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
+enum class Load { clear, keep };  // keep: contents from an earlier pass
 
-// How long an image's contents are needed. A transient has them from its first pass in a run to its last:
-// images whose lives do not overlap share memory, and nothing may be read back once another pass has run.
+// How long an image's contents are needed. kept: until the next run. transient: from its first to its last
+// pass in a run. Transients with disjoint lifetimes share memory; they can be read back only before a
+// later pass has run.
 enum class Life { kept, transient };
 
-// What the viewport maps depth 0 and depth 1 of clip space to, and what a depth image holds where nothing was
-// drawn. Depth is reversed: what lies exactly on the far plane gets the least depth above what was cleared;
-// everything else is unchanged, being far larger.
+// Viewport depths of clip-space depth 0 and 1, and the cleared value of a depth image. Depth is reversed.
+// farthest is just above the cleared value, to distinguish geometry on the far plane; it changes no other
+// depth.
 struct StoredDepths {
     float farthest = 1e-37f, nearest = 1.0f, cleared = 0.0f;
 };
@@ -36,56 +37,57 @@ struct StoredDepths {
 struct ImageDeclaration {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
-    VkExtent2D extent{};  // 0 x 0: the list's
+    VkExtent2D extent{};  // 0 x 0: the list's size
     std::uint32_t layers = 1, levels = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    VkImageUsageFlags usage = 0;  // beside attachment, sampled and, of kept images, copied from
+    VkImageUsageFlags usage = 0;  // in addition to attachment, sampled and, for kept images, transfer
+                                  // source
     Life life = Life::kept;
-    bool array = false;         // shaders read it as an array, even of one layer
-    bool drawn = true;          // false: no pass draws to it
+    bool array = false;         // shaders read it as an array, even with one layer
+    bool drawn = true;          // false: never an attachment
     bool filtered = false;      // shaders filter it linearly
-    bool with_picture = false;  // of a size of its own that grows with the list's
-    StoredDepths depths = {};   // of a depth image
+    bool with_picture = false;  // its own size depends on the list's
+    StoredDepths depths = {};   // for depth images
 };
 
-// One level of one layer, to draw to.
+// One level of one layer, as an attachment.
 struct Slice {
     std::uint32_t level = 0, layer = 0;
     bool operator==(const Slice&) const = default;
 };
 
-// One pass, declared by chaining. A draw is recorded between begin and end of rendering, with viewport and
-// scissor set to the extent of its attachments; a compute or copy pass outside of rendering.
+// A pass, declared by chaining. Draws are recorded inside rendering, with viewport and scissor set to the
+// attachments' extent; compute and copy passes outside.
 class Pass {
 public:
-    // In the order of the shader's locations. `resolved`: an image of one sample that gets the mean of the
+    // Call in order of the shader's output locations. `resolved`: single-sample image for the mean of the
     // samples.
     Pass& color(ImageRef image, Load load, VkClearColorValue clear = {}, Slice slice = {},
                 ImageRef resolved = {});
-    // Read and written; cleared to what its StoredDepths says. `resolved`: an image of one sample that gets
-    // the first of the samples.
+    // Depth test with writes; cleared to the value in its StoredDepths. `resolved`: single-sample image
+    // for the first sample.
     Pass& depth(ImageRef image, Load load, Slice slice = {}, ImageRef resolved = {});
-    Pass& depthTest(ImageRef image, Slice slice = {});  // read by the test only
-    // What a draw without attachments covers; otherwise the list's size.
+    Pass& depthTest(ImageRef image, Slice slice = {});  // depth test without writes
+    // Area of a draw without attachments; otherwise the list's size.
     Pass& covers(VkExtent2D extent);
-    // Read by texture instructions of these shaders: all levels and layers, or one part.
+    // Sampled by these shader stages: all levels and layers, or one part.
     Pass& samples(ImageRef image, VkPipelineStageFlags2 stages);
     Pass& samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part);
-    // Any other use of access.h. `discards`: everything that the part held is overwritten.
+    // Any other use of access.h. `discards`: the part is fully overwritten.
     Pass& uses(ImageRef image, const Access& access, const Part& part, bool discards = false);
     Pass& uses(BufferRef buffer, const Access& access);
 
-    // Called once before the pass is recorded for the first time, when all images have memory: makes what
-    // holds views. Several are called in the order that they were given in.
+    // Called once before the pass is first recorded, when all images have memory, for example to write
+    // descriptors. Several callbacks run in the order of their declaration.
     Pass& prepare(std::function<void()> make);
-    // About how long a draw takes on this device, or a dispatch of rows, ms. One that takes longer than a
-    // device may be kept busy for (DeviceProfile::longest_submit_ms) is drawn in bands of rows, each in a
-    // submit of its own: its commands are recorded once a band. Not stated: never divided.
+    // Estimated time of the draw or dispatch, ms. If it exceeds DeviceProfile::longest_submit_ms, the pass
+    // is split into bands of rows with a submit each, and its commands are recorded once per band. Without
+    // an estimate it is never split.
     Pass& takes(double ms);
-    // Called every time the list runs, for each band. Leaves the scissor as it is.
+    // Called on every run, for each band. Must not change the scissor.
     Pass& record(std::function<void(VkCommandBuffer)> commands);
-    // Of a compute pass whose dispatch has so many rows of workgroups, which may come in bands as those of a
-    // draw do: called for each with its rows.
+    // For a compute pass whose dispatch has this many rows of workgroups, which may be split into bands:
+    // called for each band with its rows.
     struct Rows {
         std::uint32_t first, count;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What passes do, by pipeline statistics (Vulkan 1.3, 18.3) and by what they declare.
+// Workload of passes from pipeline statistics (Vulkan 1.3, 18.3) and declarations.
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/commands.h"
 #include "shared/vulkan/pass_list.h"
@@ -14,8 +14,8 @@ namespace diptych {
 
 namespace {
 
-// In the order of their bits, which is that of the results. Not among them is how often fragment shaders run:
-// lavapipe counts whole blocks of 4x4 pixels, before the depth test.
+// In bit order, which is the order of results. Fragment shader invocations are not included: lavapipe
+// counts whole blocks of 4x4 pixels, before the depth test.
 constexpr VkQueryPipelineStatisticFlags drawStatistics =
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT |
@@ -42,13 +42,13 @@ std::uint64_t bytesOfPart(const GpuImageInfo& info, const Part& part) {
 
 }  // namespace
 
-// A pixel, of what the pass draws to.
+// Samples per pixel of the pass's attachments.
 std::uint64_t PassList::samplesOf(const Pass& pass) const {
     return static_cast<std::uint64_t>(resource(pass.colors_.front().image).image->info().samples);
 }
 
-// What is kept of an attachment is read, what is cleared is not; depth is read by the test, too, but from
-// what the pass has written itself.
+// Attachments count as read if their contents are kept, not if they are cleared. Reads by the depth test
+// are not counted, because they mostly see the pass's own writes.
 void PassList::addTraffic(const Pass& pass, PassCounts& counts) const {
     const auto bytes = [&](ImageRef image, const Part& part) {
         return bytesOfPart(resource(image).image->info(), part);

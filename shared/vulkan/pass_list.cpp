@@ -152,7 +152,7 @@ std::vector<Use> PassList::usesOf(const Pass& pass) const {
     return uses;
 }
 
-// Transients that have no memory yet get some.
+// Allocates transients that have no memory yet.
 void PassList::allocate() {
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < resources_.size(); ++i)
@@ -162,7 +162,9 @@ void PassList::allocate() {
     for (std::size_t p = 0; p < passes_.size(); ++p)
         for (const Use& use : usesOf(*passes_[p])) {
             Resource& used = *resources_[use.resource];
-            if (!used.image || used.image->bound()) continue;  // one that has memory lives no longer
+            if (!used.image || used.image->bound())
+                continue;  // later passes do not extend an allocated
+                           // transient's lifetime
             used.first = std::min(used.first, p);
             used.last = std::max(used.last, p);
         }
@@ -183,7 +185,7 @@ void PassList::allocate() {
             Resource& here = *resources_[at(k)];
             here.image->bind(blocks_.back().memory(), blocks_.back().offset());
             largest = std::max(largest, bytesOf(here.image->info()));
-            // The first of a run comes after the last of the run before.
+            // The first transient of a run follows the last of the previous run.
             const std::size_t count = block.members.size();
             if (count > 1) here.before = at((k + count - 1) % count);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A frame as a list of passes that run in written order. What a pass declares (attachments, and every other
-// use of an image or a buffer) gives its barriers, its labels, its times and the memory the frame takes.
+// A frame as a list of passes that run in written order. Barriers, labels, timings and memory follow from
+// the attachments and other uses that passes declare.
 #pragma once
 
 #include "shared/vulkan/frames_in_flight.h"
@@ -25,56 +25,57 @@ struct PassMs {
     double ms = 0;
 };
 
-// What the passes of one name do in a frame: counted by the device, and moved by what they declare.
+// Workload of the passes of one name in a frame: counted by the device, and traffic from declarations.
 struct PassCounts {
     std::string name;
-    std::uint64_t vertices = 0;   // shaded
-    std::uint64_t triangles = 0;  // that reach clipping
-    std::uint64_t samples = 0;    // that pass the depth test, in drawing order
-    std::uint64_t fragments = 0;  // pixels' worth of these where colour is drawn: about what is shaded
-    std::uint64_t outputs = 0;    // values that samples write to attachments, depth not among them
-    std::uint64_t compute = 0;    // invocations of compute shaders
-    // Of what is declared, each part once: attachments, images, buffers; bytes. Textures, vertices and other
-    // buffers that no pass of the frame writes are not declared.
+    std::uint64_t vertices = 0;   // vertex shader invocations
+    std::uint64_t triangles = 0;  // triangles that reach clipping
+    std::uint64_t samples = 0;    // samples that pass the depth test, in drawing order
+    std::uint64_t fragments = 0;  // these samples in pixels, for colour passes: about the number of shaded
+                                  // fragments
+    std::uint64_t outputs = 0;    // values written to colour attachments by samples
+    std::uint64_t compute = 0;    // compute shader invocations
+    // Bytes of declared attachments, images and buffers, each part once. Excludes textures, vertices and
+    // other buffers that no pass of the frame writes, because they are not declared.
     std::uint64_t read = 0, written = 0;
 };
 
-// A barrier as it was recorded, by name, for tests and people.
+// A recorded barrier by names, for tests and people.
 struct RecordedBarrier {
-    std::string pass, resource;  // it stands before the pass
+    std::string pass, resource;  // pass: the one after the barrier
     Part part;
     Access from, to;
-    std::size_t number;  // of the pass in the list; no_pass: it stands before a copy to the host
+    std::size_t number;  // index of the pass in the list; no_pass: before a copy to the CPU
     bool operator==(const RecordedBarrier&) const = default;
     static constexpr std::size_t no_pass = ~std::size_t{0};
 };
 
-// One use that a pass declares, its attachments among them.
+// One declared use, attachments included.
 struct DeclaredUse {
     std::string pass, resource;
     Access access;
     Part part;
-    std::size_t number;  // of the pass in the list
+    std::size_t number;  // index of the pass in the list
 };
 
 class PassList {
 public:
-    // `width`, `height`: of images that do not say otherwise.
+    // `width`, `height`: default size of images.
     PassList(Device& device, std::uint32_t width, std::uint32_t height);
     ~PassList();
     PassList(const PassList&) = delete;
     PassList& operator=(const PassList&) = delete;
 
     ImageRef image(const ImageDeclaration& declaration);
-    // An image of the list's size that passes can draw to, test, sample and read back.
+    // An image of the list's size that can be drawn to, tested, sampled and read back.
     ImageRef image(const std::string& name, VkFormat format) {
         return image({.name = name, .format = format});
     }
-    // Somebody else's buffer, which must outlive the list and has been filled by earlier submits; declared
-    // again, the same buffer is the same resource.
+    // An external buffer, filled by earlier submits; must outlive the list. Declaring it again returns the
+    // same resource.
     BufferRef buffer(const std::string& name, const GpuBuffer& buffer);
 
-    // All levels and layers; and a part of them, as shaders that write it bind it. A transient has views from
+    // View of all levels and layers, or of one part, for shaders that write it. Transients have views from
     // Pass::prepare() on.
     VkImageView view(ImageRef image) const;
     VkImageView view(ImageRef image, const Part& part);
@@ -85,63 +86,61 @@ public:
     Pass& compute(const std::string& name);
     Pass& copy(const std::string& name);  // transfer commands
 
-    // How many passes there are so far: where those that come next begin.
+    // Number of passes so far; the index of the next one.
     std::size_t size() const { return passes_.size(); }
 
-    // Runs passes [first, last), and waits. Returns milliseconds: time stamps on a GPU; on a CPU device,
-    // whose time stamps are wrong, the clock from submit to fence. Kept images hold what earlier runs left.
-    // In one submit, but for what Pass::takes() longer than the device may be kept busy for.
+    // Runs passes [first, last) and waits. Returns milliseconds: from time stamps on a GPU, or from submit
+    // to fence on a CPU device, whose time stamps are wrong. Kept images have the contents of earlier
+    // runs. Uses one submit, unless Pass::takes() requires bands.
     double run(std::size_t first, std::size_t last);
     double run() { return run(0, size()); }
 
-    // The same, passes of one name that follow each other together in a submit of their own on a CPU device
-    // (between time stamps on a GPU).
+    // The same per group of consecutive passes with one name; on a CPU device each group has its own
+    // submit.
     std::vector<PassMs> profile(std::size_t first, std::size_t last);
 
-    // Runs passes [first, last), and waits: passes of one name that follow each other together, as profile()
-    // has them. Throws std::runtime_error where the device has no pipeline statistics.
+    // Runs passes [first, last), counts their workload and waits; groups passes as profile() does. Throws
+    // std::runtime_error if the device does not support pipeline statistics.
     std::vector<PassCounts> count(std::size_t first, std::size_t last);
 
-    // How long the host took to record the commands of the last run() or profile(), ms. Not part of its time.
+    // CPU time to record the last run() or profile(), ms; not part of its result.
     double recordMs() const { return record_ms_; }
 
-    // The whole list as one submit that is not waited for; nothing is timed, and nothing comes in bands.
+    // Submits the whole list without waiting, timing or bands.
     void enqueue(FramesInFlight& frames);
 
-    // Images as the last run left them, row 0 on top: the first `components` floats of every texel of one
-    // level and layer, side by side. Copied in one submit, as far as staging memory of 64 MiB allows, and
-    // unpacked on all cores. Of transients only those alive at the last pass that ran.
+    // Contents of images after the last run, top row first: `components` floats of every texel of one
+    // level and layer, interleaved. Copies in one submit per 64 MiB of staging memory and unpacks on all
+    // cores. Transients must be alive at the last pass that ran.
     struct ReadBack {
         ImageRef image;
         int components = 1;
         Slice slice{};
-        int first = 0;  // component
+        int first = 0;  // first component
     };
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
-    // The same into memory of the caller's, as many floats each.
+    // The same into the caller's memory, of the same size.
     void readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
-    // Hashes every buffer that compute passes of [first, last) write, as the last run left it; by name.
-    // Buffers of one name share a hash.
+    // Hashes of buffers that compute passes of [first, last) write, after the last run, by name. Buffers
+    // with the same name share a hash.
     std::map<std::string, std::size_t> kernelResults(std::size_t first, std::size_t last);
 
-    // One name for passes of the same name that follow each other.
+    // Names of groups of consecutive passes.
     std::vector<std::string> names() const;
-    // What a pixel of the image takes, all its samples and layers, bytes; and what one takes in all images of
-    // the list's size together, as if none shared memory.
+    // Bytes per pixel of the image, over all samples and layers; and the sum over all images of the list's
+    // size, without memory sharing.
     std::uint64_t pixelBytes(ImageRef image) const;
     std::uint64_t pixelBytes() const;
-    // Texels of all images, as if none shared memory; and what sharing saves of that, once the list has run
-    // or been allocated.
+    // Bytes of all images without memory sharing; and the bytes saved by it, after allocate() or a run.
     std::uint64_t imageBytes() const;
     std::uint64_t sharedBytes() const { return shared_bytes_; }
-    // Gives every image memory; run() does so itself. Transients of one call share memory with each other.
+    // Allocates memory for all images; run() calls it. Transients of one call share memory.
     void allocate();
-    // Those of the last run() or profile(), in order.
+    // Barriers of the last run() or profile(), in order.
     const std::vector<RecordedBarrier>& barriers() const { return recorded_; }
-    // Every declaration, pass by pass; and the barriers of `runs` runs of the whole list, one after the
-    // other, from undefined contents on, as if the declarations of these numbers were not there. Records
-    // nothing.
+    // All declarations, pass by pass; and the barriers of `runs` runs of the whole list from undefined
+    // contents, without the declarations of these indices. Records no commands.
     std::vector<DeclaredUse> declarations() const;
     std::vector<RecordedBarrier> plannedBarriers(int runs, const std::set<std::size_t>& without = {}) const;
     std::uint32_t width() const { return width_; }
@@ -149,10 +148,10 @@ public:
 
 private:
     using Resource = PassResource;
-    struct Span {  // passes [first, last) of one name
+    struct Span {  // passes [first, last) with one name
         std::size_t first, last;
     };
-    // A pass or a band of its rows, as part of a span.
+    // A pass, or a band of its rows, in a span.
     struct Piece {
         std::size_t pass, span;
         std::uint32_t band = 0, bands = 1;
@@ -180,13 +179,13 @@ private:
     Device& device_;
     std::uint32_t width_, height_;
     BarrierTracker tracker_;
-    std::vector<std::unique_ptr<Resource>> resources_;  // images and buffers, by their number in tracker_
+    std::vector<std::unique_ptr<Resource>> resources_;  // images and buffers, by their index in tracker_
     std::vector<std::unique_ptr<Pass>> passes_;
     std::vector<bool> prepared_;      // by pass
     std::vector<Allocation> blocks_;  // memory of transients
     std::uint64_t shared_bytes_ = 0;
     double record_ms_ = 0;
-    std::size_t last_run_ = ~std::size_t{0};  // the pass that ran last
+    std::size_t last_run_ = ~std::size_t{0};  // index of the last pass that ran
     std::vector<RecordedBarrier> recorded_;
 };
 

@@ -27,7 +27,7 @@ std::size_t texelsOf(const GpuImageInfo& image, const Slice& slice) {
     return std::size_t{extent.width} * extent.height;
 }
 
-// Formats of floats that are no float32.
+// Float formats smaller than float32.
 bool isSmall(VkFormat format) {
     return format == VK_FORMAT_R16G16B16A16_SFLOAT || format == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
 }
@@ -37,8 +37,8 @@ std::size_t componentsOf(VkFormat format) {
     return format == VK_FORMAT_R16G16B16A16_SFLOAT ? 4 : bytesPerTexel(format) / 4;
 }
 
-// Texel i of an image of such a format. Floats of 11 and 10 bits are those of 16 without a sign and without
-// the last bits of the mantissa.
+// Texel i of an image in such a format. 11-bit and 10-bit floats are 16-bit floats without sign and
+// without the last mantissa bits.
 std::array<float, 4> unpacked(VkFormat format, const std::uint16_t* words, std::size_t i) {
     const auto half = [](std::uint32_t bits) {
         return glm::unpackHalf1x16(static_cast<std::uint16_t>(bits));
@@ -108,7 +108,7 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
     const auto infoOf = [&](const ReadBack& request) -> const GpuImageInfo& {
         return resource(request.image).image->info();
     };
-    // Requests of one image that follow each other read one copy of it.
+    // Consecutive requests for one image share one copy.
     std::vector<ReadBack> copied;
     std::vector<std::size_t> copy_of;
     for (const ReadBack& request : requests) {

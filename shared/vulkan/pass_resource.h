@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An image or a buffer of a pass list. Read by the sources of PassList alone.
+// An image or a buffer of a pass list. For the sources of PassList alone.
 #pragma once
 
 #include "shared/vulkan/pass.h"
@@ -13,15 +13,15 @@
 namespace diptych {
 
 struct PassResource {
-    // Exactly one of the two.
+    // Exactly one of the two is set.
     std::optional<GpuImage> image;
     const GpuBuffer* buffer = nullptr;
     Life life = Life::kept;
-    bool has_size = false;      // by its declaration, not the list's
-    bool with_picture = false;  // that grows with the list's
+    bool has_size = false;      // declared, instead of the list's size
+    bool with_picture = false;  // that depends on the list's size
     StoredDepths depths;
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
-    // Of a transient, once it has memory: its first and last pass, and whose the memory is before.
+    // Transients with memory: first and last pass, and the previous user of the memory.
     std::size_t first = 0, last = 0;
     std::optional<std::size_t> before;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Running a pass list: barriers, draws in bands, submits, times.
+// Runs a pass list: barriers, bands, submits, timings.
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/commands.h"
 #include "shared/vulkan/pass_list.h"
@@ -15,7 +15,7 @@ namespace diptych {
 
 namespace {
 
-// The scopes of a barrier of an image or a buffer.
+// Source and destination scope of an image or buffer barrier.
 template <class VulkanBarrier>
 VulkanBarrier scopesOf(VkStructureType type, const Barrier& barrier) {
     VulkanBarrier scopes{};
@@ -55,7 +55,7 @@ void PassList::barriersBefore(std::size_t pass, const std::vector<Use>& uses, Vk
             of.subresourceRange = {found.image->aspect(), barrier.part.level, barrier.part.levels,
                                    barrier.part.layer, barrier.part.layers};
             images.push_back(of);
-            // What an image had in the same memory before is out of reach of this image's barrier.
+            // The image barrier does not cover accesses through an earlier image in the same memory.
             if (found.before && barrier.from.layout == VK_IMAGE_LAYOUT_UNDEFINED)
                 memory.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                   .pNext = nullptr,
@@ -83,13 +83,13 @@ void PassList::barriersBefore(std::size_t pass, const std::vector<Use>& uses, Vk
     vkCmdPipelineBarrier2(commands, &info);
 }
 
-// Transients that are used by this pass first wait for whoever had their memory before.
+// Transients whose first pass this is wait for the previous user of their memory.
 void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
     for (std::size_t i = 0; i < resources_.size(); ++i)
         if (resources_[i]->before && resources_[i]->first == pass) tracker.alias(i, *resources_[i]->before);
 }
 
-// Those of the band.
+// Rows of a band.
 Pass::Rows PassList::rowsOf(std::uint32_t rows, const Piece& piece) {
     const auto row = [&](std::uint32_t band) {
         return static_cast<std::uint32_t>(std::uint64_t{rows} * band / piece.bands);
@@ -104,7 +104,7 @@ void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
         beginLives(tracker_, piece.pass);
         barriersBefore(piece.pass, usesOf(pass), commands);
     } else {
-        // What the bands before it have drawn stays.
+        // Keeps the contents drawn by earlier bands.
         std::vector<Use> uses = usesOf(pass);
         for (Use& use : uses) use.discards = false;
         barriersBefore(piece.pass, uses, commands);
@@ -194,7 +194,7 @@ std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last)
     return all;
 }
 
-// Draws and dispatches of rows that take longer than the device may be kept busy for come in bands.
+// Splits passes into bands if their estimated time exceeds the device's longest submit.
 std::vector<PassList::Piece> PassList::pieces(const std::vector<Span>& spans) const {
     const double longest = device_.profile().longest_submit_ms;
     std::vector<Piece> all;
@@ -210,7 +210,7 @@ std::vector<PassList::Piece> PassList::pieces(const std::vector<Span>& spans) co
     return all;
 }
 
-// For the message of a device that was lost.
+// For the error message when the device is lost.
 std::string PassList::describe(const std::vector<Piece>& pieces) const {
     const auto nameOfPiece = [&](const Piece& piece) {
         const std::string& name = passes_[piece.pass]->name_;
@@ -220,10 +220,10 @@ std::string PassList::describe(const std::vector<Piece>& pieces) const {
     return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
-// Adds each piece's time to that of its span: from time stamps where spans change, or that of all pieces,
-// which are of one span then, by the clock.
+// Adds each piece's time to its span. With time stamps, at span boundaries; otherwise the CPU time of all
+// pieces, which then belong to one span.
 void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms) {
-    std::vector<std::size_t> ended;  // the span that ends with each time stamp after the first
+    std::vector<std::size_t> ended;  // span that ends at each time stamp after the first
     OwnedQueryPool pool;
     const bool stamped = device_.profile().time_stamps;
     const auto most = static_cast<std::uint32_t>(pieces.size() + 1);
@@ -260,8 +260,8 @@ void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms)
                         static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
 }
 
-// Milliseconds of each span. A submit holds as many pieces as the device may be kept busy with, and without
-// time stamps those of one span.
+// Milliseconds of each span. A submit contains pieces up to the longest submit time; without time stamps,
+// only pieces of one span.
 std::vector<double> PassList::runSpans(const std::vector<Span>& spans) {
     std::vector<double> ms(spans.size());
     std::vector<Piece> waiting;

@@ -46,8 +46,8 @@ std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{} MiB", bytes >> 20);
 }
 
-// How many descriptors of some kinds one shader stage sees: set layouts name every binding for every stage,
-// and a pipeline has the sets of drawing or those of the kernels that make light lists.
+// Largest number of descriptors of these types that one shader stage sees. Set layouts expose every
+// binding to every stage. A pipeline uses the sets of draws, or those of light list building.
 constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
@@ -60,14 +60,14 @@ constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kind
         for (const VkDescriptorType type : types) found += std::ranges::find(kinds, type) != kinds.end();
         return found;
     };
-    // A material's textures stand in no table.
+    // A material's textures are in no table.
     const bool images = std::ranges::find(kinds, binding_kind::image) != kinds.end();
     const std::uint32_t drawing =
         count(frame) + count(gbuffer) + count(sums) + (images ? gpu::SLOT_COUNT : 0);
     return std::max(drawing, count(frame) + count(lists));
 }
 
-// SET_FRAME alone.
+// In SET_FRAME alone.
 constexpr std::uint32_t frameDescriptors(VkDescriptorType kind) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     return static_cast<std::uint32_t>(std::ranges::count(frame, kind));

@@ -10,22 +10,22 @@
 
 namespace diptych {
 
-// What a device is and what it can and cannot do for us: features and limits, asked, not versions.
+// Properties and capabilities of a device: features and limits are queried, not derived from versions.
 DeviceInfo describe(const DeviceSupport& device, int index);
 
-// An index into `infos`; "" takes the best usable one, discrete before integrated before virtual before
-// cpu. Throws std::runtime_error naming --device and what there is, or the feature that is missing.
+// Index into `infos`. `choice` "": the best usable device, in the order discrete, integrated, virtual,
+// cpu. Throws std::runtime_error naming --device and the available devices, or the missing feature.
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
 
-// The one of this index, or the first with this in its name.
+// Device with this index, or the first whose name contains it.
 std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
 std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: NAME, 1: ..."; "none"
 
-// The fact that a driver without hardware lacks, which compiles all the same (DeviceCompiler).
+// Fact that drivers without hardware lack; DeviceCompiler does not need it.
 inline constexpr const char* memoryFact = "memory";
 
-// With exactly the features of DEVICE_FEATURES that are there, and the extensions. `statistics`: with those
-// of compiled pipelines, which the device must have.
+// Enables exactly the supported features of DEVICE_FEATURES, and the extensions. `statistics`: also those
+// of compiled pipelines, which the device must support.
 VkDevice createDevice(const DeviceSupport& device, bool statistics = false);
 
 }  // namespace diptych

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a of 64 bits (Fowler, Noll and Vo 1991), of bytes or of words.
+// 64-bit FNV-1a (Fowler, Noll and Vo 1991), over bytes or words.
 class CacheHash {
 public:
     template <class T>
@@ -45,18 +45,19 @@ std::uint64_t hashOfProgram() {
     return hash.value();
 }
 
-// How a file begins.
+// File header.
 struct CacheFileHead {
     std::array<char, 8> magic{'d', 'i', 'p', 't', 'y', 'c', 'h', '1'};
     PipelineCacheKey key;
     std::uint64_t bytes = 0, hash = 0;  // of the data, which follow
 };
-static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // every byte is written by us
+static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // no padding: every byte is
+                                                                         // initialized
 
-// More than any driver keeps for one device.
+// Larger than any driver's cache for one device.
 constexpr std::uint64_t mostCacheBytes = std::uint64_t{1} << 30;
 
-// A driver that keeps nothing gives the header that Vulkan demands (VkPipelineCacheHeaderVersionOne).
+// Size without pipelines: the header that Vulkan requires (VkPipelineCacheHeaderVersionOne).
 constexpr std::size_t emptyCacheBytes = sizeof(VkPipelineCacheHeaderVersionOne);
 
 }  // namespace
@@ -91,7 +92,7 @@ bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::
     head.bytes = data.size();
     head.hash = hashOf(data);
     std::error_code failed;
-    fs::remove(beside, failed);  // of a process that had this number before
+    fs::remove(beside, failed);  // left by a process with the same id
     std::FILE* const stream = std::fopen(beside.c_str(), "wbxe");
     if (!stream) return false;
     keepForUser(stream);
@@ -114,7 +115,7 @@ PipelineCache::PipelineCache(const VkPhysicalDeviceProperties& properties, VkDev
         key_.driver_version = properties.driverVersion;
         key_.api_version = properties.apiVersion;
         file_ = pipelineCacheFile(folder, key_);
-        // Reading all modules takes milliseconds, and is in vain with a driver that keeps nothing.
+        // Hashing all modules takes milliseconds, and is wasted if the driver stores nothing.
         if (std::error_code failed; fs::exists(file_, failed)) {
             key_.program = hashOfProgram();
             begun_with_ = readPipelineCache(file_, key_);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a driver has compiled, kept in the user's cache folder from one run of the program to the next. It
-// only saves time: without a folder, or with a file that cannot be used or written, everything is compiled
-// again.
+// Stores the driver's compiled pipelines in the user's cache folder between runs. It only saves time:
+// without a folder, or with an unusable file, everything is compiled again.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -15,27 +14,29 @@
 
 namespace diptych {
 
-// Whose a file is: a driver can use its own alone, and no other program's pipelines are asked for.
+// Owner of a cache file: a driver can use only its own cache, and it should contain only this program's
+// pipelines.
 struct PipelineCacheKey {
     std::array<std::uint8_t, VK_UUID_SIZE> driver{};  // pipelineCacheUUID
-    std::uint64_t program = 0;                        // a hash of all embedded modules
+    std::uint64_t program = 0;                        // hash of all embedded modules
     std::uint32_t vendor = 0, device = 0, driver_version = 0, api_version = 0;
     bool operator==(const PipelineCacheKey&) const = default;
 };
 
-// One file for each device and driver: that of another build of the program is written over.
+// One file per device and driver. Caches of other builds of the program are overwritten.
 std::filesystem::path pipelineCacheFile(const std::filesystem::path& folder, const PipelineCacheKey& key);
 
-// The data as they were kept under this key; empty where the file is not there, is another key's or another
-// user's (openCacheFile()), or is damaged.
+// Data stored under this key; empty if the file is missing, damaged, has another key or belongs to another
+// user (see openCacheFile()).
 std::vector<std::byte> readPipelineCache(const std::filesystem::path& file, const PipelineCacheKey& key);
 
-// Makes the folder, writes a file beside and renames it, so that the file is whole or the old one. Returns
-// whether it could.
+// Creates the folder, writes a temporary file and renames it, so the cache is replaced atomically. Returns
+// whether it succeeded.
 bool writePipelineCache(const std::filesystem::path& file, const PipelineCacheKey& key,
                         std::span<const std::byte> data);
 
-// A device's cache, begun with what is kept in `folder` and kept there when it dies. Empty folder: not kept.
+// A device's pipeline cache: loaded from `folder`, and stored there on destruction. Empty folder: not
+// stored.
 class PipelineCache {
 public:
     PipelineCache(const VkPhysicalDeviceProperties& properties, VkDevice device,
@@ -44,7 +45,7 @@ public:
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
-    VkPipelineCache handle() const { return cache_; }  // none where the driver makes none
+    VkPipelineCache handle() const { return cache_; }  // null if the driver does not support one
 
 private:
     void keep() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The interface by which a drawing device passes its layouts, passes and pipelines to a compiler
-// (DeviceCompiler) while it makes its own.
+// Interface through which a drawing device reports its layouts, passes and pipelines to a compiler
+// (DeviceCompiler) while it creates its own.
 #pragma once
 
 #include "shared/vulkan/device_info.h"

@@ -22,7 +22,7 @@ namespace {
         fmt::format("device {} ({}): {}: {}", site.info.index, site.info.name, what, why));
 }
 
-// Refuses what the device draws no such pipeline with.
+// Throws if the device does not support the pipeline.
 void checkPipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
     const std::string_view name = parts.fragment != nullptr ? parts.fragment->name : parts.vertex->name;
     const auto needs = [&](VkFormat format, std::uint32_t uses) {
@@ -42,7 +42,7 @@ void checkPipeline(const PipelineSite& site, const PipelineKey& key, const Pipel
         refuse(site, name, "it lacks depth clamping; choose another device with --device");
 }
 
-// Cuts the module down to the variant. `outputs`: locations that the next stage reads.
+// Reduces the module to the variant. `outputs`: locations that the next stage reads.
 std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
                                             const SpecializationValue& value,
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
@@ -140,7 +140,7 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
         specializedWords(site, *parts.vertex, value, inputLocations(fragment));
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
-    // Attributes that this variant does not read are not fetched.
+    // Attributes that the variant does not read are not fetched.
     std::vector<VkVertexInputAttributeDescription> attributes = parts.attributes;
     std::erase_if(attributes, [read = inputLocations(vertex)](const VkVertexInputAttributeDescription& a) {
         return !read.contains(a.location);
@@ -268,7 +268,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
             *missing[i].pipeline = makePipeline(site, *missing[i].key, missing[i].parts);
         });
     } catch (...) {
-        // None that was not made may be found later.
+        // Pipelines that were not created must not be found later.
         std::erase_if(pipelines_, [](const auto& entry) { return entry.second.get() == VK_NULL_HANDLE; });
         throw;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Graphics pipelines by what they are made of; each is compiled once.
+// Graphics pipelines by key; each is compiled once.
 #pragma once
 
 #include "shared/vulkan/device.h"
@@ -17,18 +17,19 @@
 
 namespace diptych {
 
-// How a colour s with coverage or opacity s.a joins what the attachment holds, d; alpha follows the same
-// rule.
+// How a colour s with coverage or opacity s.a combines with the attachment's value d; alpha follows the
+// same rule.
 enum class Blend : std::uint8_t {
     none,      // s
     add,       // s + d
     over,      // s + (1 - s.a) d: s is premultiplied
     multiply,  // s d
-    through,   // s + s.a d: s.a is what comes through s; alpha stays d.a
+    through,   // s + s.a d: s.a is the transmittance of s; alpha stays d.a
 };
 
-// Added to the depth of every fragment: `constant` units of the depth format's least step at that depth, and
-// `slope` times the largest change of depth from pixel to pixel. Depth is reversed: negative is farther away.
+// Added to the depth of every fragment: `constant` times the smallest step of the depth format at that
+// depth, and `slope` times the largest change of depth per pixel. Depth is reversed: negative values move
+// away.
 struct DepthBias {
     float constant = 0, slope = 0;
     auto operator<=>(const DepthBias&) const = default;
@@ -37,21 +38,21 @@ struct DepthBias {
 struct PipelineKey {
     Shader vertex = Shader::none, fragment = Shader::none;  // no fragment shader: none
     Variant variant{};
-    std::uint32_t input = 0;  // a vertex format of whoever chooses the parts; 0: none
+    std::uint32_t input = 0;  // a vertex format, defined by the ChooseParts function; 0: none
     std::vector<VkFormat> colors{};
-    std::vector<Blend> blends{};  // of each colour; empty: none of any
+    std::vector<Blend> blends{};  // per colour; empty: none for all
     VkFormat depth = VK_FORMAT_UNDEFINED;
-    VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;  // always and no write: no depth test
+    VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;  // always without writes: no depth test
     bool depth_write = false;
-    bool depth_clamp = false;  // what lies before or behind the depth range is drawn at its end, not cut off
+    bool depth_clamp = false;  // clamp fragments outside the depth range instead of clipping them
     DepthBias depth_bias{};
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool sample_shading = false;  // a fragment for every sample, not for every pixel
+    bool sample_shading = false;  // a fragment for every sample
     auto operator<=>(const PipelineKey&) const = default;
 };
 
-// What a key leaves to whoever knows the shaders and the vertices: the modules that serve its shaders in its
-// variant, and where vertices come from.
+// Parts that do not follow from the key alone: modules of its shaders for its variant, and the vertex
+// input.
 struct PipelineParts {
     const ShaderModule* vertex = nullptr;
     const ShaderModule* fragment = nullptr;  // nullptr: no fragment shader
@@ -60,10 +61,10 @@ struct PipelineParts {
 };
 using ChooseParts = std::function<PipelineParts(const PipelineKey&)>;
 
-// The embedded modules, and no vertices.
+// The embedded modules, without vertex input.
 PipelineParts plainParts(const PipelineKey& key);
 
-// Where a pipeline is made.
+// Context of pipeline creation.
 struct PipelineSite {
     VkDevice device = VK_NULL_HANDLE;
     const DeviceSupport& support;
@@ -75,8 +76,8 @@ struct PipelineSite {
 };
 PipelineSite siteOf(Device& device, VkPipelineLayout layout);
 SpecializationValue valueOf(const Variant& variant);
-// Throws std::runtime_error that names what the device lacks. Triangles; viewport, scissor, cull mode and
-// front face are dynamic.
+// Throws std::runtime_error naming what the device does not support. Topology is triangles; viewport,
+// scissor, cull mode and front face are dynamic.
 OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts);
 // A compute shader whose dispatches may begin at any workgroup.
 OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
@@ -84,23 +85,23 @@ OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
 
 class Pipelines {
 public:
-    // `layout` must outlive the pipelines. Without `choose` there are no vertices.
+    // `layout` must outlive the pipelines. Without `choose` there is no vertex input.
     Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts)
         : device_(device), layout_(layout), choose_(std::move(choose)) {}
 
     VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
-    std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
-    // A compute shader, with a layout of its own, whose dispatches may begin at any workgroup.
+    std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // compiles new ones on all cores
+    // A compute shader with its own layout, whose dispatches may begin at any workgroup.
     VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout) {
         return compute(shaderModule(shader), variant, layout);
     }
     // `module` must outlive the pipelines.
     VkPipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
-    // Destroys those that draw with such keys, of which none may be in use: a driver may hold megabytes for
-    // each.
+    // Destroys graphics pipelines with such keys, none of which may be in use: drivers may need megabytes
+    // for each.
     void erase(const std::function<bool(const PipelineKey&)>& which);
-    void clear();  // destroys all, of which none may be in use
+    void clear();  // destroys all; none may be in use
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measurements of what no feature bit tells.
+// Measurements of properties that Vulkan does not report.
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
@@ -15,7 +15,7 @@ namespace diptych {
 
 namespace {
 
-// The first 32 bits of every texel after a full-screen draw of `fragment`.
+// First 32 bits of every texel after a full-screen draw of `fragment`.
 std::vector<std::uint32_t> drawProbe(Device& device, Shader fragment, VkFormat format, std::uint32_t width) {
     const OwnedPipelineLayout layout = makePipelineLayout(device, {});
     Pipelines pipelines(device, layout);
@@ -50,7 +50,7 @@ double floatStep(double value, int mantissa) {
     return std::ldexp(1.0, std::ilogb(value) - mantissa);
 }
 
-// PassList::readBack turns formats of small floats into float32.
+// PassList::readBack converts small float formats to float32.
 double readFloat(std::uint32_t bits) {
     return static_cast<double>(std::bit_cast<float>(bits));
 }
@@ -92,7 +92,7 @@ std::vector<TargetRounding> Device::probeRounding() {
             largest = std::max(largest, std::abs(error));
             above = std::max(above, error);
         }
-        // To nearest stays within half a step (and float32's own rounding of value x steps).
+        // Rounding to nearest stays within half a step, plus the float32 rounding of value x steps.
         const char* kind = largest < 0.51 ? "to nearest" : above < 0.01 ? "towards zero" : "not to nearest";
         result.push_back({target.name, largest, kind});
     }

@@ -18,7 +18,7 @@ namespace {
         fmt::format("device {} ({}): {}: {}", device.info().index, device.info().name, name, why));
 }
 
-// Refuses what the device has no images of.
+// Throws if the device does not support the image.
 void checkImage(const Device& device, const GpuImageInfo& info) {
     const auto uses = [&](VkImageUsageFlags usage, std::uint32_t use) {
         return (info.usage & usage) != 0 ? use : 0;
@@ -131,7 +131,7 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     buffer_ = OwnedBuffer(device.handle(), buffer);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    // By their addresses shaders load four words at once.
+    // Shaders load four words at once through addresses.
     if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0)
         needs.alignment = std::max(needs.alignment, VkDeviceSize{16});
     memory_ = device.memory().allocate(needs, use, false, "the buffer " + name);
@@ -276,7 +276,7 @@ void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarri
 
 namespace {
 constexpr VkDeviceSize stagingSize = VkDeviceSize{32} << 20;
-constexpr VkDeviceSize stagingAlignment = 16;  // of every texel we upload
+constexpr VkDeviceSize stagingAlignment = 16;  // of every uploaded texel
 }  // namespace
 
 struct Uploader::State {
@@ -286,7 +286,7 @@ struct Uploader::State {
     std::uint64_t given = 0;  // bytes so far
     std::vector<std::function<void(VkCommandBuffer)>> copies{};
 
-    // Room for up to `bytes`, at least one: data goes in pieces where it is larger than the staging buffer.
+    // Staging memory for `bytes`; larger data are uploaded in pieces.
     std::byte* reserve(VkDeviceSize bytes, VkDeviceSize& offset) {
         if (used + bytes > staging.size()) copy();
         if (bytes > staging.size())
@@ -297,7 +297,7 @@ struct Uploader::State {
         return static_cast<std::byte*>(staging.mapped()) + offset;
     }
 
-    // What the staging buffer holds, which can be filled again.
+    // Submits the pending copies, so that the staging buffer can be reused.
     void copy() {
         if (!copies.empty())
             device.submit([&](VkCommandBuffer commands) {

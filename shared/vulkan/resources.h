@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Buffers and images with their memory. Move-only; they die with their last owner, so keep them until the
-// device is idle (Device::submit waits, so that is after every submit).
+// Buffers and images with their memory. Move-only. Keep them until the device has finished with them;
+// Device::submit waits.
 #pragma once
 
 #include "shared/contract/types.h"
@@ -12,39 +12,39 @@
 
 namespace diptych {
 
-// For texelFetch and textureGather, which filter nothing; gathers clamp to the edge.
+// For texelFetch and textureGather, which do not filter; gathers clamp to the edge.
 OwnedSampler makeNearestSampler(Device& device);
 
-// Between texels and levels of detail; clamps to the edge.
+// Filters between texels and mip levels; clamps to the edge.
 OwnedSampler makeLinearSampler(Device& device);
 
 class GpuBuffer {
 public:
     GpuBuffer() = default;
-    // At least one byte is made, so that an empty array can be bound.
+    // Allocates at least one byte, so that empty arrays can be bound.
     GpuBuffer(Device& device, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
               MemoryUse use = MemoryUse::device);
 
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize size() const { return size_; }
     void* mapped() const { return memory_.mapped(); }
-    // Where shaders find it, with SHADER_DEVICE_ADDRESS in its usage; else 0.
+    // Device address if usage includes SHADER_DEVICE_ADDRESS; else 0.
     VkDeviceAddress address() const { return address_; }
 
 private:
-    Allocation memory_;  // outlives the buffer: declared first
+    Allocation memory_;  // declared first, to outlive the buffer
     OwnedBuffer buffer_;
     VkDeviceSize size_ = 0;
     VkDeviceAddress address_ = 0;
 };
 
-// An address as shaders take it, the low word first.
+// An address as shaders read it: (low word, high word).
 inline gpu::uvec2 addressWords(VkDeviceAddress address) {
     return {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32)};
 }
 
-// The buffer, or its first `bytes`, as texels of `format`, for shaders to fetch; its usage has
-// UNIFORM_TEXEL_BUFFER. Throws std::runtime_error where there are more of them than the device reads.
+// The buffer, or its first `bytes`, as a texel buffer of `format`; its usage must include
+// UNIFORM_TEXEL_BUFFER. Throws std::runtime_error if it exceeds the device's limit of texels.
 OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,
                               VkFormat format, VkDeviceSize bytes = VK_WHOLE_SIZE);
 
@@ -55,26 +55,26 @@ struct GpuImageInfo {
     VkImageUsageFlags usage = 0;
     std::uint32_t layers = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool array = false;     // views are of an array, even of one layer
+    bool array = false;     // views are arrays, even with one layer
     bool filtered = false;  // shaders filter it linearly
 };
 
-// A two-dimensional image, an array where it has several layers.
+// A 2D image, or an array of several layers.
 class GpuImage {
 public:
-    enum class Memory { own, none };  // none: bind() gives it some before anything else
+    enum class Memory { own, none };  // none: call bind() first
 
     GpuImage() = default;
-    // Throws std::runtime_error that names the format or the size which the device has not.
+    // Throws std::runtime_error naming the format or size that the device does not support.
     GpuImage(Device& device, const GpuImageInfo& info, Memory memory = Memory::own);
 
-    // To memory that outlives the image and meets requirements().
+    // Binds memory that outlives the image and satisfies requirements().
     void bind(VkDeviceMemory memory, VkDeviceSize offset);
     VkMemoryRequirements requirements() const;
     bool bound() const { return bound_; }
 
     VkImage handle() const { return image_; }
-    VkImageView view() const { return view_; }  // all levels and layers; none where the usage allows no view
+    VkImageView view() const { return view_; }  // all levels and layers; null if the usage allows no view
     OwnedImageView makeView(std::uint32_t level, std::uint32_t levels, std::uint32_t layer,
                             std::uint32_t layers) const;
     const GpuImageInfo& info() const { return info_; }
@@ -91,9 +91,9 @@ private:
 };
 
 VkImageAspectFlags aspectOf(VkFormat format);
-std::uint32_t bytesPerTexel(VkFormat format);  // of the formats we use; throws std::logic_error for others
+std::uint32_t bytesPerTexel(VkFormat format);  // of formats in use; throws std::logic_error for others
 
-// One barrier for a whole image.
+// State of a whole image before or after a barrier.
 struct ImageState {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
@@ -101,13 +101,13 @@ struct ImageState {
 };
 VkImageMemoryBarrier2 barrier(VkImage image, VkImageAspectFlags aspect, const ImageState& from,
                               const ImageState& to);
-// Makes writes of one stage visible to another, in all of memory.
+// Makes writes of one stage visible to another, for all memory.
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
                    VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess);
 void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers);
 
-// Copies data to device buffers and images through a staging buffer of bounded size; what was given is
-// there when flush() returns, which gives the staging buffer's memory to others.
+// Copies data to device buffers and images through a staging buffer of limited size. flush() completes the
+// copies and releases the staging buffer.
 class Uploader {
 public:
     explicit Uploader(Device& device);
@@ -116,11 +116,11 @@ public:
     Uploader& operator=(const Uploader&) = delete;
 
     void buffer(const GpuBuffer& target, std::span<const std::byte> data);
-    // One mip level, tightly packed rows; the image ends in SHADER_READ_ONLY_OPTIMAL when its last level
-    // has been given in ascending order.
+    // One mip level with tightly packed rows, in ascending order of levels. After the last, the image is
+    // in SHADER_READ_ONLY_OPTIMAL.
     void level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data);
     void flush();
-    std::uint64_t bytes() const;  // given so far
+    std::uint64_t bytes() const;  // uploaded so far
 
 private:
     struct State;

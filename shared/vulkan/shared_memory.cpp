@@ -16,8 +16,8 @@ constexpr std::uint32_t workgroupStorage = 4;  // a storage class, section 3.7
 }  // namespace
 
 std::uint64_t sharedBytes(std::span<const std::uint32_t> words) {
-    std::map<std::uint32_t, std::uint64_t> bytes;      // of a type; of a pointer those of what it points to
-    std::map<std::uint32_t, std::uint32_t> constants;  // of 32 bits
+    std::map<std::uint32_t, std::uint64_t> bytes;      // by type; of a pointer, those of its target
+    std::map<std::uint32_t, std::uint32_t> constants;  // 32-bit values
     std::uint64_t sum = 0;
     for (std::size_t at = headerWords; at < words.size();) {
         const Words op = instructionAt(words, at);

@@ -6,8 +6,8 @@
 
 namespace diptych {
 
-// Bytes of the variables that a workgroup shares, of a specialised module (shared/vulkan/specialize.h): array
-// lengths are constants. Variables are counted one after the other, without what a driver adds between them.
+// Shared memory of a workgroup in bytes, for a specialized module (shared/vulkan/specialize.h), where
+// array lengths are constants. The sum of all variables, without the driver's padding.
 std::uint64_t sharedBytes(std::span<const std::uint32_t> words);
 
 }  // namespace diptych

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sparse conditional constant propagation (Wegman and Zadeck, "Constant propagation with conditional
-// branches", TOPLAS 13(2), 1991) in one walk over the blocks: loops are not iterated, so that what a loop
-// changes counts as unknown. Then what the living code reads is marked from its effects on, and written, and
-// of what stands before the code what it still names.
+// branches", TOPLAS 13(2), 1991) in one pass over the blocks. Loops are not iterated, so values that a
+// loop changes count as unknown. Then marks everything that live code reads, starting at side effects, and
+// writes the live code and the declarations that it names.
 #include "shared/vulkan/specialize.h"
 
 #include "shared/vulkan/spirv_ops.h"
@@ -24,7 +24,7 @@ constexpr std::uint32_t decorationSpecId = 1, decorationBuiltIn = 11, decoration
 
 constexpr std::uint32_t none = ~0u;
 
-// Calls `id` with every id that an instruction names, its result and its type among them.
+// Calls `id` with every id that an instruction names, including its result and type.
 template <typename Take>
 void eachId(Words in, Take&& id) {
     struct Literals {  // words that are numbers
@@ -84,7 +84,7 @@ void eachId(Words in, Take&& id) {
     }
 }
 
-// An instruction that does nothing but make its result may go where nothing reads that.
+// Whether an instruction has no side effect, so that it can be removed if its result is unused.
 bool isPure(std::span<const std::uint32_t> in) {
     const std::uint32_t op = opOf(in);
     switch (op) {
@@ -103,15 +103,15 @@ bool isPure(std::span<const std::uint32_t> in) {
         case OpCopyLogical:
             return true;
         default:
-            // Composites, conversions, arithmetic, comparisons, bits and derivatives; samples, fetches,
-            // gathers and queries of images. Images read and written, atomics and groups are not among them.
+            // Composites, conversions, arithmetic, comparisons, bits and derivatives; image samples,
+            // fetches, gathers and queries. Excludes image reads and writes, atomics and group operations.
             return (op >= 77 && op <= 97) || op == 100 || (op >= 103 && op <= 107) ||
                    (op >= 109 && op <= 215);
     }
 }
 
-// The variables of a storage class that have a location, and all locations that they take: a vector one, a
-// matrix one a column, an array those of its elements. By id.
+// Variables of a storage class with a location, by id, and all their locations: one for a vector, one per
+// matrix column, the elements' for an array.
 std::map<std::uint32_t, std::vector<std::uint32_t>> interfaceOf(Words module, std::uint32_t storage) {
     std::map<std::uint32_t, std::uint32_t> taken, pointed, first, numbers;  // by id
     std::map<std::uint32_t, std::vector<std::uint32_t>> found;
@@ -170,28 +170,28 @@ public:
 
 private:
     struct Id {
-        std::uint32_t at = 0;        // of its instruction in the function; 0: it is made outside
-        std::uint32_t type = 0;      // of what it is made as
-        std::uint32_t copied = 0;    // it is no more than this id
-        std::uint32_t spec = none;   // its number as a specialization constant
-        std::uint32_t block = none;  // a label's
-        bool scalar = false;         // a type of bools, or of integers or floats of 32 bits
-        bool boolean = false;        // a type of bools
+        std::uint32_t at = 0;        // of its instruction in the function; 0: declared outside
+        std::uint32_t type = 0;      // result type
+        std::uint32_t copied = 0;    // equals this id
+        std::uint32_t spec = none;   // SpecId of a specialization constant
+        std::uint32_t block = none;  // of a label
+        bool scalar = false;         // a type: bool, or 32-bit integer or float
+        bool boolean = false;        // a type: bool
         bool known = false;          // its value is in bits_
         bool marked = false;
         bool unread = false;  // an output that no later stage reads
-        bool named = false;   // the code that is left names it
+        bool named = false;   // live code names it
     };
     struct Block {
-        std::uint32_t first = 0, last = 0;  // instructions: places in at_; the last is the terminator
+        std::uint32_t first = 0, last = 0;  // instructions: indices into at_; the last is the terminator
         std::uint32_t label = 0, merge = 0, loop_continue = 0;  // ids; of merge instructions, 0: none
-        std::vector<std::uint32_t> targets;                     // blocks that it may go to
-        std::vector<std::uint32_t> taken;                       // those of them that are left
+        std::vector<std::uint32_t> targets;                     // successor blocks
+        std::vector<std::uint32_t> taken;                       // remaining successors
         bool alive = false;
-        bool stub = false;             // nothing goes there, but a construct that is left names it
-        std::uint32_t stub_to = none;  // the loop that a stub of a continue target goes back to
-        std::uint32_t stub_from = 0;   // the label of the stub that goes back to this loop
-        bool declares_merge = false;   // writes a merge instruction of its own: that of `merge`
+        bool stub = false;             // unreachable, but a live construct names it
+        std::uint32_t stub_to = none;  // loop header that a stub of a continue target branches to
+        std::uint32_t stub_from = 0;   // label of the stub that branches to this loop header
+        bool declares_merge = false;   // writes a merge instruction, which names `merge`
     };
 
     std::span<const std::uint32_t> instruction(std::uint32_t at) const { return instructionAt(words_, at); }
@@ -292,8 +292,8 @@ private:
     static bool isTerminator(std::uint32_t op) {
         return (op >= OpBranch && op <= OpUnreachable) || op == OpTerminateInvocation;
     }
-    // Of what stands in functions, instructions without a result: stores and copies of memory (62 to 64),
-    // image writes (99), barriers (224, 225), atomic stores (228), merges, and demoting (5380).
+    // Whether an instruction in a function has a result. Exceptions: stores and memory copies (62 to 64),
+    // image writes (99), barriers (224, 225), atomic stores (228), merges, and demote (5380).
     static bool hasResult(std::span<const std::uint32_t> in) {
         const std::uint32_t op = opOf(in);
         return in.size() > 2 && !(op >= 62 && op <= 64) && op != 99 && op != 224 && op != 225 && op != 228 &&
@@ -310,8 +310,8 @@ private:
         return bits_[id];
     }
 
-    // What an operation of integers or bools gives, where its operands say it. A division by zero, and a
-    // shift by more than there are bits, are undefined: they are left to the device.
+    // Result of an operation on integers or bools, if the operands determine it. Division by zero and
+    // shifts by 32 or more are undefined and left to the device.
     std::optional<std::uint32_t> fold(std::uint32_t operation, std::uint32_t type,
                                       std::span<const std::uint32_t> operands) const {
         if (type >= bound_ || !ids_[type].scalar || operands.empty()) return std::nullopt;
@@ -414,7 +414,7 @@ private:
         }
     }
 
-    // Each block after all that lead to it, but for the ends of loops.
+    // Reverse postorder: each block after its predecessors, except for back edges.
     std::vector<std::uint32_t> order() const {
         std::vector<std::uint32_t> blocks;
         std::vector<char> seen(blocks_.size());
@@ -489,14 +489,14 @@ private:
         } else if (op(at) == OpSelect && known(in[3])) {
             id.copied = in[*known(in[3]) != 0 ? 4 : 5];
         } else if (op(at) == OpLogicalAnd || op(at) == OpLogicalOr) {
-            // The operand that is known does not decide, or this were known.
+            // The known operand does not decide the result; otherwise fold() would.
             if (known(in[3])) id.copied = in[4];
             if (known(in[4])) id.copied = in[3];
         }
     }
 
-    // What living constructs name must be there, though nothing goes there; and a branch that left a
-    // construct that is none any more names the place as its own merge.
+    // Live constructs need the blocks they name, even if unreachable. A branch out of a removed construct
+    // declares that construct's merge block as its own.
     void keepStructure() {
         std::vector<char> declared(bound_), dropped(bound_);
         for (const std::uint32_t number : order_) {
@@ -578,7 +578,7 @@ private:
             pending_.push_back(id);
     }
 
-    // A store to an output that no later stage reads.
+    // Whether it stores to an output that no later stage reads.
     bool isUnread(std::span<const std::uint32_t> in) const {
         if (opOf(in) != OpStore) return false;
         std::uint32_t pointer = in[1];
@@ -618,8 +618,8 @@ private:
         return std::move(out_);
     }
 
-    // Blocks in the module's order, but each after all that lead to it: a block that is left to fewer may
-    // have come to stand below one that the module has after it.
+    // Blocks in module order, but each after its predecessors: with fewer predecessors, a block may now be
+    // dominated by one that follows it in the module.
     std::vector<std::uint32_t> writtenOrder() const {
         std::vector<std::uint32_t> place(blocks_.size(), none), before(blocks_.size()), written;
         for (std::uint32_t i = 0; i < order_.size(); ++i) place[order_[i]] = i;
@@ -641,12 +641,14 @@ private:
         return written;
     }
 
-    // What the code names, and what that is made of; and what the module says of itself: the size of a
-    // workgroup, and constants that are built in.
+    // Finds everything that the code names, recursively. Also the module's own declarations: workgroup
+    // size and built-in constants.
     void findNamed(std::span<const std::uint32_t> code) {
-        std::vector<std::uint32_t> made(bound_), named;  // made: the place of its instruction
+        std::vector<std::uint32_t> made(bound_), named;  // made: offset of the declaring instruction
         const auto name = [&](std::uint32_t id) {
-            if (id >= ids_.size() || std::exchange(ids_[id].named, true)) return;  // new ids are the code's
+            if (id >= ids_.size() || std::exchange(ids_[id].named, true))
+                return;  // new ids belong to the
+                         // code
             if (made[id] != 0) named.push_back(id);
         };
         for (std::uint32_t at = headerWords; at < function_; at += words_[at] >> 16)
@@ -675,8 +677,7 @@ private:
         }
     }
 
-    // Of an instruction before the function: the id of the type, constant or variable that it makes; 0 of
-    // none.
+    // Id of the type, constant or variable that a global instruction declares; 0 if none.
     static std::uint32_t resultOf(std::span<const std::uint32_t> in) {
         const std::uint32_t op = opOf(in);
         if (op >= OpTypeVoid && op <= OpTypeFunction) return in[1];
@@ -685,8 +686,9 @@ private:
         return 0;
     }
 
-    // Whether a capability is still needed. InterpolationFunction always stays: without it SwiftShader takes
-    // the inputs of a partly covered pixel away from its middle, so that derivatives are wrong at edges.
+    // Whether a capability is still needed. InterpolationFunction always stays: without it SwiftShader
+    // evaluates inputs of partly covered pixels away from the centre, which makes derivatives wrong at
+    // edges.
     bool isDemanded(std::uint32_t capability) const {
         switch (capability) {
             case capabilityFloat16:
@@ -718,7 +720,7 @@ private:
                 if (op(at) == OpDecorate && in[2] == decorationSpecId) return;
                 break;
             case OpEntryPoint: {
-                // The stage, the function, its name up to a word with a zero byte, the interface.
+                // Stage, function, name (up to a word with a zero byte), interface.
                 std::size_t interface = 3;
                 while ((in[interface++] >> 24) != 0) continue;
                 const std::size_t start = out_.size();
@@ -747,7 +749,7 @@ private:
         put(in);
     }
 
-    // For a loop that never goes round, the values with which it would.
+    // Undefined phi operands for loops whose back edge is unreachable.
     void putUndefined() {
         for (const Block& block : blocks_) {
             if (!block.alive || block.stub_from == 0) continue;
@@ -812,11 +814,11 @@ private:
     std::uint32_t bound_ = 0, function_ = 0, end_ = 0;
     std::vector<Id> ids_;
     std::vector<std::uint32_t> bits_;  // of known ids
-    std::vector<std::uint32_t> at_;    // the function's instructions
+    std::vector<std::uint32_t> at_;    // offsets of the function's instructions
     std::vector<Block> blocks_;
-    std::vector<std::uint32_t> order_;  // blocks
+    std::vector<std::uint32_t> order_;  // indices of blocks
     std::vector<std::uint32_t> pending_, constants_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> undefined_;  // of such a loop's phi
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> undefined_;  // phi of such a loop, undefined value
     std::vector<std::uint32_t> out_;
     bool needs16_ = false, needs64_ = false, stores_samples_ = false, demotes_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shaders of shaders/pass as the build embeds them, each as one SPIR-V module.
+// Shaders of shaders/pass as embedded SPIR-V modules.
 #pragma once
 
 #include "shader_names.h"  // made from the files of shaders/pass: enum class Shader
@@ -10,13 +10,13 @@
 
 namespace diptych {
 
-// All that varies in a module is a specialization constant (shared/contract/features.h).
+// All variation of a module is in specialization constants (shared/contract/features.h).
 struct ShaderModule {
-    std::string_view name;  // the file's: "gbuffer.frag"
+    std::string_view name;  // file name: "gbuffer.frag"
     std::span<const std::uint32_t> words;
 };
 
 std::span<const ShaderModule> shaderModules();    // in the order of Shader
-const ShaderModule& shaderModule(Shader shader);  // of any but Shader::none
+const ShaderModule& shaderModule(Shader shader);  // except Shader::none
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SPIR-V 1.6 as this program reads it: opcodes by their numbers in the specification's section 3.49.
+// Opcodes of SPIR-V 1.6 that this program reads; numbers as in section 3.49 of the specification.
 #pragma once
 
 #include <cstddef>
@@ -110,10 +110,10 @@ enum Op : std::uint32_t {
     OpDemoteToHelperInvocation = 5380,
 };
 
-// Instructions of GLSL.std.450 that store, and the first one of those that interpolate.
+// GLSL.std.450 instructions that store to memory, and the first that interpolates.
 inline constexpr std::uint32_t extendedModf = 35, extendedFrexp = 51, extendedInterpolates = 76;
 
-// Capabilities that something demands which a variant may lack.
+// Capabilities that a variant may not need.
 inline constexpr std::uint32_t capabilityFloat16 = 9, capabilityInt64 = 11,
                                capabilityStorageImageMultisample = 27,
                                capabilityDemoteToHelperInvocation = 5379;
@@ -126,7 +126,7 @@ inline std::uint32_t opOf(Words instruction) {
     return instruction[0] & 0xffff;
 }
 
-// The instruction that begins at word `at` of a module.
+// Instruction at word `at` of a module.
 inline Words instructionAt(Words module, std::size_t at) {
     return module.subspan(at, module[at] >> 16);
 }

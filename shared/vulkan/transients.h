@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which images of a frame may have the same memory, by when they live. Calls no Vulkan.
+// Memory sharing of a frame's images by lifetime. Makes no Vulkan calls.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -10,19 +10,19 @@
 
 namespace diptych {
 
-// What one image needs, and the first and the last pass that use it.
+// Requirements of one image, and the first and last pass that use it.
 struct Transient {
     VkMemoryRequirements needs{};
     std::size_t first = 0, last = 0;
 };
 
 struct SharedBlock {
-    VkMemoryRequirements needs{};      // of all members
-    std::vector<std::size_t> members;  // numbers of transients, in the order of their lives
+    VkMemoryRequirements needs{};      // of all members together
+    std::vector<std::size_t> members;  // indices of transients, in order of lifetime
 };
 
-// In the order of their sizes each goes into the first block of a fitting memory type where no other lives
-// while it does (first fit, decreasing), or into a new one. Every transient is a member of one block.
+// First fit, decreasing: in order of size, each transient goes into the first block with a suitable memory
+// type and no overlapping lifetime, or into a new block. Every transient is in exactly one block.
 std::vector<SharedBlock> shareMemory(std::span<const Transient> transients);
 
 }  // namespace diptych

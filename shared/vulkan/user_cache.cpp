@@ -26,7 +26,7 @@ bool isOnlyOurs(const struct stat& status) {
 }
 
 fs::path folderOfVariables() {
-    // The XDG base directory specification: a relative path is invalid, and ignored.
+    // XDG base directory specification: relative paths are invalid and ignored.
     for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
         if (const char* const value = std::getenv(variable); value && fs::path(value).is_absolute())
             return fs::path(value) / below / "diptych";
@@ -38,7 +38,7 @@ fs::path folderOfVariables() {
 std::string cacheFault(const fs::path& folder) {
     struct stat named {
     }, there{};
-    // A link may be this user's; one of somebody else leads anywhere.
+    // A link must belong to this user, too: others' links may lead anywhere.
     if (::lstat(folder.c_str(), &named) != 0 || ::stat(folder.c_str(), &there) != 0) return {};
     const char* const why = named.st_uid != ::geteuid() || there.st_uid != ::geteuid()
                                 ? "it belongs to another user; set XDG_CACHE_HOME to another folder"
@@ -72,7 +72,7 @@ CacheFile openCacheFile(const fs::path& file) {
 }
 
 void makeCacheFolder(const fs::path& folder) {
-    std::error_code failed;  // what cannot be made is seen by who writes there
+    std::error_code failed;  // the writer will notice a failure
     fs::create_directories(folder.parent_path(), failed);
     ::mkdir(folder.c_str(), 0700);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The user's cache folder. It only saves time, and drivers read it without mistrust: nothing is used
-// that somebody else could have written.
+// The user's cache folder. It only saves time. Drivers trust its contents, so files that others could have
+// written are not used.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,24 @@
 
 namespace diptych {
 
-// $XDG_CACHE_HOME/diptych, else $HOME/.cache/diptych; empty where neither is an absolute path, and where
-// cacheFault() has something to say, which is then said on stderr, once.
+// $XDG_CACHE_HOME/diptych, else $HOME/.cache/diptych. Empty if neither is an absolute path, or if
+// cacheFault() reports a problem, which is then printed to stderr once.
 std::filesystem::path userCacheFolder();
 
-// Why a folder is not used as a cache, one line; empty: it is this user's and nobody else may write to it, or
-// there is none yet.
+// Why a folder is not used as a cache, one line. Empty if it belongs to this user and nobody else may
+// write to it, or if it does not exist.
 std::string cacheFault(const std::filesystem::path& folder);
 
 struct CacheFile {
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream{nullptr, std::fclose};  // null: not used
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream{nullptr, std::fclose};  // null: do not use
     std::uintmax_t bytes = 0;
 };
-// A regular file, not a link, that is this user's and that nobody else may write to.
+// Opens a regular file, not a link, that belongs to this user and that nobody else may write to.
 CacheFile openCacheFile(const std::filesystem::path& file);
 
-// Makes the folder, for this user alone, where it is missing.
+// Creates the folder for this user alone if it is missing.
 void makeCacheFolder(const std::filesystem::path& folder);
-// For this user alone whatever the umask: openCacheFile() would refuse it otherwise.
+// Restricts access to this user regardless of the umask; otherwise openCacheFile() would reject the file.
 void keepForUser(std::FILE* file);
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The values of all features, which are the key of a shader's variant, and the sets of features that
-// shared/contract/features.h states: who sets them, who reads them.
+// Values of all features, which select a shader variant, and feature sets of shared/contract/features.h:
+// who sets them and who reads them.
 #pragma once
 
 #include "shared/contract/features.h"
@@ -12,7 +12,6 @@
 
 namespace diptych {
 
-// A set of features.
 class FeatureMask {
 public:
     constexpr FeatureMask() = default;
@@ -38,19 +37,17 @@ private:
     std::array<std::uint64_t, (gpu::FEATURE_COUNT + 63) / 64> words_{};
 };
 
-// Who sets a feature.
 enum class FeatureSource { item, frame, gbuffer, pass };
 
-// One row of FEATURES.
 struct FeatureRow {
     gpu::uint id;
     const char* name;
     FeatureSource source;
-    bool switches;     // what a scene or a view may lack: 0 is a variant without it
+    bool switches;     // 0 selects a variant without the feature
     gpu::uint passes;  // PASS_*
 };
 namespace feature_table {
-using namespace gpu;  // the last column names PASS_*
+using namespace gpu;  // the last column uses PASS_*
 struct SetBy {        // the column "set by"
     FeatureSource from;
     bool switches;
@@ -67,7 +64,7 @@ inline constexpr FeatureRow rows[] = {
 }  // namespace feature_table
 inline constexpr auto& featureRows = feature_table::rows;
 
-// The features that some of `passes` (a sum of PASS_*) reads.
+// Features that at least one of `passes` (a sum of PASS_*) reads.
 constexpr FeatureMask featuresReadBy(gpu::uint passes) {
     FeatureMask mask;
     for (const FeatureRow& row : featureRows)
@@ -82,7 +79,7 @@ constexpr FeatureMask featuresSetBy(FeatureSource source) {
     return mask;
 }
 
-// The values of all features, 0 where not set.
+// Values of all features, 0 by default.
 class Variant {
 public:
     Variant& set(gpu::uint feature, gpu::uint value = 1) {
@@ -92,15 +89,15 @@ public:
     gpu::uint get(gpu::uint feature) const { return values_.at(feature); }
     const std::array<gpu::uint, gpu::FEATURE_COUNT>& values() const { return values_; }
 
-    // Sets the features of the mask to what they are in `from`.
+    // Copies the features of the mask from `from`.
     Variant& take(const Variant& from, FeatureMask mask) {
         for (gpu::uint i = 0; i < gpu::FEATURE_COUNT; ++i)
             if (mask.has(i)) values_[i] = from.values_[i];
         return *this;
     }
-    // The features of the mask as they are, all others off.
+    // A copy with the features of the mask; all others are 0.
     Variant only(FeatureMask mask) const { return Variant().take(*this, mask); }
-    // Whether a feature of the mask is on.
+    // Whether a feature of the mask is not 0.
     bool any(FeatureMask mask) const { return only(mask) != Variant(); }
 
     auto operator<=>(const Variant&) const = default;

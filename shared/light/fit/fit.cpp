@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t cells = gpu::LTC_CELLS;
 
-// Directions a side of the square: of the search, of the error that is stored (a tenth of a percent of it),
-// and of the albedo (1e-4).
+// Directions per side of the square: for the search, for the stored error (precise to 0.1 % of it), and
+// for the albedo (precise to 1e-4).
 constexpr int searched = 32, stored = 96, counted = 192;
 
 LtcLobe parametersOf(const Point<4>& x) {
@@ -26,7 +26,7 @@ LtcLobe parametersOf(const Point<4>& x) {
             .tilt = static_cast<float>(x[3])};
 }
 
-// `all`: the lobe's integral.
+// `all`: integral of the lobe.
 LtcLobe fitLobe(const Lobe& lobe, double all, const LtcLobe& start) {
     const auto transform = [&](const LtcLobe& l) { return transformOf(l, lobe.alpha(), lobe.nDotV()); };
     const auto apart = [&](const Point<4>& x) {
@@ -34,7 +34,7 @@ LtcLobe fitLobe(const Lobe& lobe, double all, const LtcLobe& start) {
     };
     Point<4> x{std::log(double{start.in_plane}), std::log(double{start.across}), double{start.unsheared},
                double{start.tilt}};
-    // More than once: a simplex that has collapsed too early opens again.
+    // Several searches: a simplex that collapsed too early expands again.
     for (const double step : {0.1, 0.05, 0.02}) x = nelderMead<4>(apart, x, step, 1e-6, 300);
     LtcLobe fitted = parametersOf(x);
     fitted.error = static_cast<float>(distance(lobe, all, transform(fitted), stored));
@@ -72,8 +72,8 @@ LtcTable fitTable(const std::function<void(double)>& progress) {
     };
     for (std::size_t i = cells; i-- > 0;) {
         fit(i, 0, i + 1 < cells ? table.cell(i + 1, 0) : LtcCell{});
-        // Seen from the normal a lobe is round, and whatever its shear is multiplied by 0: near what comes
-        // next.
+        // At normal incidence a lobe is round, and its shear is multiplied by 0, so any value serves. This
+        // one is close to the next cell's.
         for (LtcLobe* round : {&table.cells[i].even, &table.cells[i].layer}) {
             round->in_plane = round->across = std::sqrt(round->in_plane * round->across);
             round->unsheared = static_cast<float>(lobeOf(i, 0).alpha());

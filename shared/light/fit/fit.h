@@ -9,17 +9,17 @@
 
 namespace diptych::ltc {
 
-// Of cell (i, j).
+// Lobe of cell (i, j).
 Lobe lobeOf(std::size_t i, std::size_t j, double f0 = 1);
 
-// For both lobes the transform nearest to it by distance(), searched from a neighbour's cell on (four
-// numbers, Nelder and Mead), and its error; magnitude and Fresnel. `start` too is given as the cell's
-// factors, so neighbours lie near one another.
+// For both lobes, the nearest transform by distance() and its error, and magnitude and Fresnel.
+// Nelder-Mead searches four parameters, starting at a neighbour's cell. `start` is relative as in LtcCell,
+// so neighbours have similar values.
 LtcCell fitCell(std::size_t i, std::size_t j, const LtcCell& start);
 
-// Roughness 1 first, each row of roughness from the normal on to grazing: every cell starts from the one
-// before. On all cores, the same table on any number. `progress` is called from any thread with the share
-// done.
+// Fits roughness 1 first, and for each roughness from normal to grazing incidence. Every cell starts from
+// the previous one. Uses all cores; the result does not depend on their number. `progress` is called from
+// any thread with the completed fraction.
 LtcTable fitTable(const std::function<void(double)>& progress);
 
 }  // namespace diptych::ltc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it, with its error. Run by hand
-// where the specular lobe of shaders/lib/brdf.glsl has changed; the file belongs at shared/light/ltc.exr.
+// fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it with its error. Run it by
+// hand after the specular lobe of shaders/lib/brdf.glsl changes, and copy the file to
+// shared/light/ltc.exr.
 #include "shared/image/exr.h"
 #include "shared/light/fit/fit.h"
 #include "shared/light/ltc.h"

@@ -17,7 +17,7 @@ glm::dvec2 onDisc(const glm::dvec2& u) {
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-// The middles of n x n equal cells of the unit square.
+// Calls f at the centres of n x n equal cells of the unit square.
 template <class F>
 void overSquare(int n, const F& f) {
     for (int i = 0; i < n; ++i)
@@ -36,7 +36,8 @@ Lobe::Value Lobe::operator()(const glm::dvec3& l) const {
     if (!(l.z > 0)) return {};
     const glm::dvec3 h = glm::normalize(l + view_);
     const double a2 = alpha_ * alpha_;
-    const double across = h.x * h.x + h.y * h.y;  // |n x h|^2, which does not cancel near the highlight
+    const double across = h.x * h.x + h.y * h.y;  // |n x h|^2, computed without cancellation near the
+                                                  // highlight
     const double k = alpha_ / (across + h.z * h.z * a2), d = k * k / pi;
     const double lambda_l = std::sqrt(l.z * l.z * (1 - a2) + a2);
     const double visibility = 0.5 / (l.z * lambda_v_ + view_.z * lambda_l);
@@ -49,7 +50,7 @@ Lobe::Value Lobe::operator()(const glm::dvec3& l) const {
 
 glm::dvec3 Lobe::sample(const glm::dvec2& u) const {
     const glm::dvec3 v = glm::normalize(glm::dvec3(alpha_ * view_.x, 0, view_.z));
-    // x and y of a frame around v: y is across, and the viewer's plane holds the other.
+    // x and y of a frame around v: y is across; x lies in the viewer's plane.
     const glm::dvec3 t1(0, -1, 0), t2 = glm::cross(v, t1);
     glm::dvec2 p = onDisc(u);
     const double s = 0.5 * (1 + v.z);

@@ -12,7 +12,7 @@ namespace diptych::ltc {
 template <std::size_t N>
 using Point = std::array<double, N>;
 
-// A local minimum of f near `start`; the first simplex has edges of `step`. Ends where the values at the
+// A local minimum of f near `start`; the initial simplex has edges of `step`. Stops when the values at the
 // corners agree to `relative` of the smallest, or after `most` steps.
 template <std::size_t N, class F>
 Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relative, int most) {
@@ -31,10 +31,10 @@ Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relat
         Corner &best = simplex.front(), &worst = simplex.back();
         if (n >= most || worst.value - best.value <= relative * best.value) return best.x;
 
-        Point<N> middle{};  // of all but the worst
+        Point<N> middle{};  // of all corners but the worst
         for (std::size_t i = 0; i < N; ++i)
             for (std::size_t k = 0; k < N; ++k) middle[k] += simplex[i].x[k] / N;
-        const auto from = [&](double t) {  // the middle at 0, the worst at 1
+        const auto from = [&](double t) {  // 0: the centre, 1: the worst corner
             Corner corner;
             for (std::size_t k = 0; k < N; ++k) corner.x[k] = middle[k] + t * (worst.x[k] - middle[k]);
             corner.value = f(corner.x);
