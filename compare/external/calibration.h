@@ -43,8 +43,14 @@ struct Shown {
     std::string problem{};
 };
 
-// One way in which a renderer does not mean what it is told. `name`: as README.md lists them; `grant`: what
-// of "granted" in its file would make up for it, empty where nothing does.
+// One way in which a renderer does not mean what it is told. `name`, by where it shows:
+//   centroids of eight marks  upside_down, mirrored, fov, aspect, shift, unrecognised
+//   a ramp of emitters        srgb_output, tone_curve, cut_off, exposure, primaries
+//   textured charts           colour_textures_linear, colour_textures_twice, data_textures_srgb
+//   a white face per light    light_factor, point_factor, ..., no_point_lights, ...
+//   five faces                environment_rotation, environment_mirrored, ldr_environment,
+//                             environment_factor, no_environment
+// `grant`: what of "granted" in its file would make up for it, empty where nothing does.
 struct Deviation {
     std::string name, words;
     nlohmann::ordered_json grant = nlohmann::ordered_json::object();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The many-light benchmark, defined by the numbers in README.md so that other renderers can be measured on
+// The many-light benchmark, defined by the numbers in spheres.md so that other renderers can be measured on
 // the same work. If a number changes, the scene needs a new name.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
