@@ -43,8 +43,14 @@ struct Shown {
     std::string problem{};
 };
 
-// One deviation from the requested inputs. `name`: see README.md. `grant`: members of "granted" that
-// correct it; empty if nothing does.
+// One deviation from the requested inputs. `name`, by the chart that shows it:
+//   centroids of eight marks  upside_down, mirrored, fov, aspect, shift, unrecognised
+//   a ramp of emitters        srgb_output, tone_curve, cut_off, exposure, primaries
+//   textured charts           colour_textures_linear, colour_textures_twice, data_textures_srgb
+//   a white face per light    light_factor, point_factor, ..., no_point_lights, ...
+//   five faces                environment_rotation, environment_mirrored, ldr_environment,
+//                             environment_factor, no_environment
+// `grant`: members of "granted" that correct it; empty if nothing does.
 struct Deviation {
     std::string name, words;
     nlohmann::ordered_json grant = nlohmann::ordered_json::object();

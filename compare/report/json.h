@@ -18,6 +18,24 @@ namespace diptych {
 
 // report.json, schema 1. JSON has no infinity: infinite statistics are null, and infinite_pixels counts
 // their pixels. A forward-only channel's statistics are all null. `layout` may be nullptr.
+//
+// Keys whose names do not explain them:
+//   said_first           notes that a reader needs before any number
+//   devices              times of comparing and writing, by device; with several, compare_ms and encode_ms of
+//                        the whole are null, because times of different devices are never added
+//   drawn_on             a frame's device
+//   errors, failures     scenes that could not be read or drawn; pictures that one of two folders lacks. With
+//                        any, the verdict is "fail"
+//   marks, marks_found   the visual checks of a comparison, and their number by feature
+//   emptiness            why a comparison's pictures show nothing; null if they show something
+//   explanation          what `explain --json` prints, or the only key not_explained with the reason; null
+//                        unless lit fails or --explain asks. It ignores --mask and the like
+//   criterion            what decided a channel; null if it is not judged. figure, its measured value, and
+//                        its limit (least: the value must not be below). pixels_beyond and share_beyond count
+//                        pixels over the limit; if no single pixel's error decides, differing_pixels and
+//                        differing_share count all that differ
+//   truth                per scene, camera and time compared with the reference: nearer, the closer path; by,
+//                        how many times closer; nearer_pixels, the pixels at which each path is closer
 std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since = nullptr);
 
 // The three arrays of report.json that need Frames; innerJson() returns the text of an array's elements

@@ -38,8 +38,8 @@ std::vector<Outcome> errorsAt(Measurer& measurer, const std::string& name, doubl
 }
 
 void expectHolds(Measurer& measurer, const std::string& name, std::initializer_list<double> magnitudes) {
-    // Float32 shading of the usual scene is within 2e-5 of double (README of the reference); a tenth of the
-    // least of an audit's criteria leaves room for GPUs, whose division and square roots are less exact.
+    // Float32 shading of the usual scene is within 2e-5 of double (compare/reference/MEASURED.md); a tenth
+    // of an audit's least criterion leaves room for GPUs, whose division and square roots are less exact.
     constexpr double most = 1e-4;
     for (const double magnitude : magnitudes)
         for (const Outcome& outcome : errorsAt(measurer, name, magnitude)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The many-light benchmark. README.md defines its numbers, so that other renderers can run the same
-// workload. If a number changes, the scene needs a new name.
+// The many-light benchmark, defined by the numbers in spheres.md so that other renderers can be measured on
+// the same work. If a number changes, the scene needs a new name.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
