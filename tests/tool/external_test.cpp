@@ -389,7 +389,8 @@ TEST(External, FilesAreReadStrictly) {
         {R"({"command": ["x"], "timeot": 3})", "timeot: is not a known field of a renderer"},
         {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
         {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
-        {R"({"command": ["x"], "granted": {"light_faktor": 2}})", "light_faktor: is not a known field of granted"},
+        {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
+         "light_faktor: is not a known field of granted"},
         {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is not one of linear, srgb"},
         {R"({"command")", "is not JSON"}};
     for (const auto& [text, says] : cases) {

@@ -25,8 +25,8 @@ struct PackedPair {
     float* own(gpu::uint mode) { return &frames[1].channels.at(static_cast<int>(mode)).at(1, 2); }
     std::optional<BoundUse> use(gpu::uint mode, double slack = 0) const {
         const Coverage covered = coverage(frames[0], frames[1]);
-        return encodingUse(debugMode(static_cast<int>(mode)),
-                           FramePair{frames[0], frames[1], needs, covered}, slack);
+        return encodingUse(debugMode(static_cast<int>(mode)), FramePair{frames[0], frames[1], needs, covered},
+                           slack);
     }
     Report report(const std::vector<int>& requested = {}, const CompareOptions& options = {}) const {
         std::vector<Frame> drawn = frames;
@@ -104,8 +104,8 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
                                  gpu::DEBUG_lightmapped, gpu::DEBUG_specular})
         EXPECT_FALSE(p.use(mode)) << mode;
     p.needs = {};
-    for (const gpu::uint mode : {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0,
-                                 gpu::DEBUG_dielectric_f90})
+    for (const gpu::uint mode :
+         {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0, gpu::DEBUG_dielectric_f90})
         EXPECT_FALSE(p.use(mode)) << "nothing is stored of " << mode;
     EXPECT_TRUE(p.use(gpu::DEBUG_albedo));
     for (Frame& frame : p.frames) frame.settings.gbuffer = GBufferEncoding::full;
@@ -129,7 +129,8 @@ TEST(EncodingUse, LitIsJudgedWithItsFields) {
         EXPECT_EQ(report.comparisons[0].channels[1].mode->number, mode);
         EXPECT_EQ(report.comparisons[0].channels[1].verdict, Verdict::fail);
         CompareOptions ruled;
-        ruled.rules = rulesFromJson(R"({"rules": [{"channel": "lit", "max": 9, "because": "so"}]})", "t.json");
+        ruled.rules =
+            rulesFromJson(R"({"rules": [{"channel": "lit", "max": 9, "because": "so"}]})", "t.json");
         EXPECT_TRUE(p.report(lit, ruled).passed()) << "a rule judges lit by itself";
         const std::vector<int> other{static_cast<int>(gpu::DEBUG_depth)};
         EXPECT_TRUE(p.report(other).passed()) << "nobody judges light";
@@ -151,8 +152,9 @@ TEST(EncodingUse, AgainstTheReferenceDecodedSurfacesAreShaded) {
         shows.through_gbuffer.at(lit.number).at(1, 2) += 0.1f;
         const Coverage covered = coverage(reference, deferred);
         for (const bool turned : {false, true}) {
-            const FramePair pair{turned ? deferred : reference, turned ? reference : deferred, p.needs,
-                                 covered, true, traced ? &forward : nullptr};
+            const FramePair pair{
+                turned ? deferred : reference, turned ? reference : deferred, p.needs, covered, true,
+                traced ? &forward : nullptr};
             EXPECT_EQ(encodingShownBy(lit, pair), &shows);
             ASSERT_TRUE(certainErrors(lit, pair));
             EXPECT_NEAR(certainErrors(lit, pair)->at(0), 0, 1e-6);
