@@ -7,7 +7,6 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/gbuffer.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
@@ -66,18 +65,16 @@ bool anyBlends(const Scene& scene) {
 
 // By how much a component of a channel may be off, decoded from a G-buffer; emission: a part of the largest.
 std::map<int, double> packedBounds(const Settings& settings) {
-    if (settings.gbuffer == GBufferEncoding::full || settings.path != Path::deferred) return {};
-    const bool compact = settings.gbuffer == GBufferEncoding::compact;
-    const auto normal = [](unsigned bits) { return glm::radians(octahedralBound(bits)); };
-    return {
-        {gpu::DEBUG_albedo, squareBound(gpu::ALBEDO_BITS)},
-        {gpu::DEBUG_normals, normal(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
-        {gpu::DEBUG_geometric_normal,
-         normal(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
-        {gpu::DEBUG_metallic, unormBound(compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS)},
-        {gpu::DEBUG_roughness,
-         unormBound(compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS)},
-        {gpu::DEBUG_emission, radianceBound()}};
+    if (settings.path != Path::deferred) return {};
+    Requirements needs;
+    needs.emission = true;
+    std::map<int, double> bounds;
+    for (const int mode : relatedChannels())
+        if (const auto field = storedField(mode, settings.gbuffer, needs))
+            bounds[mode] = field->code == StoredField::Code::octahedral
+                               ? glm::radians(field->largestBound())
+                               : field->largestBound();
+    return bounds;
 }
 
 bool isReferenceSeries(const Series& series) {

@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/across_devices.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/one_sided.h"
 #include "compare/verdict/surface_grid.h"

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/encoding_bits.h"
 
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/material/gbuffer_layout.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +50,68 @@ double radianceBound() {
 double octahedralBound(unsigned bits) {
     const double h = 0.5 / static_cast<double>((1u << (bits - 1)) - 1);
     return 180 / std::numbers::pi * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + lengthBound);
+}
+
+double StoredField::largestBound() const {
+    switch (code) {
+        case Code::unorm:
+            return unormBound(bits);
+        case Code::root:
+            return squareBound(bits);
+        case Code::octahedral:
+            return octahedralBound(bits);
+        case Code::radiance:
+            return radianceBound();
+    }
+    return 0;
+}
+
+std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs) {
+    using enum StoredField::Code;
+    if (encoding == GBufferEncoding::full) return {};
+    const bool compact = encoding == GBufferEncoding::compact;
+    const GBufferLayout layout = gbufferLayout(encoding, needs);
+    constexpr unsigned mantissa = gpu::EMISSION_MANTISSA_BITS;
+    switch (static_cast<gpu::uint>(mode)) {
+        case gpu::DEBUG_albedo:
+            return StoredField{root, gpu::ALBEDO_BITS};
+        case gpu::DEBUG_normals:
+            return StoredField{octahedral, compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
+        case gpu::DEBUG_geometric_normal:
+            return StoredField{octahedral, compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
+                                                   : gpu::STANDARD_NORMAL_BITS};
+        case gpu::DEBUG_metallic:
+            return StoredField{unorm, compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS};
+        case gpu::DEBUG_roughness:
+            return StoredField{unorm, compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS};
+        case gpu::DEBUG_occlusion:
+            return StoredField{unorm, gpu::OCCLUSION_BITS};
+        case gpu::DEBUG_emission:
+            if (!needs.emission || layout.wide_emission) return {};
+            return StoredField{radiance, mantissa};
+        case gpu::DEBUG_lightmap:
+            if (!needs.lightmap || layout.wide_lightmap) return {};
+            return StoredField{radiance, mantissa};
+        case gpu::DEBUG_dielectric_f0:
+            if (!needs.dielectric_specular) return {};
+            return StoredField{root, gpu::SPECULAR_BITS};
+        case gpu::DEBUG_dielectric_f90:
+            if (!needs.dielectric_specular) return {};
+            return StoredField{unorm, gpu::SPECULAR_BITS};
+        default:
+            return {};
+    }
+}
+
+std::span<const int> lightingFields() {
+    static constexpr std::array fields{
+        static_cast<int>(gpu::DEBUG_albedo),         static_cast<int>(gpu::DEBUG_normals),
+        static_cast<int>(gpu::DEBUG_metallic),       static_cast<int>(gpu::DEBUG_roughness),
+        static_cast<int>(gpu::DEBUG_emission),       static_cast<int>(gpu::DEBUG_occlusion),
+        static_cast<int>(gpu::DEBUG_position),       static_cast<int>(gpu::DEBUG_geometric_normal),
+        static_cast<int>(gpu::DEBUG_dielectric_f90), static_cast<int>(gpu::DEBUG_lightmap),
+        static_cast<int>(gpu::DEBUG_dielectric_f0),  static_cast<int>(gpu::DEBUG_lightmapped)};
+    return fields;
 }
 
 }  // namespace diptych

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the bits of a G-buffer's field allow the number in it to be off by, float32's evaluation included.
-// shaders/lib/encoding_bits.glsl has the same bounds, as shading propagates them.
 #pragma once
+
+#include "shared/frame/settings.h"
+#include "shared/scene/requirements.h"
+
+#include <optional>
+#include <span>
 
 namespace diptych {
 
@@ -23,5 +28,21 @@ double octahedralBound(unsigned bits);
 
 // How far a decoded unit vector's length may be from 1: float32's normalisation.
 inline constexpr double lengthBound = 10 * 0x1p-24;
+
+// How a field of Surface is stored in fewer bits than float32.
+struct StoredField {
+    enum class Code { unorm, root, octahedral, radiance };  // root: the square root of each component
+    Code code;
+    unsigned bits = 0;  // of each component or coordinate; radiance: of the mantissas
+
+    double largestBound() const;  // of any value, in the channel's metric
+};
+
+// Of a channel of a G-buffer of this encoding; empty where it is stored exactly or not at all.
+std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs);
+
+// The channels of all fields of Surface that lighting reads: lit is a function of them and of inputs that
+// both paths share.
+std::span<const int> lightingFields();
 
 }  // namespace diptych

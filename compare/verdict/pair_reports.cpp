@@ -4,6 +4,7 @@
 #include "compare/render/channel_shading.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/neighbours.h"

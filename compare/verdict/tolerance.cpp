@@ -10,7 +10,6 @@
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
-#include "shared/material/gbuffer_layout.h"
 
 #include <fmt/format.h>
 
@@ -24,19 +23,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-struct Bits {
-    unsigned normal, roughness, metallic;
-};
-Bits bitsOf(GBufferEncoding encoding) {
-    if (encoding == GBufferEncoding::compact)
-        return {gpu::COMPACT_NORMAL_BITS, gpu::COMPACT_ROUGHNESS_BITS, gpu::COMPACT_METALLIC_BITS};
-    return {gpu::STANDARD_NORMAL_BITS, gpu::STANDARD_ROUGHNESS_BITS, gpu::STANDARD_METALLIC_BITS};
-}
-
-Tolerance unormTolerance(unsigned bits) {
-    return {unormBound(bits), fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
-}
-
 // Of radiance in 9.9.9.e5: emission and lightmaps.
 Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Image& baseline = pair.baseline.channels.at(mode.number);
@@ -48,30 +34,37 @@ Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
                 : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
 }
 
-Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
-    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (gbufferLayout(encoding, pair.needs).wide_emission)
-        return {0, "float32: the scene's emission exceeds the range of 9.9.9.e5"};
-    return radianceTolerance(mode, pair);
-}
-
-Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
-    if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
-    if (gbufferLayout(encoding, pair.needs).wide_lightmap)
-        return {0, "float32: the scene's lightmaps exceed the range of 9.9.9.e5"};
-    return radianceTolerance(mode, pair);
+Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
+    const unsigned bits = field.bits, codes = (1u << bits) - 1;
+    switch (field.code) {
+        case StoredField::Code::unorm:
+            return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
+        case StoredField::Code::root:
+            return {field.largestBound(),
+                    fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits,
+                                codes)};
+        case StoredField::Code::octahedral:
+            return {field.largestBound(),
+                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
+                                bits)};
+        case StoredField::Code::radiance:
+            return radianceTolerance(mode, pair);
+    }
+    return {};
 }
 
 // mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
-Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
-    const double albedo = squareBound(gpu::ALBEDO_BITS), metallic = unormBound(bits.metallic);
-    const bool stored = pair.needs.dielectric_specular;
-    const double ends = stored ? std::max(albedo, squareBound(gpu::SPECULAR_BITS)) : albedo;
-    const double apart = stored ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
+Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
+    const auto bound = [&](gpu::uint mode) {
+        const auto field = storedField(static_cast<int>(mode), encoding, pair.needs);
+        return field ? field->largestBound() : 0;
+    };
+    const double metallic = bound(gpu::DEBUG_metallic), f0 = bound(gpu::DEBUG_dielectric_f0);
+    const double ends = std::max(bound(gpu::DEBUG_albedo), f0);
+    const double apart = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
     return {ends + metallic * apart,
-            fmt::format(
-                "mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step of {} bits, {:.3g})",
-                stored ? " and F0" : "", ends, bits.metallic, metallic)};
+            fmt::format("mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step, {:.3g})",
+                        f0 > 0 ? " and F0" : "", ends, metallic)};
 }
 
 // The image that forward+ shades from surfaces that went through the same encoding; nullptr if it was not
@@ -103,35 +96,21 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (encoding == GBufferEncoding::full) return {0, "the full G-buffer stores float32 exactly"};
     if (isLit(mode.number)) return litTolerance(mode, pair);
-    const Bits bits = bitsOf(encoding);
+    if (const auto field = storedField(mode.number, encoding, pair.needs))
+        return storedTolerance(*field, mode, pair);
     switch (mode.number) {
-        case gpu::DEBUG_albedo:
-            return {squareBound(gpu::ALBEDO_BITS),
-                    "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
-        case gpu::DEBUG_normals:
-            return {octahedralBound(bits.normal),
-                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
-                                bits.normal)};
-        case gpu::DEBUG_metallic:
-            return unormTolerance(bits.metallic);
-        case gpu::DEBUG_roughness:
-            return unormTolerance(bits.roughness);
-        case gpu::DEBUG_occlusion:
-            return unormTolerance(gpu::OCCLUSION_BITS);
-        case gpu::DEBUG_emission:
-            return emissionTolerance(mode, pair, encoding);
-        case gpu::DEBUG_lightmap:
-            return lightmapTolerance(mode, pair, encoding);
         case gpu::DEBUG_specular:
-            return specularTolerance(pair, bits);
+            return specularTolerance(pair, encoding);
+        case gpu::DEBUG_emission:
+            return {0, pair.needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
+                                           : "nothing in the scene emits"};
+        case gpu::DEBUG_lightmap:
+            return {0, pair.needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
+                                           : "nothing in the scene has a lightmap"};
         case gpu::DEBUG_dielectric_f90:
-            if (!pair.needs.dielectric_specular)
-                return {0, "every dielectric has F90 = 1: nothing is stored"};
-            return unormTolerance(gpu::SPECULAR_BITS);
+            return {0, "every dielectric has F90 = 1: nothing is stored"};
         case gpu::DEBUG_dielectric_f0:
-            if (!pair.needs.dielectric_specular)
-                return {0, "every dielectric has F0 = 0.04: nothing is stored"};
-            return {squareBound(gpu::SPECULAR_BITS), "square root in 8 bits"};
+            return {0, "every dielectric has F0 = 0.04: nothing is stored"};
         case gpu::DEBUG_material_id:
             return {0, "the index is stored exactly"};
         case gpu::DEBUG_lightmapped:
@@ -146,10 +125,6 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_lit_haze:
         case gpu::DEBUG_transmittance:
             return {0, "the same function of pixel and depth in both paths"};
-        case gpu::DEBUG_geometric_normal:
-            return {octahedralBound(encoding == GBufferEncoding::compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
-                                                                         : gpu::STANDARD_NORMAL_BITS),
-                    "octahedral: half a step in both coordinates at a face's centre, degrees"};
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_cascade:
         case gpu::DEBUG_page_residency:

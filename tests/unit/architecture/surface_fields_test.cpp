@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lit channel of a packed G-buffer is judged by the fields that lighting reads. So each of them has a
 // channel that is judged, and nothing but the decoded surface sets the two variants of forward+ apart.
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "tests/support/sources.h"
 
