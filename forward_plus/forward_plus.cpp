@@ -103,7 +103,8 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
-            for (CapturedImage image : addCaptureImages(passes, pass, group, lit, inputs.samples)) {
+            for (CapturedImage image :
+                 addCaptureImages(passes, pass, group, lit, inputs.samples, request.every_sample)) {
                 image.through_gbuffer = encoded;
                 images.push_back(image);
             }

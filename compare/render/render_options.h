@@ -31,6 +31,7 @@ struct RenderOptions {
     // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer): forward+
     // encodes and decodes its own; renderAll() gives the reference those of the deferred Frame beside it.
     bool through_gbuffer = false;
+    std::vector<int> every_sample;    // with MSAA, Frame::further_samples: of these of `channels`
     std::optional<Settings> decoded;  // reference in mode surface: that Frame's Settings
     // reference: also what approximations of an environment cost (Frame::environment_costs), and what of its
     // light and of ambient light geometry hides (Frame::hidden_light).

@@ -111,6 +111,7 @@ private:
         for (const int mode : options_.channels)
             if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
                 request.modes.push_back(mode);
+        request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
                 if (isRequested(mode)) request.through_gbuffer.push_back(mode);
@@ -134,6 +135,11 @@ private:
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured, [this](const CapturedImage& read, Image image, Repaired repaired) {
             if (read.before_blending) return takeUnblended(read, std::move(image));
+            if (read.sample > 0) {
+                keepInFile(image.data);
+                frame_.further_samples[read.mode].push_back(std::move(image));
+                return;
+            }
             if (read.through_gbuffer) {
                 keepInFile(image.data);
                 frame_.through_gbuffer[read.mode] = std::move(image);
@@ -162,6 +168,7 @@ private:
             step("second capture", captureFrames);
             // They come last, and are drawn once.
             std::erase_if(captured, &CapturedImage::through_gbuffer);
+            std::erase_if(captured, [](const CapturedImage& read) { return read.sample > 0; });
             readCaptured(first, captured,
                          [this](const CapturedImage& read, const Image& image, const Repaired&) {
                              if (read.mode != lit) addNoise(read.mode, image);

@@ -5,6 +5,8 @@
 #include "compare/verdict/encoding_bits.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -55,9 +57,21 @@ std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair
     if (!deferred || !forward) return {};
     const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
     if (!field) return {};
-    const Image &read = deferred->channels.at(mode.number), &own = forward->channels.at(mode.number);
-    return boundUse(pair.coverage, own.width, [&](std::size_t i) {
-        return useOf(*field, read.pixel(i), own.pixel(i), mode.width, slack);
+    // Of every sample that both have, by pixel: deferred's and forward+'s.
+    std::vector<std::pair<const Image*, const Image*>> samples{
+        {&deferred->channels.at(mode.number), &forward->channels.at(mode.number)}};
+    const auto read = deferred->further_samples.find(mode.number),
+               own = forward->further_samples.find(mode.number);
+    if (read != deferred->further_samples.end() && own != forward->further_samples.end())
+        for (std::size_t s = 0; s < std::min(read->second.size(), own->second.size()); ++s)
+            samples.emplace_back(&read->second[s], &own->second[s]);
+    return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
+        PixelUse worst;
+        for (const auto& [a, b] : samples) {
+            const PixelUse here = useOf(*field, a->pixel(i), b->pixel(i), mode.width, slack);
+            worst = {std::max(worst.share, here.share), std::max(worst.bound, here.bound)};
+        }
+        return worst;
     });
 }
 

@@ -51,6 +51,7 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
         std::ranges::copy_if(lightingFields(), std::back_inserter(helpers), [&](int mode) {
             return shadows || mode != static_cast<int>(gpu::DEBUG_geometric_normal);
         });
+    render.every_sample.assign(lightingFields().begin(), lightingFields().end());
     if (shadows)
         for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
             helpers.push_back(static_cast<int>(mode));

@@ -9,6 +9,7 @@
 CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, MAX_SAMPLES, 8);
+CONTRACT_CONST(uint, SAMPLE_IMAGES, 4);  // that a pass reads one sample of
 
 // Two 4-bit coordinates per sample, x in the lower bits; the first sample is in the lowest byte.
 CONTRACT_CONST(uint, SAMPLE_PLACES_4, 0xeaa26e26u);

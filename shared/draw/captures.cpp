@@ -63,7 +63,8 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
 }
 
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
-                                            ImageRef lit, VkSampleCountFlagBits samples) {
+                                            ImageRef lit, VkSampleCountFlagBits samples,
+                                            std::span<const int> every_sample) {
     std::vector<CapturedImage> images;
     std::size_t next = 0;
     for (gpu::uint i = 0; i < gpu::CAPTURE_IMAGES; ++i) {
@@ -91,9 +92,11 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
             if (of == i) background.float32[component] = -1;
             pass.color(image, Load::clear, background);
         }
-        for (const int mode : modes)
+        for (const int mode : modes) {
             images.push_back(
                 {mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
+            images.back().every_sample = std::ranges::count(every_sample, mode) > 0;
+        }
     }
     return images;
 }

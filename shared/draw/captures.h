@@ -32,24 +32,28 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
 // Groups share their images' memory: each is run, and read back, before the next one runs.
 struct CapturedImage {
     int mode = 0;
-    ImageRef image;                         // which other channels may share
-    int component = 0;                      // its first one there
-    std::size_t pass = 0;                   // the number of its group's
+    ImageRef image;                // which other channels may share
+    int component = 0;             // its first one there
+    std::size_t pass = 0;          // the number of its group's
     bool through_gbuffer = false;  // forward+: shaded from the surface that the G-buffer would give back
+    bool every_sample = false;     // asked for of every sample, not the first alone
+    int sample = 0;                // with several samples a pixel
     bool before_blending = false;  // lit before something is blended over it
 };
 
-// The channels to capture. `through_gbuffer`, forward+ only: lit channels of surfaces that went through the
-// G-buffer's encoding, which deferred has to show.
+// The channels to capture. `every_sample`: those of `modes` of which MSAA gives all samples.
+// `through_gbuffer`, forward+ only: lit channels of surfaces that went through the G-buffer's encoding, which
+// deferred has to show.
 struct CaptureRequest {
-    std::vector<int> modes, through_gbuffer;
+    std::vector<int> modes, every_sample, through_gbuffer;
 };
 
 // Adds the group's images to the list's last pass, cleared to what the background holds (0; material_id -1).
-// `lit`: the image that its lit goes on from, if there is one. `samples`: of each. Returns a row for each
-// channel, those of an image one after the other.
+// `lit`: the image that its lit goes on from, if there is one. `samples`: of each. `every_sample`: of
+// CaptureRequest. Returns a row for each channel, those of an image one after the other.
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit = {},
-                                            VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
+                                            VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT,
+                                            std::span<const int> every_sample = {});
 
 }  // namespace diptych

@@ -119,6 +119,8 @@ struct Frame {
     // litModes shaded from the surfaces that deferred decodes from a G-buffer of settings.gbuffer: by
     // forward+, which has to equal deferred, and by the reference in mode surface. Empty elsewhere.
     std::map<int, Image> through_gbuffer;
+    // With MSAA, where RenderOptions::every_sample asks for it: the samples of a channel after the first.
+    std::map<int, std::vector<Image>> further_samples;
     // Of a path or the reference in whose view something may be blended: lit before that, W x H x 3; and
     // forward+ only, the same of through_gbuffer. Else empty.
     Image unblended, unblended_through_gbuffer;

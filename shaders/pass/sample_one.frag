@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// First sample of each pixel of several images: the lowest bits of feature_captures select them.
+// One sample of each pixel of up to SAMPLE_IMAGES images. feature_captures: a bit for each image, and above
+// them the sample.
 #include "shaders/lib/contract.glsl"
 
 layout(set = SET_GBUFFER, binding = 0) uniform sampler2DMS image_0;
@@ -17,8 +18,9 @@ layout(location = 3) out vec4 out_3;
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    if (on(feature_captures & 1)) out_0 = texelFetch(image_0, p, 0);
-    if (on(feature_captures & 2)) out_1 = texelFetch(image_1, p, 0);
-    if (on(feature_captures & 4)) out_2 = texelFetch(image_2, p, 0);
-    if (on(feature_captures & 8)) out_3 = texelFetch(image_3, p, 0);
+    int sample_number = int(feature_captures >> SAMPLE_IMAGES);
+    if (on(feature_captures & 1)) out_0 = texelFetch(image_0, p, sample_number);
+    if (on(feature_captures & 2)) out_1 = texelFetch(image_1, p, sample_number);
+    if (on(feature_captures & 4)) out_2 = texelFetch(image_2, p, sample_number);
+    if (on(feature_captures & 8)) out_3 = texelFetch(image_3, p, sample_number);
 }
