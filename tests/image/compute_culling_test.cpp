@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Triangles culled by a compute shader into indirect draws (DeviceProfile::culls_by_compute). Images equal
 // those of --cull off bit for bit, and about as many triangles are culled as on the host. culling_test.cpp
-// compares the host's culling with --cull off; gpu_choices_test.cpp a GPU's choices with the host's.
+// compares the host's culling with --cull off; gpu_choices_test.cpp compares a GPU's choices with the
+// device's own.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"

@@ -46,8 +46,8 @@ Settings withConvention(const Convention& convention, bool switched) {
     return settings;
 }
 
-// In every channel of light, at most 1 % of the pixels exceed the paths' error without the convention by
-// more than a quarter. The convention adds no error of its own.
+// In every channel of light, the 99th percentile of the error grows by at most a quarter: the convention
+// adds no error of its own.
 TEST_P(Conventions, BothPathsAreTheReference) {
     const Convention& convention = GetParam();
     UploadedScene& scene = uploaded(convention.scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Haze in both paths: compared with each other and with the reference, and independence from far plane and
-// channels.
+// Haze in both paths: compared with each other and with the reference. It does not depend on the far plane
+// and changes no other channel.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/square.h"

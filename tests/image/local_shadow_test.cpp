@@ -297,7 +297,7 @@ TEST(LocalShadowLists, AreNoDifference) {
         }
 }
 
-// A shadow-casting light is shaded per pixel, even if the list has no capacity for others.
+// A shadow-casting light is shaded per pixel, even if pixel_lights is 0.
 TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     const Scene scene =
         ground({castingPoint({2, 2, 0}), castingPoint({0, 3, 1}), castingPoint({0, 3, 2})}, {board(1)});
