@@ -60,7 +60,7 @@ TEST(ExtremeScenes, SoSmallThatSquaresVanish) {
     }
 }
 
-// Radiance beyond float32's range is a failure that says where, and no output contains it.
+// Radiance beyond float32's range fails; outputs have replacements, and the report counts their pixels.
 TEST(ExtremeScenes, LightThatFloat32CannotHold) {
     const Folder folder;
     folder.write("bright.gltf", sceneOf(R"({"mesh": 0})", 1));

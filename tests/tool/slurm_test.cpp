@@ -123,7 +123,7 @@ TEST(Slurm, ANodeThatIsLostInTheMiddleIsMadeUpFor) {
     const std::string node = cluster.shell("squeue -h -t R -o '%K %N' | sed -n 's/^1 .*-//p'").out;
     ASSERT_FALSE(node.empty());
     cluster.run("kill " + node.substr(0, 1));
-    ASSERT_TRUE(soon([&] {  // until Slurm has noticed
+    ASSERT_TRUE(soon([&] {  // until Slurm notices the dead node
         return cluster.shell("squeue -h -o '%T'").out.find("PENDING") != std::string::npos &&
                cluster.shell("sinfo -h -o %T").out.find("down") != std::string::npos;
     }));

@@ -80,7 +80,7 @@ TEST(Three, AgreesUnderItsConventions) {
     }
 }
 
-// The causes that explain names for its difference from glTF's conventions.
+// Causes that `explain` names for three.js's difference under glTF's own conventions.
 std::string namedOf(const Folder& folder, const std::string& scene) {
     const Ran ran = runTool(folder, "explain '" + scene +
                                         "' --size 320x180 --shadows off --baseline forward_plus --json "

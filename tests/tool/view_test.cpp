@@ -59,7 +59,7 @@ protected:
     // Waits until nothing more is rendered.
     void settle() {
         await("view: still", stills_);
-        // A request made just before prints it again.
+        // Rendering requested just before prints it once more.
         for (std::size_t now = 0; now != times("view: still");) {
             now = stills_ = times("view: still");
             std::this_thread::sleep_for(std::chrono::milliseconds(400));
