@@ -5,8 +5,8 @@
 #include "shaders/lib/light_cull.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// A bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
-// the cone does, whether the sphere reaches the cell's row.
+// bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
+// the cone does, whether the sphere reaches the cell's row
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     LightBound bound;

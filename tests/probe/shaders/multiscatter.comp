@@ -5,8 +5,8 @@
 #include "shaders/lib/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90, specularAlbedo() -> diffuse, specular radiance
-// for 1 W/m^2 (red), both for radiance 1 from everywhere
+// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90, specularAlbedo() -> diffuse, specular
+// radiance for 1 W/m^2 (red), both for uniform radiance 1
 const uint WIDTH = 13;
 
 void main() {

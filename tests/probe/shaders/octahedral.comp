@@ -5,7 +5,7 @@
 #include "shaders/lib/octahedral.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// unit vector, bits -> what comes back
+// unit vector, bits -> decoded vector
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     uint bits = uint(IN(4, 3));
