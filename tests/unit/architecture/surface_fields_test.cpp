@@ -15,7 +15,6 @@
 namespace diptych {
 namespace {
 
-// The fields of struct Surface.
 std::set<std::string> fieldsOf(const std::string& source) {
     const std::size_t begin = source.find("struct Surface {"), end = source.find("};", begin);
     std::set<std::string> fields;

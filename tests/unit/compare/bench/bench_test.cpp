@@ -257,7 +257,6 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
 }
 
-// Splits a line at spaces.
 std::vector<std::string> wordsOf(const std::string& line) {
     std::istringstream stream(line);
     return {std::istream_iterator<std::string>(stream), {}};

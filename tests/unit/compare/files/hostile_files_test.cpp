@@ -216,7 +216,7 @@ TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
     EXPECT_EQ(contentsOf(joined), picture);
     for (const std::string& name : filesIn(root / "out"))
         EXPECT_EQ(fs::hard_link_count(root / "out" / name), 1u) << name;
-    // The command's own parts are moved to the output by hard links and need no second copy on disk.
+    // The command's own parts are hard links in the output and need no second copy on disk.
     ReportOptions options;
     options.scene_folder = "box/";
     WholeReport own;

@@ -77,7 +77,7 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     f.json["nodes"] = {{{"children", {1, 2}}, {"rotation", {-s, 0, 0, s}}},
                        {{"mesh", 0}, {"scale", {1, 2, 1}}},
                        {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {5, 5, 5}}}};
-    // The light shines along its node's -Z, after rotation along -Y.
+    // The light shines along its node's -Z, here rotated to -Y.
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.25}}}};
     const glm::dvec3 place(1.0 / 3, 1.0 / 3, -2.0 / 3);

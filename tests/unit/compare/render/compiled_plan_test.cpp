@@ -81,7 +81,7 @@ TEST(CompiledPlan, AFeatureIsWhatItAdds) {
               "-8 VGPRs");
 }
 
-// Both paths share a row for a common shader; the most expensive variant represents all.
+// A shader of both paths has one row, with its most expensive variant.
 TEST(CompiledPlan, PathsStandSideBySide) {
     const std::vector<CompiledPath> paths{{Path::deferred,
                                            {pipeline("depth", "depth.vert", cost(24, 16, 10)),

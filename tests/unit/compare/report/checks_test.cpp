@@ -86,8 +86,7 @@ TEST(ReportChecks, EveryCheckHasALinkAndAFigure) {
 // inside.
 TEST(ReportChecks, AFigureShowsTheBoxEnlarged) {
     const std::string page = pageOf(reportOf(bothFrames(), {someChecks()}));
-    const std::string sign = figureOf(page, 0);  // 1 of 3 pixels high: 0.45 of the image, around (1.5,
-                                                 // 2.5)
+    const std::string sign = figureOf(page, 0);  // 1 of 3 pixels high: 0.45 of the image, at (1.5, 2.5)
     EXPECT_EQ(countOf(sign, "viewBox=\"0.6 1.65 1.8 1.35\""), 2u) << sign;
     EXPECT_EQ(countOf(sign, "x=\"1\" y=\"2\" width=\"1\" height=\"1\""), 4u) << "two outlines a panel";
     const std::string leaf = figureOf(page, 2);  // 2 of 4 pixels wide: 0.675, at the top

@@ -25,7 +25,6 @@ SweepRows feltBy(const std::vector<Light>& lights) {
     return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), lights);
 }
 
-// A Setting's values among the rows.
 std::set<std::string> valuesOf(const SweepRows& sweep, std::string_view option) {
     std::set<std::string> values;
     for (const Settings& row : sweep.rows) values.insert(row.valueOf(option));

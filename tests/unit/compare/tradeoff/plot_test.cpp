@@ -78,8 +78,7 @@ TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
     std::vector<int> numbers;
     for (std::sregex_iterator i(svg.begin(), svg.end(), label), end; i != end; ++i) {
         const double x = std::stod((*i)[1]), y = std::stod((*i)[2]);
-        const double half = 5.0 * static_cast<double>((*i)[3].length());  // half the width in the largest
-                                                                          // font
+        const double half = 5.0 * static_cast<double>((*i)[3].length());  // of the largest text
         boxes.push_back({x - half, y - 12, x + half, y});
         numbers.push_back(std::stoi((*i)[3]));
     }

@@ -14,7 +14,6 @@
 namespace diptych::tradeoff {
 namespace {
 
-// A row of pixels of one channel.
 Image pixelRow(const std::vector<float>& values, int components = 1) {
     Image image(static_cast<int>(values.size()) / components, 1, components);
     image.data.assign(values.begin(), values.end());

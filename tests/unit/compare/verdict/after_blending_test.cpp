@@ -16,8 +16,7 @@ namespace diptych {
 namespace {
 
 constexpr int blendWide = 50, blendHigh = 40;
-constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // the first blendCovered pixels are behind
-                                                               // a blended surface
+constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // the first are behind glass
 
 // Opaque radiance 1 everywhere; blended over it, 0.5 of 3.
 Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {

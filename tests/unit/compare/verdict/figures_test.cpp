@@ -55,7 +55,6 @@ TEST(Figures, NoTwoOfTheSpreadAreAlike) {
             if (a < b) {
                 EXPECT_GT(std::abs(x - y), 3 * boundOf("relative_max", x)) << a << " and " << b;
             }
-    // The neighbouring ranks have different errors.
     for (const std::size_t rank : {1981u, 1999u})
         for (const std::size_t other : {rank - 1, rank + 1})
             for (const std::vector<double>* errors : {&e.absolute, &e.relative, &e.angles})

@@ -8,8 +8,8 @@
 namespace diptych {
 namespace {
 
-// The reference in mode scene and both paths with this number of samples. In channels other than lit the
-// paths differ from the reference.
+// The reference in mode scene and both paths with this number of samples. In channels other than lit and
+// ids the paths differ from the reference.
 std::vector<Frame> sampledFrames(int samples) {
     std::vector<Frame> frames = bothFrames();
     Frame reference = frames[1];

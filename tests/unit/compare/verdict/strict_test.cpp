@@ -64,7 +64,6 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
             EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
         }
         EXPECT_TRUE(report.comparisons.at(2).passed()) << "the paths have the same channels";
-        // In the output for users and CI.
         const std::string table = reportTable(report), file = report.frames[0].name,
                           pairs = file + "/deferred, builtin:one " + file + "/forward_plus";
         const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus only, but --strict"

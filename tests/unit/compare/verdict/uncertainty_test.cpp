@@ -90,7 +90,6 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
         EXPECT_EQ(stored.tolerance.because, now.tolerance.because);
         EXPECT_EQ(stored.reason, now.reason);
     }
-    // Without the uncertainty the same image fails.
     Frame bare = back;
     bare.uncertainty = {};
     EXPECT_EQ(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);

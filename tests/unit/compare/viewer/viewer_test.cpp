@@ -54,7 +54,7 @@ TEST(ViewerKeys, ARowOfDigitsTellsWhichOne) {
     EXPECT_FALSE(actionOf(GLFW_KEY_F12, false));
 }
 
-// With Ctrl, only bindings that name it act: keys keep their plain meaning only without it.
+// With Ctrl, only bindings that name it act; other keys do nothing.
 TEST(ViewerKeys, WithControlOnlyWhatNamesItActs) {
     EXPECT_EQ(actionOf(GLFW_KEY_Q, false)->action, Action::light_debug);
     EXPECT_EQ(actionOf(GLFW_KEY_Q, true)->action, Action::quit);
@@ -87,7 +87,7 @@ FrameCamera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
     return camera;
 }
 
-// The view that --camera makes of the words, which is drawn.
+// The view that --camera makes of the words; the viewer draws it.
 View viewOf(const FlyCamera& camera) {
     const Scene scene = loadScene("builtin:gallery");
     ViewRequest request;

@@ -151,7 +151,7 @@ TEST(ShownClusters, NothingThatReachesIntoTheViewIsLeftOut) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(0, 1);
     std::size_t shown = 0, left = 0;
-    const TriangleMesh board = boardOf(5);  // one cluster
+    const TriangleMesh board = boardOf(5);  // one meshlet
     for (int round = 0; round < 800; ++round) {
         const SampleGrid grid{640, 360, round % 3 == 0 ? 4 : 1, 1.0 / 256};
         const bool orthographic = round % 5 == 0;

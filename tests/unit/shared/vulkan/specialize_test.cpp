@@ -33,7 +33,7 @@ namespace diptych {
 namespace {
 
 using SpirvWords = std::vector<std::uint32_t>;
-using FeatureValues = std::vector<std::uint32_t>;  // by feature number
+using FeatureValues = std::vector<std::uint32_t>;  // by feature id
 
 constexpr spv_target_env spirvEnvironment = SPV_ENV_VULKAN_1_3;
 
@@ -71,7 +71,7 @@ SpirvWords optimised(std::span<const std::uint32_t> module, const FeatureValues&
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(optimizer.RegisterPassesFromFlags(round));
     SpirvWords small;
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false);  // the validator does not know scalar block layout
+    options.set_run_validator(false);  // it lacks scalar block layout
     EXPECT_TRUE(optimizer.Run(module.data(), module.size(), &small, options));
     return small;
 }
@@ -266,8 +266,7 @@ TEST(Specialize, LeavesNoInterfaceThatTheCodeDoesNotName) {
                                 optimizer.RegisterPassesFromFlags(
                                     {"--remove-unused-interface-variables", "--eliminate-dead-variables"});
                                 spvtools::OptimizerOptions options;
-                                options.set_run_validator(false);  // the validator does not know scalar
-                                                                   // block layout
+                                options.set_run_validator(false);  // it lacks scalar block layout
                                 SpirvWords tidied;
                                 EXPECT_TRUE(optimizer.Run(words.data(), words.size(), &tidied, options));
                                 return std::string(interfaceOf(tidied) == interfaceOf(words)
@@ -364,8 +363,7 @@ TEST(Specialize, LeavesOutCapabilitiesThatNothingDemands) {
     EXPECT_FALSE(has(Shader::pose_comp, 11, {{joints, 1}}));
     EXPECT_TRUE(has(Shader::deferred_shade_comp, 27, {{gpu::FEATURE_samples, 4}}));  // stored samples
     EXPECT_FALSE(has(Shader::deferred_shade_comp, 27, {}));
-    EXPECT_TRUE(has(Shader::gbuffer_frag, 52, {}));  // interpolation at an offset: SwiftShader requires
-                                                     // the declaration
+    EXPECT_TRUE(has(Shader::gbuffer_frag, 52, {}));  // interpolation at an offset; SwiftShader requires it
     EXPECT_TRUE(has(Shader::gbuffer_frag, 5379, {{gpu::FEATURE_alpha_mask, 1}}));  // helper invocations
     EXPECT_FALSE(has(Shader::gbuffer_frag, 5379, {}));
 }

@@ -59,8 +59,7 @@ TEST(Rig, ALightDoesNotDependOnHowManyThereAre) {
         EXPECT_EQ(a.outer_cone, b.outer_cone);
         EXPECT_GT(a.range, b.range);
     }
-    const auto split = makeLights("point:4,point:4", 1, ROOM);  // a type named twice continues the
-                                                                // sequence
+    const auto split = makeLights("point:4,point:4", 1, ROOM);  // the sequence continues
     for (std::size_t i = 0; i < split.size(); ++i) EXPECT_EQ(split[i].position, few[i].position);
 }
 

@@ -78,8 +78,7 @@ void check(const Scene& scene, Ratios& ratios, const std::string& what) {
             min = glm::min(min, p);
             max = glm::max(max, p);
         }
-        const double size = glm::length(max - min), near = 1e-5 * size;  // float32 error of skinning and
-                                                                         // morphing
+        const double size = glm::length(max - min), near = 1e-5 * size;  // float32 error
         for (int c = 0; c < 3; ++c) {
             ASSERT_GE(min[c] - near, box.origin[c] + box.min[c]) << what << " axis " << c;
             ASSERT_LE(max[c] + near, box.origin[c] + box.max[c]) << what << " axis " << c;
