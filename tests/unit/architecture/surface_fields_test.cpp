@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A lit channel of a packed G-buffer is judged by the fields that lighting reads. So each of them has a
-// channel that is judged, and nothing but the decoded surface sets the two variants of forward+ apart.
-#include "compare/verdict/encoding_bits.h"
+// A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
+// needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
 #include "compare/verdict/encoding_use.h"
 #include "tests/support/sources.h"
 
@@ -16,7 +15,6 @@
 namespace diptych {
 namespace {
 
-// The fields of struct Surface.
 std::set<std::string> fieldsOf(const std::string& source) {
     const std::size_t begin = source.find("struct Surface {"), end = source.find("};", begin);
     std::set<std::string> fields;
@@ -32,9 +30,9 @@ const std::string& shader(const std::string& name) {
 }
 
 TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
-    // Where the channel has another name.
+    // Fields whose channel has another name.
     const std::map<std::string, std::string> names{{"normal", "normals"}};
-    // Read by no light of a surface that the G-buffer stores.
+    // Fields that lighting of G-buffer surfaces does not read.
     const std::map<std::string, std::string> unread{
         {"triangle_normal", "shown as geometric_normal"},
         {"material_id", "shown alone"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plan names beside what is in the scene's file.
+// Lines of the plan that do not come from the scene's file.
 #include "compare/render/path_plan.h"
 
 #include "compare/render/frame_facts.h"
@@ -28,7 +28,7 @@ TEST(PlanLines, NameShadowsAndHaze) {
     EXPECT_FALSE(plannedLine("haze", "builtin:suns", settings).modelled);
     settings.haze = true;
     EXPECT_TRUE(plannedLine("haze", "builtin:suns", settings).modelled);
-    // Points and spots alone cast where they are asked to.
+    // Only punctual lights: they cast shadows only if selected.
     Settings lamps;
     EXPECT_FALSE(plannedLine("shadows", "builtin:spots", lamps).modelled);
     lamps.shadow_lights = 2;

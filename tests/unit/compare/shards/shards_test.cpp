@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which scenes a shard takes, and what it calls itself.
+// The scenes of a shard, and its name.
 #include "compare/shards/manifest.h"
 #include "compare/shards/merge.h"
 #include "compare/shards/partition.h"
@@ -121,7 +121,8 @@ TEST(Shards, ASceneWeighsWhatItsFilesDo) {
     EXPECT_GT(weights[1], weights[0]);
     EXPECT_EQ(weights[0], weights[2]);
     EXPECT_GT(weights[0], 0) << "drawing is not for nothing";
-    // What took long comes first; what is not in the file takes what its bytes take elsewhere.
+    // Slow scenes come first. For a scene without a recorded time, its bytes and the others' rate give an
+    // estimate.
     const std::vector<double> timed = weightsOf(
         {"builtin:gallery", (root / "s.glb").string(), "builtin:spots"}, {{"builtin:gallery", 500}});
     EXPECT_EQ(timed[0], 500);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sweep leaves out what the scene cannot feel, and says why.
+// A sweep omits Settings without effect on the scene, and states why.
 #include "compare/tradeoff/felt.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,13 @@ SweepRows feltBy(const std::vector<Light>& lights) {
     return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), lights);
 }
 
-// Values of a Setting among the rows.
 std::set<std::string> valuesOf(const SweepRows& sweep, std::string_view option) {
     std::set<std::string> values;
     for (const Settings& row : sweep.rows) values.insert(row.valueOf(option));
     return values;
 }
 
-// The first reason; `value`: of that value.
+// The first reason; `value` restricts it to that value.
 std::string reasonOf(const SweepRows& sweep, const std::string& option, const std::string& value = {}) {
     for (const SweepSkip& skip : sweep.skips)
         if (skip.tried.size() == 2 && skip.tried[1].first == option &&
@@ -71,7 +70,7 @@ TEST(TradeoffFelt, AreaLightsAreVariedWhereThereIsOne) {
     EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
 }
 
-// Points cast as soon as --shadow-lights asks for some.
+// Point lights cast shadows if --shadow-lights selects them.
 TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
     const SweepRows none = feltBy({lightOf(LightKind::rect)});
     EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
@@ -82,7 +81,7 @@ TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
     EXPECT_GT(valuesOf(feltBy({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
-// A square of one material under an environment: half of it black and a sun, or the same from everywhere.
+// A square of one material under an environment: black with a bright texel, or uniform.
 SweepRows feltUnder(const Material& material, bool even) {
     Scene scene;
     scene.materials = {material};
@@ -126,7 +125,7 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
         EXPECT_EQ(reasonOf(of_matte, option), "no surface is specular") << option;
     }
     EXPECT_EQ(valuesOf(of_matte, "ibl-diffuse").size(), 3u);
-    // But for rows in which light between facets is irradiance.
+    // Except rows whose multiple scattering uses irradiance.
     const SweepRows of_metal = feltUnder(metal, false);
     for (const Settings& row : of_metal.rows)
         EXPECT_TRUE(row.ibl_diffuse == IblDiffuse::sh || row.multiscatter == Multiscatter::fdez);
@@ -187,7 +186,7 @@ TEST(TradeoffFelt, HazeIsMarchedThroughWhereThereIsSome) {
     EXPECT_EQ(valuesOf(felt(), "haze-march-steps").size(), 1u);
 }
 
-// Whatever is left out, each skip names its path, and no two rows are one picture.
+// Every skip names its path, and no two rows have the same image.
 TEST(TradeoffFelt, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, usualGrids({}));
     const SweepRows sweep = feltBy({lightOf(LightKind::directional)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cells for which light lists are made, and the ranges that a cutoff gives.
+// Cells of the light lists, and light ranges for a cutoff.
 #include "shared/light/light_grid.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/builtin/builtin.h"
@@ -50,7 +50,7 @@ std::tuple<gpu::uint, gpu::uint, gpu::uint> cellSizeOf(const gpu::LightGrid& gri
     return {grid.tile_shift, grid.slice_shift, grid.slices};
 }
 
-// Only the ratios of the costs matter; where a list costs more, there are fewer.
+// Only ratios of costs matter; expensive lists mean fewer of them.
 TEST(LightGrid, HasTheSizeThatCostsLeastOnTheDevice) {
     const std::vector<Light> lights = pointsAhead(300, 3);
     const auto with = [&](const DeviceCosts& costs) {
