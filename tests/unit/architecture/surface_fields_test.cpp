@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
 // needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
-#include "compare/verdict/encoding_use.h"
+#include "compare/verdict/encoding_bits.h"
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
