@@ -61,6 +61,8 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
         settings.shadows == Shadows::off ? LocalCasting{} : localCasting(lights, settings.shadow_lights);
     GpuLights result =
         gpuLights(withCutoff(lights, double{settings.light_cutoff}), seen.view.eye(), casting.lights);
+    result.falloff = {.squared_window = settings.range_window == RangeWindow::squared,
+                      .smooth_cones = settings.spot_cone == SpotFalloff::smoothstep};
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
     result.environment = EnvironmentLight::isLit(seen.environment, settings);
     // What is not shaded per pixel cannot be shadowed.
@@ -215,7 +217,8 @@ Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Se
     frame.counters.shadow_pages = prepared.view.shadow.sun.pages();
     frame.local_shadow_reach = prepared.view.shadow.local.reach();
     frame.counters.lights = prepared.view.lights.count();
-    frame.counters.energy_cut = energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff});
+    frame.counters.energy_cut =
+        energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff}, prepared.view.lights.falloff);
     return frame;
 }
 

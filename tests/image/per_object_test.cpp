@@ -182,7 +182,7 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
 
 // The light that a square reflects from vertex lights and harmonics, against lists made on the CPU.
 // Without a specular layer, radiance is albedo / pi times irradiance. The square and its camera rotate
-// together.
+// together. Every second turn has --range-window squared and --spot-cone smoothstep.
 TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -206,13 +206,26 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
             light.kind = i < 8 ? LightKind::directional : LightKind::point;
             light.direction = vec();
             light.position = (6.0 + i) * vec();
+            light.range = 25;
+            if (i >= 11) {  // aimed past the square, which is between their cones
+                light.kind = LightKind::spot;
+                light.direction = glm::normalize(0.3 * right - glm::normalize(light.position));
+                light.inner_cone = 0.1f;
+                light.outer_cone = 0.5f;
+            }
             light.intensity = i < 8 ? std::exp2(-0.5f * static_cast<float>(i)) : 4;
             light.color = glm::abs(glm::vec3(vec()));
             if (pixels == 0) light.importance = Importance::not_important;
             scene.lights.push_back(light);
         }
         const View view = makeView(scene, poseAt(scene, 0), "0", 4, 4);
-        const GpuLights lights = gpuLights(scene.lights, view.eye());
+        Settings settings = picture(Assignment::per_object, pixels, {4, 4});
+        GpuLights lights = gpuLights(scene.lights, view.eye());
+        if (pixels == 0) {
+            settings.range_window = RangeWindow::squared;
+            settings.spot_cone = SpotFalloff::smoothstep;
+            lights.falloff = {.squared_window = true, .smooth_cones = true};
+        }
         const ObjectPlace place{-view.eye(), glm::abs(right) + glm::abs(up)};
         const ObjectLightLists lists = objectLightLists(lights, std::span(&place, 1), pixels);
         const gpu::ObjectLights& object = lists.objects[0];
@@ -234,7 +247,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
                          squares = d(e.xx) * (n.x * n.x - n.z * n.z) + d(e.yy) * (n.y * n.y - n.z * n.z);
         const glm::dvec3 harmonics = glm::max(d(e.constant) + linear + squares + 2.0 * mixed, 0.0);
         const glm::dvec3 expected = albedo / glm::pi<double>() * (listed + harmonics);
-        const Frame frame = drawn(scene, Assignment::per_object, pixels, {4, 4});
+        const Frame frame = drawnAll(scene, {settings}).front();
         // 1e-5: a dozen float32 roundings of sums that partly cancel.
         for (const glm::ivec2 p : {glm::ivec2(0, 0), {2, 1}, {3, 3}})
             for (int c = 0; c < 3; ++c)

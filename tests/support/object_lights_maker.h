@@ -35,9 +35,14 @@ inline Light sun(float lux) {
     return light;
 }
 
-inline GpuLights fromEye(const std::vector<Light>& lights) {
-    return gpuLights(lights, {0, 0, 0});
+inline GpuLights fromEye(const std::vector<Light>& lights, const LightFalloff& falloff = {}) {
+    GpuLights result = gpuLights(lights, {0, 0, 0});
+    result.falloff = falloff;
+    return result;
 }
+
+// Every choice of --range-window and --spot-cone.
+inline constexpr LightFalloff falloffs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
 
 inline const ObjectPlace unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
 

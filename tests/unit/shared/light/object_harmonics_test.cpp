@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -179,13 +180,14 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     const double squared = glm::dot(glm::dvec3(light.position), glm::dvec3(light.position));
     const glm::dvec3 l = glm::dvec3(light.position) / std::sqrt(squared);
     const double x = squared * double{light.inverse_range_squared};
-    double scale = std::max(0.0, 1 - x * x) / squared;
+    const double window = std::max(0.0, 1 - x * x);
+    double scale = (all.falloff.squared_window ? window * window : window) / squared;
     const std::size_t spots = all.directional + all.point, areas = spots + all.spot;
     if (i >= spots && i < areas) {
         const gpu::SpotCone& cone = all.spot_cones[i - spots];
         const double c = std::clamp(
             double{cone.offset} - glm::dot(l, glm::dvec3(cone.direction)) * double{cone.scale}, 0.0, 1.0);
-        scale *= c * c;
+        scale *= all.falloff.smooth_cones ? c * c * (3 - 2 * c) : c * c;
     }
     if (i >= areas) {
         const gpu::AreaLight& area = all.area_lights[i - areas];
@@ -235,8 +237,9 @@ TEST(PerObject, TheGroupsShareEachLight) {
 TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     const ObjectPlace box{{0, 0, 0},
                           {0.2, 0.1, 0.3}};  // smaller than all distances here, so no light is softened
-    for (const std::uint32_t pixels : {0u, 3u}) {
-        const GpuLights all = fromEye(mixedLights(17, 30, 4));
+    for (const auto& [pixels, falloff] :
+         {std::pair(0u, LightFalloff{}), {3u, LightFalloff{}}, {0u, LightFalloff{true, true}}}) {
+        const GpuLights all = fromEye(mixedLights(17, 30, 4), falloff);
         const std::vector<LightShares> shares = lightShares(all, box, pixels);
         const ObjectLightLists lists = objectLightLists(all, std::span(&box, 1), pixels);
         const gpu::ObjectIrradiance& found = lists.objects[0].irradiance;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 namespace diptych {
@@ -31,7 +32,33 @@ TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
     EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
 }
 
-// No light that reaches any point of a box, by the shaders' formula, is omitted.
+// The light is 2 m away and has a range of 2.5 m. The spot's axis misses the object by 0.4 rad, so that the
+// object is between its cones.
+TEST(PerObject, BrightnessAndHarmonicsHaveTheFalloff) {
+    const ObjectPlace dot{{0, 0, 0}, glm::dvec3(1e-6)};
+    Light lamp = point({0, 0, 2}, 3, 2.5f), spot = lamp;
+    spot.kind = LightKind::spot;
+    spot.direction = {std::sin(0.4), 0, -std::cos(0.4)};
+    spot.inner_cone = 0.2f;
+    spot.outer_cone = 0.6f;
+    const double w = 1 - std::pow(2 / 2.5, 4),
+                 t = (std::cos(0.4) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+    for (const LightFalloff& falloff : falloffs)
+        for (const Light& light : {lamp, spot}) {
+            const GpuLights lights = fromEye({light}, falloff);
+            double irradiance = 3.0 / 4 * (falloff.squared_window ? w * w : w);
+            if (light.kind == LightKind::spot)
+                irradiance *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
+            gpu::ObjectIrradiance sum{};
+            addHarmonics(sum, lights, 0, dot, 1);
+            // Float32 in the spot's cone; brightness widens the box and the cone by 1e-5.
+            EXPECT_NEAR(evaluated(sum, {0, 0, 1}), irradiance * (1.0 / 4 + 1.0 / 2 + 5.0 / 16), 1e-5);
+            EXPECT_NEAR(brightnessAt(lights, 0, dot), irradiance, 1e-3 * irradiance);
+        }
+}
+
+// No light that reaches any point of a box, by the shaders' formula, is omitted, and nowhere in the box are
+// its window and cone larger than in its brightness.
 TEST(PerObject, NoLightThatReachesIsDark) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -46,19 +73,28 @@ TEST(PerObject, NoLightThatReachesIsDark) {
             light.outer_cone = static_cast<float>(0.01 + 1.5 * std::abs(unit(random)));
             light.inner_cone = light.outer_cone / 2;
         }
-        const GpuLights lights = fromEye({light});
-        const bool found = brightnessAt(lights, 0, box) > 0;
+        const LightFalloff& falloff = falloffs[round / 2 % std::size(falloffs)];
+        const GpuLights lights = fromEye({light}, falloff);
+        const double brightness = brightnessAt(lights, 0, box),
+                     endless = brightnessAt(fromEye({point(light.position, 1)}), 0, box);
+        const bool found = brightness > 0;
         bool reached = false;
-        for (int i = 0; i < 50 && !reached; ++i) {
+        for (int i = 0; i < 50; ++i) {
             const glm::vec3 place(box.centre +
                                   box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
             const glm::vec3 to_light = lights.lights[0].position - place;
             const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
-            reached = x < 1;
+            bool here = x < 1;
+            double share = here ? std::pow(1 - double{x} * double{x}, falloff.squared_window ? 2 : 1) : 0;
             if (light.kind == LightKind::spot) {
                 const gpu::SpotCone& cone = lights.spot_cones[0];
-                reached &= cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale > 0;
+                const float c = cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale;
+                here &= c > 0;
+                const double t = std::clamp(double{c}, 0.0, 1.0);
+                share *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
             }
+            reached |= here;
+            EXPECT_GE(brightness, endless * share) << round;
         }
         EXPECT_TRUE(found || !reached) << round;
         (found ? lit : dark) += 1;
