@@ -15,16 +15,16 @@ namespace diptych {
 namespace {
 
 constexpr std::array fields{
-    static_cast<int>(gpu::DEBUG_albedo),           static_cast<int>(gpu::DEBUG_normals),
-    static_cast<int>(gpu::DEBUG_metallic),         static_cast<int>(gpu::DEBUG_roughness),
-    static_cast<int>(gpu::DEBUG_emission),         static_cast<int>(gpu::DEBUG_occlusion),
-    static_cast<int>(gpu::DEBUG_position),         static_cast<int>(gpu::DEBUG_geometric_normal),
-    static_cast<int>(gpu::DEBUG_dielectric_f90),   static_cast<int>(gpu::DEBUG_lightmap),
-    static_cast<int>(gpu::DEBUG_dielectric_f0),    static_cast<int>(gpu::DEBUG_lightmapped)};
+    static_cast<int>(gpu::DEBUG_albedo),         static_cast<int>(gpu::DEBUG_normals),
+    static_cast<int>(gpu::DEBUG_metallic),       static_cast<int>(gpu::DEBUG_roughness),
+    static_cast<int>(gpu::DEBUG_emission),       static_cast<int>(gpu::DEBUG_occlusion),
+    static_cast<int>(gpu::DEBUG_position),       static_cast<int>(gpu::DEBUG_geometric_normal),
+    static_cast<int>(gpu::DEBUG_dielectric_f90), static_cast<int>(gpu::DEBUG_lightmap),
+    static_cast<int>(gpu::DEBUG_dielectric_f0),  static_cast<int>(gpu::DEBUG_lightmapped)};
 
 using FieldBound = std::function<PixelUse(const float* read, const float* own)>;
 
-// Of a field in [0, 1] whose components are bounded each by its own value. 0 and 1 have codes of their own.
+// A field in [0, 1]; each component's bound depends on its value. 0 and 1 are exact.
 template <class Bound>
 FieldBound unitField(int components, double slack, const Bound& bound) {
     return [=](const float* read, const float* own) {
@@ -44,7 +44,7 @@ FieldBound rootField(unsigned bits, double slack) {
     return unitField(3, slack, [bits](double x) { return squareBound(x, bits); });
 }
 
-// Of a direction: an angle, degrees.
+// A direction; errors are angles in degrees.
 FieldBound directionField(unsigned bits, double slack) {
     return [most = octahedralBound(bits) + slack](const float* read, const float* own) {
         const bool finite = metrics::finite(read, 3) && metrics::finite(own, 3);
@@ -52,11 +52,12 @@ FieldBound directionField(unsigned bits, double slack) {
     };
 }
 
-// Of radiance in 9.9.9.e5, bounded by its largest component.
+// Radiance in 9.9.9.e5; the bound is relative to its largest component.
 FieldBound radianceField(double slack) {
     return [slack](const float* read, const float* own) {
         const double size = metrics::largestFinite(own, 3);
-        const double most = size > 0 ? std::max(size * radianceBound(), leastRadianceBound) + size * slack : 0;
+        const double most =
+            size > 0 ? std::max(size * radianceBound(), leastRadianceBound) + size * slack : 0;
         return PixelUse{pixelUse(metrics::distance(read, own, 3), most).share, size > 0 ? most / size : 0};
     };
 }
@@ -70,8 +71,8 @@ FieldBound boundOf(const DebugMode& mode, GBufferEncoding encoding, const Requir
         case gpu::DEBUG_normals:
             return directionField(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS, slack);
         case gpu::DEBUG_geometric_normal:
-            return directionField(
-                compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS, slack);
+            return directionField(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS,
+                                  slack);
         case gpu::DEBUG_metallic:
             return unormField(compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS, slack);
         case gpu::DEBUG_roughness:

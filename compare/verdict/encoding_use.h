@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a surface channel uses of what the G-buffer's bits allow it at each pixel.
+// How much of the quantization error bound a surface channel uses at each pixel.
 #pragma once
 
 #include "compare/verdict/bound_use.h"
@@ -11,13 +11,13 @@
 
 namespace diptych {
 
-// The channels of every field of Surface that lighting reads, so that lit is a function of them and of what
-// both paths share.
+// Channels of all fields of Surface that lighting reads: lit depends only on them and on inputs that both
+// paths share.
 std::span<const int> lightingFields();
 
-// Of a field that deferred reads from a packed G-buffer and forward+ has as it is: the bound follows from
-// forward+'s value and the number of bits alone. `slack`: granted beside it, in the channel's metric. Empty
-// for other pairs and channels.
+// For a field that deferred reads from a packed G-buffer and forward+ has unpacked. The bound only depends
+// on forward+'s value and the number of bits. `slack`: added to it, in the channel's metric. Empty for
+// other pairs and channels.
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack = 0);
 
 }  // namespace diptych
