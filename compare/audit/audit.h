@@ -72,7 +72,7 @@ std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& s
                                                       double usual);
 
 // The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
-// Empty if all are known, or after the most refinement steps.
+// Empty if all are known, or after the maximum number of refinement steps.
 std::optional<double> nextMagnitude(const QuantityAudit& audit);
 
 // Measures a quantity. `step` measures at a magnitude, or returns an earlier measurement. `beside`:

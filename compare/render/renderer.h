@@ -38,7 +38,7 @@ public:
 
     Frame draw(const Settings& settings, const RenderOptions& options);
 
-    // Frames of deferred and forward+; holds all their images at once. Throws like draw().
+    // Frames of deferred and forward+, with all their images in memory at once. Throws like draw().
     PreparedFrames prepare(std::span<const Settings> settings);
     // Times interleaved frames of the two paths, all prepared at once; `options`: runs, progress.
     std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);

@@ -81,7 +81,7 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
         say("camera", "", "known");
     }
     Settings now = frame.settings;
-    // Of a path's Settings, the reference only depends on these.
+    // The reference only depends on these of a path's Settings.
     if (isReferenceFrame(baseline)) now = withReferenceOf(referenceSettings(now), baseline.settings);
     if (const std::string settings = differing(baseline.settings, now); !settings.empty())
         lines.push_back(fmt::format("baseline: different Settings: {}", settings));

@@ -42,7 +42,7 @@ struct CloserPathChannel {
     // or a thousandth of the lower error.
     int closer = -1;
     double by = 1;  // higher mean error over the lower one; infinite if that is 0
-    // Materials by decreasing difference of the two errors, at most eight.
+    // Materials by decreasing contribution to the difference of the two errors, at most eight.
     std::vector<MaterialError> materials;
     // First path's error minus the second's, by pixel; below 0 the first is closer.
     Image apart;

@@ -43,7 +43,7 @@ struct Comparison {
 // call were, or why it fails.
 struct SceneError {
     std::string scene, message;
-    // Of an external renderer: its name, and the last lines of its output before it failed.
+    // External renderer: its name, and the last lines of its output before it failed.
     std::string renderer{}, output{};
 };
 

@@ -10,9 +10,9 @@
 
 namespace diptych {
 
-// As a fraction of environment light reflected by the specular lobe: linear interpolation between widths
-// half an octave apart is off by 6 % if one point emits all light (its peak is proportional to the squared
-// width), between nodes by 1.6 %.
+// As a fraction of environment light reflected by the specular lobe. Linear interpolation between widths
+// half an octave apart is off by 6 % if one point emits all light, because its peak is proportional to the
+// squared width. Interpolation between nodes is off by 1.6 %.
 inline constexpr double filteredShare = 0.08;
 // As the same fraction, times the root of the number of samples: the error of sampling at every pixel. 64
 // samples were off by 14 % at one pixel in a thousand under a city's sun, and by 21 % under a lamp of 5

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Compares a path with the reference's own materials, textures and camera (mode scene). Different filters
-// (a mip level against the mean over the pixel) are no error of either, but they only matter where an
-// image changes from pixel to pixel. So pixels with smooth surroundings in both images each have a bound,
-// and the others are compared together by FLIP.
+// (a mip level against the mean over the pixel) are no error of either. They only matter where an image
+// changes from pixel to pixel. So pixels with smooth surroundings in both images each have a bound, and
+// the others are compared together by FLIP.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -33,7 +33,7 @@ struct Footprints {
     double closeShare() const;  // fraction of pixels with a bound of their own; 1 without pixels
 };
 
-// If fewer pixels have their own bounds, FLIP alone decides; it passes 0.3 of the light.
+// If fewer pixels have bounds of their own, FLIP alone decides, and passes even 0.3 of the light.
 inline constexpr double leastCloseShare = 0.01;
 
 // Channels by which footprints() identifies a surface in two images. Both need all of them, whichever are

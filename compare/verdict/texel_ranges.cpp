@@ -76,7 +76,7 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
     }
 }
 
-// Texels of level 0 between a position and the next pixel.
+// Range of the distance from a position to the next pixel, texels of level 0.
 struct PixelTexels {
     double least = 0, most = 0;
 };

@@ -131,8 +131,8 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 dif
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 
-// Divides lengths by the distance of the light's farthest point. Squares then stay within float32 near a
-// huge light and far from a tiny one.
+// Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
+// near a huge light and far from a tiny one.
 float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
 
 void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,

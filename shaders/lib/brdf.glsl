@@ -49,8 +49,8 @@ Brdf makeBrdf(Surface s, vec3 v) {
 
 // Denominator of GGX for a half vector `s` of any length: |s|^2 ((n.h)^2 (alpha^2 - 1) + 1). That form
 // cancels near the highlight, so Lagrange's identity replaces 1 - (n.h)^2 by |n x h|^2. At roughness 0.1,
-// the first form errs by over 1e-4 on 40 % of near-highlight samples, this one on none. D = (alpha |s|^2 /
-// denominator)^2 / pi, 1/sr.
+// the first form errs by over 1e-4 on 40 % of near-highlight samples, this one on none.
+// D = (alpha |s|^2 / denominator)^2 / pi, 1/sr.
 float ggxDenominator(float alpha2, vec3 n, vec3 s) {
     vec3 n_cross_s = crossProduct(n, s);
     float n_dot_s = dot(n, s);
@@ -67,8 +67,8 @@ float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
     float q = ggxDenominator(b.alpha2, n, s);
     float lambda = n_dot_l * b.smith_v + b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
     float a = b.alpha * s2;
-    // At the smallest alpha, 0.002, q^2 lambda is above 1e-34 if s2 is above 1e-8. The floor only avoids 0
-    // / 0.
+    // At the smallest alpha, 0.002, q^2 lambda is above 1e-34 if s2 is above 1e-8.
+    // The floor only avoids 0 / 0.
     float lobe = a * a * (0.5 * INVERSE_PI) / max(q * q * lambda, 1e-37);
     return dot(n, s) > 0.0 && s2 > 1e-12 ? lobe : 0.0;
 }

@@ -8,8 +8,8 @@
 //     }
 //
 // On lavapipe a loop with its test only at the top runs one body too many. With its test only at the
-// bottom it keeps adding to finished pixels while others of the same eight run, because values are masked
-// only where control flow merges. So the loop has both exits.
+// bottom it keeps adding to finished pixels while others of the same eight run. The cause: values are
+// masked only where control flow merges. So the loop has both exits.
 #ifndef LOOP_GLSL
 #define LOOP_GLSL
 
