@@ -26,9 +26,9 @@ struct Comparison {
     std::size_t baseline = 0, test = 0;  // indices in Report::frames
     std::vector<ChannelDiff> channels;   // in ascending channel number
     Coverage coverage;
-    std::vector<std::string> failures;         // beside the channels', e.g. a capture unlike the timed frame
-    std::vector<std::string> notes;            // information that is no failure
-    std::vector<SettingDifference> differing;  // of two paths: Settings in which they differ
+    std::vector<std::string> failures;            // beside the channels', e.g. a capture unlike its frame
+    std::vector<std::string> notes;               // information that is no failure
+    std::vector<SettingDifference> differing;     // of two paths: Settings in which they differ
     std::optional<AfterBlending> after_blending;  // if something is blended; a failure has its own line
     // Why the verdict is weak: the images show hardly anything, or hardly a pixel was compared closely.
     std::string emptiness;

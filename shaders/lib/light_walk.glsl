@@ -42,8 +42,8 @@ bool reachesCell(LightBound bound, uvec2 tile, uint slice) {
     return reaches(bound, cellBounds(tile, cellDepths(tile.y * grid.tiles.x + tile.x, slice)));
 }
 
-// With lights_in_front a tile has two lists. A light is tested for the list of blended surfaces first. If it
-// passes, it is tested for the list of opaque surfaces, whose depths begin at the nearest of them (Harada,
+// With lights_in_front a tile has two lists. A light is tested for the list of blended surfaces first. If
+// it passes, it is tested for the list of opaque surfaces, whose depths begin at the nearest of them (Harada,
 // McKee and Yang 2013, "Forward+: A Step Toward Film-Style Shading in Real Time", GPU Pro 4).
 bool reachesInFront(LightBound bound, uvec2 tile) {
     return reaches(bound, cellBounds(tile, tile_depths[listInFront(tile.y * grid.tiles.x + tile.x)]));

@@ -25,8 +25,8 @@ vec3 fromCosine(Ltc m, vec3 l) { return vec3(l.x / m.inverse_a + m.b * l.z, l.y 
 vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
 // One edge of an outline, along the great circle between two directions, counter-clockwise about the
-// direction to the light. The sum over a closed outline is its form factor. Zero if a direction is 0 or both
-// are equal.
+// direction to the light. The sum over a closed outline is its form factor. Zero if a direction is 0 or
+// both are equal.
 vec3 edgeFactor(vec3 from, vec3 to) {
     vec3 p = unitOrZero(from), q = unitOrZero(to);
     vec3 c = crossProduct(p, q);
