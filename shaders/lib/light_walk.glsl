@@ -43,7 +43,7 @@ bool reachesCell(LightBound bound, uvec2 tile, uint slice) {
 }
 
 // With lights_in_front a tile has two lists. A light is tested for the list of blended surfaces first. If
-// it passes, it is tested for the list of opaque surfaces, whose depths begin at the nearest of them (Harada,
+// it passes, it is tested for the list of opaque surfaces, whose depths begin at the nearest (Harada,
 // McKee and Yang 2013, "Forward+: A Step Toward Film-Style Shading in Real Time", GPU Pro 4).
 bool reachesInFront(LightBound bound, uvec2 tile) {
     return reaches(bound, cellBounds(tile, tile_depths[listInFront(tile.y * grid.tiles.x + tile.x)]));
