@@ -26,7 +26,7 @@ std::string seriesCell(const SeriesHeld& of) {
     return fmt::format("<i class=\"swatch {}\"></i>{}", nameOf(of.series.path), markup(seriesInWords(of)));
 }
 
-// What is broken first.
+// Broken relations come first.
 std::vector<const RelationHeld*> ordered(const RelationAudit& audit) {
     std::vector<const RelationHeld*> all;
     for (const RelationHeld& of : audit.relations) all.push_back(&of);

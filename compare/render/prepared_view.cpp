@@ -39,7 +39,7 @@ std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
     return static_cast<std::uint32_t>(settings.pixel_lights);
 }
 
-// Nothing where no sun casts or none is asked to.
+// Empty if no directional light casts shadows or shadows are off.
 std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuLights& lights,
                                      const Settings& settings) {
     if (settings.shadows == Shadows::off) return {};
@@ -65,12 +65,12 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
                       .smooth_cones = settings.spot_cone == SpotFalloff::smoothstep};
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
     result.environment = EnvironmentLight::isLit(seen.environment, settings);
-    // What is not shaded per pixel cannot be shadowed.
+    // A light that is not shaded per pixel cannot be shadowed.
     if (const std::optional<CastingSun> sun = castingSun(lights, result, settings)) result.base = sun->light;
     return result;
 }
 
-// A thread a tile and word of lights suits a GPU; lavapipe marks the cells of each light faster
+// One thread per tile and word of lights suits a GPU; lavapipe is faster marking the cells of each light
 // (shared/light/MEASURED.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)

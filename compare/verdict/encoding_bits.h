@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the bits of a G-buffer's field allow the number in it to be off by, float32's evaluation included.
+// Quantization error bounds of G-buffer fields by number of bits, including float32 rounding.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -10,23 +10,23 @@
 
 namespace diptych {
 
-// Of a number in [0, 1], coded in `bits`: half a step.
+// For a number in [0, 1] in `bits` bits: half a step.
 double halfStep(unsigned bits);
 double unormBound(unsigned bits);
 
-// Of a number x in [0, 1] whose square root is coded: |(sqrt x + h)^2 - x|, h half a step. Worst where the
-// last step meets 1, which squareBound() is.
+// For a number x in [0, 1] whose square root is stored: |(sqrt x + h)^2 - x|, h half a step. Largest where
+// the last step meets 1, which squareBound(bits) returns.
 double squareBound(double x, unsigned bits);
 double squareBound(unsigned bits);
 
-// Of radiance in 9.9.9.e5, of its largest component: relative to that, and the absolute least.
+// For radiance in 9.9.9.e5: bound relative to its largest component, and the smallest absolute bound.
 double radianceBound();
 inline constexpr double leastRadianceBound = 0x1p-25;
 
-// The largest angle in degrees that an octahedral normal of `bits` per coordinate can be off.
+// Largest angle error of an octahedral normal with `bits` per coordinate, degrees.
 double octahedralBound(unsigned bits);
 
-// How far a decoded unit vector's length may be from 1: float32's normalisation.
+// Largest deviation of a decoded unit vector's length from 1: float32's normalisation.
 inline constexpr double lengthBound = 10 * 0x1p-24;
 
 // How a field of Surface is stored in fewer bits than float32.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a surface channel uses of what the G-buffer's bits allow it at each pixel.
+// How much of the quantization error bound a surface channel uses at each pixel.
 #pragma once
 
 #include "compare/verdict/bound_use.h"

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// Of radiance in 9.9.9.e5: emission and lightmaps.
+// Tolerance of radiance in 9.9.9.e5: emission and lightmaps.
 Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
@@ -40,9 +40,9 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
         case StoredField::Code::unorm:
             return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
         case StoredField::Code::root:
-            return {field.largestBound(),
-                    fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits,
-                                codes)};
+            return {
+                field.largestBound(),
+                fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits, codes)};
         case StoredField::Code::octahedral:
             return {field.largestBound(),
                     fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
@@ -53,7 +53,8 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
     return {};
 }
 
-// mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
+// mix(dielectric F0, albedo, metallic): the larger bound of the two ends, plus metallic's step times their
+// distance.
 Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
     const auto bound = [&](gpu::uint mode) {
         const auto field = storedField(static_cast<int>(mode), encoding, pair.needs);
@@ -67,8 +68,7 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
                         f0 > 0 ? " and F0" : "", ends, metallic)};
 }
 
-// The image that forward+ shades from surfaces that went through the same encoding; nullptr if it was not
-// drawn.
+// The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
@@ -83,8 +83,8 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
     const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
     const bool first = pair.baseline.settings.path == Path::forward_plus;
-    const ChannelStats moved = channelStats(mode.metric, mode.kind, first ? own : *through,
-                                            first ? *through : own, pair.coverage);
+    const ChannelStats moved =
+        channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
     return {moved.max,
             fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
                         "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
@@ -134,12 +134,13 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
     return {0, "no loss of precision is known here"};
 }
 
-// Of the light that haze scatters, times the number of steps: what a march was off by, at most 0.03, in
-// builtin:deep through three times the earth's air, with 8, 32 and 128 steps; the error falls faster.
+// Times the number of steps, as a fraction of the light that haze scatters: the measured error of ray
+// marching. At most 0.03, in builtin:deep through three times the earth's air, with 8, 32 and 128 steps;
+// the error falls faster than that.
 constexpr double marchShare = 0.1;
 
-// By how much steps through haze may move a channel at the pixel, W/(sr m^2). Where the reference's own
-// lit_haze is not at hand, lit, which is no less, stands for it.
+// Permitted error of a channel at the pixel by ray-marching haze, W/(sr m^2). Uses lit, which is no less,
+// if the reference's lit_haze is missing.
 double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
@@ -153,7 +154,7 @@ double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pi
            metrics::largestFinite(image.pixel(pixel), image.components);
 }
 
-// A path compared with the reference may differ by what its encoding and its float32 arithmetic lose.
+// Tolerance of a path against the reference: the losses of its encoding and of float32.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
@@ -178,7 +179,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         if (!reference.uncertainty.empty())
             result.because += "; plus the reference's uncertainty at each pixel, at 99.9 % confidence";
     } else {
-        // Surfaces that are forward+'s own capture.
+        // Surfaces come from forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
                         : Tolerance{0, "float32, nothing is packed"};
         if (mode.number == static_cast<int>(gpu::DEBUG_transmittance))
@@ -210,7 +211,8 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
+    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full)
+        return nullptr;
     if (reference.through_gbuffer.contains(mode.number)) return &reference;
     const Frame* const forward = pair.explaining;
     return forward && forward->settings.gbuffer == path.settings.gbuffer &&
@@ -302,7 +304,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
-        // The encoding's change of the light, taken out of the path's pixel.
+        // Removes the encoding's effect on light from the path's pixel.
         std::array<float, 3> moved{};
         const float* q = test.pixel(i);
         if (encoded) {
@@ -314,7 +316,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             }
         }
         const double e = !encoded ? error(q, p) : first ? error(moved.data(), p) : error(q, moved.data());
-        // What is infinite, as a NaN against a number is, stays so whatever the reference knows.
+        // An infinite error (NaN against a number) stays infinite, whatever the uncertainty.
         errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));
     }
     return errors;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Buffers of lights and lists by their addresses (FEATURE_addressed_lights), where a texel buffer of the
-// device does not hold them: Vulkan promises 65,536 texels.
+// Light and list buffers accessed by device address (FEATURE_addressed_lights), for buffers beyond the
+// device's texel buffer limit. Vulkan guarantees 65,536 texels.
 #ifndef ADDRESSED_TEXELS_GLSL
 #define ADDRESSED_TEXELS_GLSL
 

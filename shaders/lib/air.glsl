@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What air lets through and scatters along a ray, its density falling exponentially with height (the model:
-// shared/environment/README.md). Lengths and heights in m; a height is over height 0 of the air.
+// Transmittance of air and light scattered along a ray. Density falls exponentially with height
+// (shared/environment/README.md). Lengths in m; heights in m above the air's height 0.
 #ifndef AIR_GLSL
 #define AIR_GLSL
 
@@ -12,8 +12,8 @@ struct Hazed {
     vec3 scattered;  // to the viewer, W/(sr m^2)
 };
 
-// e^x and e^x - 1 of x in [-87, 60], both within 2e-7 of themselves: exp() promises nothing near 0. The
-// polynomial is that of Moshier's expf (Cephes).
+// e^x and e^x - 1 for x in [-87, 60]; relative error at most 2e-7. GLSL's exp() guarantees no relative
+// accuracy near 0. The polynomial is that of Moshier's expf (Cephes).
 void exponential(vec3 x, out vec3 whole, out vec3 less_one) {
     vec3 n = floor(x * 1.44269504 + 0.5);
     vec3 r = (x - n * 0.693359375) + n * 2.12194440e-4;  // ln 2 in two parts
@@ -28,15 +28,15 @@ void exponential(vec3 x, out vec3 whole, out vec3 less_one) {
     less_one = (scale - 1.0) + scale * p;
 }
 
-// What the air before something of optical depth `depth` lets through, and 1 less that.
+// Transmittance at an optical depth, and 1 - transmittance.
 void attenuation(vec3 depth, out vec3 through, out vec3 lost) {
     exponential(-min(depth, vec3(87.0)), through, lost);
     lost = -lost;
 }
 
-// The air of `reach` metres that rise by `rise`, in metres of air at height 0. Counted from the lower end,
-// where it is densest: no term can overflow, and both directions give the same. The mean over the rise is
-// (1 - e^-x) / x.
+// Air along a segment, in m of air at height 0. The segment is `reach` metres long and rises by `rise`.
+// Counting from the lower, densest end avoids overflow and makes both directions agree. The mean density
+// over the rise is (1 - e^-x) / x of that at the lower end.
 float airAlong(float height, float rise, float reach, float inverse_height) {
     float low = height + min(rise, 0.0), x = max(abs(rise) * inverse_height, 1e-30);
     vec3 whole, less_one;
@@ -44,15 +44,15 @@ float airAlong(float height, float rise, float reach, float inverse_height) {
     return min(reach * (whole.x * (-less_one.y / x)), HAZE_OPAQUE_METRES);
 }
 
-// Of an endless ray; `up`: the sine of its elevation. Finite upwards alone.
+// Air along an endless ray; `up` is the sine of its elevation. Finite only for rays that rise.
 float airBeyond(float height, float up, float inverse_height) {
     vec3 whole, less_one;
     exponential(vec3(clamp(-height * inverse_height, -87.0, 60.0), 0.0, 0.0), whole, less_one);
     return up > 0.0 ? min(whole.x / max(up * inverse_height, 1e-30), HAZE_OPAQUE_METRES) : HAZE_OPAQUE_METRES;
 }
 
-// Of the sun's light that a ray meets: by molecules, and by aerosols (Cornette and Shanks 1992). The squared
-// distance of two unit vectors is exact where their cosine is near 1.
+// Phase functions for sunlight: Rayleigh for molecules, Cornette and Shanks 1992 for aerosols. The squared
+// distance of two unit vectors stays exact where their cosine is near 1.
 void phases(Haze h, vec3 away, out vec3 rayleigh, out vec3 mie) {
     vec3 apart = away - h.to_sun;
     float d2 = dot(apart, apart), cosine = 1.0 - 0.5 * d2, k = h.phase_0 + h.phase_1 * d2;
@@ -61,7 +61,7 @@ void phases(Haze h, vec3 away, out vec3 rayleigh, out vec3 mie) {
     mie = h.mie * (both / (k * sqrt(k)));
 }
 
-// One height, and a source that is the same all along the ray.
+// Haze with one scale height: the source term is constant along the ray.
 Hazed hazeOfAir(Haze h, float air, vec3 away) {
     vec3 through, lost, source = vec3(0.0);
     attenuation(h.extinction * air, through, lost);
@@ -74,21 +74,21 @@ Hazed hazeOfAir(Haze h, float air, vec3 away) {
     return Hazed(through, source * lost);
 }
 
-// -ln(1 - z) / z of z in [0, 1).
+// -ln(1 - z) / z for z in [0, 1).
 float logRatio(float z) {
     float w = min(z, 0.9999999);
     return w < 0.01 ? 1.0 + w * (0.5 + w * (0.33333333 + w * 0.25)) : -log(1.0 - w) / w;
 }
 
-// A ray through air of one height, as a march places its steps.
+// A ray through air with one scale height, used to place the steps of the ray march.
 struct AirRay {
-    float height, up;  // where it begins; sine of its elevation
-    float reach, air;  // its length and its air
-    float low;         // density at its lower end, over that at height 0
+    float height, up;  // at its origin, m; sine of its elevation
+    float reach, air;  // length, m; air along it, m at height 0
+    float low;         // density at its lower end, relative to height 0
     bool climbs;
 };
 
-// A ray that goes down ends where HAZE_ENDLESS_DEPTH is reached, a level one where it is endless too.
+// Rays that descend end at optical depth HAZE_ENDLESS_DEPTH; so do endless level rays.
 AirRay airRay(Haze h, float height, vec3 away, float reach, bool endless) {
     AirRay ray = AirRay(height, away.y, reach, HAZE_OPAQUE_METRES, 0.0, away.y > 0.0);
     float here = exp(clamp(-height * h.inverse_height, -87.0, 60.0));
@@ -111,9 +111,9 @@ AirRay airRay(Haze h, float height, vec3 away, float reach, bool endless) {
     return ray;
 }
 
-// How far along the ray a share of the steps ends, evenly over the square root of what the mean air lets
-// through of what it takes away in all (`lost`): far away, where little comes through, the air is thinner
-// than its mean, or lets more of some colours through.
+// Distance along the ray at which a `share` of the steps ends. Steps are uniform in the square root of the
+// mean air's remaining attenuation; `lost` is the whole ray's. This puts more steps far away, where the
+// air is thinner than its mean or transmits some colours better.
 float placeOf(AirRay ray, Haze h, float share, float lost) {
     float z = share * (2.0 - share) * lost, air = min(z * logRatio(z) / h.extinction.x, ray.air);
     float from_low = (ray.climbs ? air : ray.air - air) / ray.low;
@@ -121,7 +121,7 @@ float placeOf(AirRay ray, Haze h, float share, float lost) {
     return ray.climbs ? along : max(ray.reach - along, 0.0);
 }
 
-// The source at a height: what air there scatters to the viewer over what it takes away.
+// Source term at a height: light scattered to the viewer divided by extinction.
 vec3 sourceAt(Haze h, HazeMarch m, float height, vec3 rayleigh_phase, vec3 mie_phase) {
     float r = exp(clamp(-height * m.rayleigh_inverse, -87.0, 60.0));
     float a = exp(clamp(-height * m.mie_inverse, -87.0, 60.0));
@@ -136,8 +136,8 @@ vec3 sourceAt(Haze h, HazeMarch m, float height, vec3 rayleigh_phase, vec3 mie_p
     return scattered / max(extinction, vec3(1e-30));
 }
 
-// Two heights. Each step adds the source in its middle times what it takes away of the transmittance, as
-// Hillaire 2020 does: exact, with however few steps, where the source is constant.
+// Haze with two scale heights. Each step adds the source term at its middle times the transmittance lost
+// over the step (Hillaire 2020). A constant source gives the exact result for any number of steps.
 Hazed marchedHaze(Haze h, HazeMarch m, float height, vec3 away, float reach, bool endless) {
     vec3 rayleigh_phase = vec3(0.0), mie_phase = vec3(0.0);
     if (on(feature_haze & HAZE_SUN)) phases(h, away, rayleigh_phase, mie_phase);

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere: the BRDF's integral over it, by the table of
-// shared/contract/albedo.h or by a fit.
+// Uniform ambient light: the BRDF integrated over the hemisphere, from the table of
+// shared/contract/albedo.h or from a fit.
 #ifndef AMBIENT_GLSL
 #define AMBIENT_GLSL
 
 #include "shaders/lib/brdf.glsl"
 #include "shared/contract/albedo.h"
 
-// Each sample of the table with the next one.
+// Each texel stores a table sample and the next one.
 layout(set = SET_FRAME, binding = BINDING_ALBEDO) uniform samplerBuffer albedo_pairs;
 
-// Lagrange's polynomial through samples at 0, 1, 2 and 3.
+// Cubic Lagrange weights for samples at 0, 1, 2 and 3.
 vec4 cubicWeights(float t) {
     float a = t, b = t - 1.0, c = t - 2.0, d = t - 3.0;
     vec4 w = vec4(b * c * d / -6.0, a * c * d * 0.5, a * b * d * -0.5, a * b * c / 6.0);
     return w;
 }
 
-// The first of the four samples around x in [0, 1] of `count`, and where x lies among them.
+// Index of the first of the four samples around x in [0, 1]. `t` is the position of x from there, in
+// samples.
 uint cubicFirst(float x, uint count, out float t) {
     float place = clamp(x, 0.0, 1.0) * float(count - 1u);
     uint first = uint(clamp(int(place) - 1, 0, int(count) - 4));
@@ -47,7 +48,7 @@ vec2 tabledAlbedo(float alpha, float n_dot_v) {
 }
 
 // Karis 2014, "Physically Based Shading on Mobile", after Lazarov 2013, "Getting More Physical in Call of
-// Duty: Black Ops II". What is below nothing is nothing.
+// Duty: Black Ops II". Negative values are clamped to 0.
 vec2 fittedAlbedo(float alpha, float n_dot_v) {
     float roughness = sqrt(alpha), gloss = 1.0 - roughness;
     float edge = min(gloss * gloss, exp2(-9.28 * n_dot_v)) * gloss + (0.0425 - 0.0275 * roughness);
@@ -55,26 +56,26 @@ vec2 fittedAlbedo(float alpha, float n_dot_v) {
     return vec2(max(x, 0.0), max(y, 0.0));
 }
 
-// Of light of radiance 1 from everywhere the specular lobe sends f0 * x + f90 * y to the viewer: by the table
-// within 6e-5, by the fit within 0.082 where F0 is 0.04 (0.31 where F = 1, and 0.54 below n.v 0.1).
+// The directional albedo of the specular lobe is f0 * x + f90 * y. The table's error is at most 6e-5. The
+// fit's error is at most 0.082 at F0 = 0.04, 0.31 at F = 1, and 0.54 below n.v = 0.1.
 vec2 specularAlbedo(float alpha, float n_dot_v) {
     float mu = min(n_dot_v, 1.0);
     if (on(feature_fitted_albedo)) return fittedAlbedo(alpha, mu);
     return tabledAlbedo(alpha, mu);
 }
 
-// The mean of schlickWeight() over the cosine-weighted hemisphere, which the diffuse base loses: a polynomial
-// for n.v in [0, 1] that is within 5e-6 of the integral.
+// Cosine-weighted mean of schlickWeight() over the hemisphere: the light that the diffuse base loses.
+// Polynomial for n.v in [0, 1], within 5e-6 of the integral.
 float meanSchlickWeight(float n_dot_v) {
     float mu = min(n_dot_v, 1.0);
     float mean = 0.0281597 + mu * (-0.079749 + mu * (0.0859503 + mu * (-0.0428453 + mu * 0.00856196)));
     return mean;
 }
 
-// Of light from everywhere the share that the base gets of the layer above it.
+// Fraction of ambient light that passes the layer above the base.
 vec3 baseShare(Brdf b) { return reachingBase(b, meanSchlickWeight(b.n_dot_v)); }
 
-// Of light from everywhere the share that the specular lobe sends to the viewer.
+// Fraction of ambient light that the specular lobe reflects to the viewer.
 vec3 lobeShare(Brdf b) {
     vec2 lobe = b.albedo;
     if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
@@ -82,8 +83,8 @@ vec3 lobeShare(Brdf b) {
     return share;
 }
 
-// What `b` sends to the viewer of radiance `ambient` from everywhere and of the irradiance `lightmap` times
-// pi, which the base alone reflects; W/(sr m^2), unoccluded.
+// Radiance reflected to the viewer, W/(sr m^2), without occlusion. `ambient`: uniform radiance.
+// `lightmap`: irradiance over pi, reflected by the base only.
 vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
     vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {

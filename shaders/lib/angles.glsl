@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Angles of which sine and cosine are known. GLSL's acos and atan promise far less than float32 holds.
+// Angles from their sine and cosine. GLSL's acos and atan guarantee far less than float32 precision.
 #ifndef ANGLES_GLSL
 #define ANGLES_GLSL
 
 #include "shaders/lib/contract.glsl"
 
-// acos(x) / sqrt(1 - x^2) for x in [0, 1]: the polynomial of degree 7 with the least relative error, 6e-7,
-// that is exact at 0. GLSL's acos and atan promise far less.
+// acos(x) / sqrt(1 - x^2) for x in [0, 1]. Minimax polynomial of degree 7, exact at 0; relative error
+// 6e-7.
 float arcRatio(float x) {
     float p = 0.140058979 - 0.027750602 * x;
     p = -0.329970568 + p * x;
@@ -17,12 +17,12 @@ float arcRatio(float x) {
     return 0.5 * PI + p * x;
 }
 
-// angle / sine of an angle in [0, pi], of which both are given.
+// Angle over its sine, for angles in [0, pi].
 float angleRatio(float cosine, float sine) {
     float ratio = arcRatio(min(abs(cosine), 1.0));
     return cosine >= 0.0 ? ratio : PI / max(sine, 1e-15) - ratio;
 }
-// In [0, pi]; sine at least 0.
+// Angle in [0, pi]; `sine` is at least 0.
 float angleOf(float cosine, float sine) {
     float small = arcRatio(min(abs(cosine), 1.0)) * sine;
     return cosine >= 0.0 ? small : PI - small;

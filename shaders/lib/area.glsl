@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h), by feature_area_lights:
-// with linearly transformed cosines, or each by one representative point (area_point.glsl). No light throws a
-// shadow.
+// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h). feature_area_lights
+// selects linearly transformed cosines or one representative point (area_point.glsl). Area lights cast no
+// shadows.
 #ifndef AREA_GLSL
 #define AREA_GLSL
 
@@ -12,17 +12,17 @@
 
 bool areaPoints() { return (feature_area_lights & AREA_POINTS) != 0; }
 
-// What all area lights of a pixel share.
+// Values shared by all area lights of a pixel.
 struct AreaView {
     Brdf brdf;
     vec3 n, v;          // unit, world axes
     mat3 surface;       // from world axes to the frame of shared/contract/ltc.h
     Ltc ltc;            // of the specular lobe
-    float tilt;         // its cosine's
-    vec3 sky;           // what it reflects of a light all around
+    float tilt;         // of its cosine
+    vec3 sky;           // specular reflection of uniform radiance 1
 };
 
-// Of the table (shared/contract/ltc.h, shared/light/ltc.h).
+// One entry of the table (shared/contract/ltc.h, shared/light/ltc.h).
 struct LtcCell {
     vec4 even, layer;  // in_plane, across, unsheared, tilt
     float magnitude, fresnel;
@@ -30,12 +30,12 @@ struct LtcCell {
 
 // A light as seen from the surface point.
 struct AreaIncident {
-    vec3 centre;    // from the surface, world axes, m
-    vec3 radiance;  // W/(sr m^2); exactly 0 from its range on and from behind
-    float side;     // 1: it shines along `direction`; -1: the other way
+    vec3 centre;    // relative to the surface, world axes, m
+    vec3 radiance;  // W/(sr m^2); exactly 0 beyond its range and from behind
+    float side;     // 1: emits along `direction`; -1: against it
 };
 
-// What F0 has of all that a lobe reflects.
+// F0's fraction of the lobe's reflection.
 float evenShare(LtcCell cell, float f0, float f90) {
     float even = f0 * cell.magnitude, all = even + max(f90 - f0, 0.0) * cell.fresnel;
     return even / max(all, 1e-30);
@@ -67,7 +67,7 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
 
 layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
 
-// The AreaView of a surface, with its cell of the table.
+// Looks up the table entry of a surface and makes its AreaView.
 AreaView areaView(Brdf brdf, Surface s, vec3 v) {
     LtcCell cell = LtcCell(vec4(1.0), vec4(1.0), 1.0, 0.0);
     if (!areaPoints()) {
@@ -97,21 +97,21 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
     return i;
 }
 
-// Above what the lobe reflects of the sky, where a light's mean direction is far from the lobe's middle and
-// the fit of the tail is far from the tail, nothing is made brighter by more.
+// Largest reflection of a small light, as a multiple of `sky`. The fit is poor where the light's mean
+// direction is far from the centre of the lobe.
 const float LTC_MOST_GAIN = 4.0;
 
-// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What a
-// layer reflects of a small light is that of the light's mean direction, exactly: the fit's density there is
-// divided out, and the BRDF put in its place. Of what fills the whole lobe it is the table's. The fourth root
-// of the share lies between, by the error that is left over the lights of tests/probe/area_error_test.cpp.
+// Adds one light. `plain`, `lobe`: its form factors (ltc.glsl) under the cosine and under the specular
+// lobe. A small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted
+// density there. A light that fills the lobe reflects the table's albedo. The fourth root of the covered
+// share blends the two; it fits the lights of tests/probe/area_error_test.cpp best.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     vec3 base = reachingBase(a.brdf, weight);
     float share = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
     vec3 u = unitOrZero(lobe), l = fromCosine(a.ltc, u);
-    // Per steradian: a direction's solid angle shrinks by the cube of the length that its image has.
+    // Per steradian: a direction's solid angle shrinks by the cube of the length of its image.
     float density = (u.z + a.tilt * u.x) * INVERSE_PI * a.ltc.inverse_a * a.ltc.inverse_c;
     float stretch = lengthOf(l);
     density *= stretch * stretch * stretch;
@@ -131,7 +131,7 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 dif
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 
-// Lengths are divided by the distance of the light's farthest point, so that squares stay within float32 both
+// Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
 // near a huge light and far from a tiny one.
 float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
 
@@ -173,7 +173,7 @@ void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
     float along = dot(i.centre, shape.direction);
     bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&
                   abs(along) <= lengthOf(shape.x);
-    if (within) i.radiance = vec3(0.0);  // it shines outwards alone
+    if (within) i.radiance = vec3(0.0);  // a tube emits outwards only
     if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
                      i.radiance, diffuse, specular);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Area lights by one point each: the one nearest to a ray stands for all. For the specular lobe the ray is
-// the mirrored view, and the lobe's peak is lowered as if it were as much wider as the light is (Karis 2013,
-// "Real Shading in Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre
-// (after Drobot 2014, "Physically Based Area Lights", GPU Pro 5). Cheap, and inexact by nature.
+// Area lights reduced to the point nearest to a ray; cheap and approximate. Specular: the ray is the
+// mirrored view, and the peak is lowered as if the light's size widened the lobe (Karis 2013, "Real
+// Shading in Unreal Engine 4"). Diffuse: the ray is halfway between the normal and the light's centre
+// (after Drobot 2014, "Physically Based Area Lights", GPU Pro 5).
 #ifndef AREA_POINT_GLSL
 #define AREA_POINT_GLSL
 
 #include "shaders/lib/brdf.glsl"
 
 struct AreaPoint {
-    vec3 diffuse_at, specular_at;  // from the surface, m
+    vec3 diffuse_at, specular_at;  // relative to the surface, m
     float solid_angle;             // sr, seen from the surface; at most pi
-    vec2 half_size;                // tangents of the angles that it reaches to both sides of a point
+    vec2 half_size;                // half extents of the light, m
 };
 
-// Where a ray meets the plane through c at right angles to n, or what lies in its direction; from c.
+// Where a ray meets the plane through c with normal n, relative to c. A ray that misses gives a far point
+// in its direction, projected onto the plane.
 vec3 onPlane(vec3 ray, vec3 c, vec3 n) {
     float towards = dot(ray, n), away = dot(c, n);
     bool meets = towards * away > 0.0;
@@ -31,7 +32,7 @@ vec3 onDisc(vec3 ray, vec3 c, AreaLight s) {
     vec3 p = onPlane(ray, c, s.direction);
     return c + p * min(s.radius * inversesqrt(max(dot(p, p), 1e-37)), 1.0);
 }
-// The nearest of its axis, and from there by its radius towards the ray.
+// The nearest point of the axis, moved by at most the radius towards the ray.
 vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
     float half_length = lengthOf(s.x), slope = dot(ray, s.direction), along = dot(c, s.direction);
     float t = (slope * dot(c, ray) - along) / max(1.0 - slope * slope, 1e-6);
@@ -40,10 +41,10 @@ vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
     return p + to_ray * min(s.radius * inversesqrt(max(dot(to_ray, to_ray), 1e-37)), 1.0);
 }
 
-// Near its plane a light is no larger than half the sky: pi of cosine.
+// Solid angle, sr; at most pi, the cosine-weighted solid angle of the hemisphere.
 float solidAngleOf(float area, float distance2) { return area / (distance2 + area * INVERSE_PI); }
 
-// The middle of the lobe, which a rough surface turns from the mirrored view to the normal: Lagarde and de
+// Centre of the specular lobe; roughness turns it from the mirrored view to the normal. Lagarde and de
 // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
 vec3 specularRay(Brdf b, vec3 n, vec3 v) {
     float smooth_part = max(1.0 - b.alpha, 0.0);
@@ -61,7 +62,7 @@ AreaPoint flatPoint(vec3 diffuse_at, vec3 specular_at, float area, vec2 half_siz
 }
 AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     vec2 half_size = vec2(lengthOf(s.x), lengthOf(s.y));
-    // As wide as an ellipse of the same area.
+    // Semi-axes of an ellipse of the same area.
     return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(mirrored, c, s), 4.0 * half_size.x * half_size.y,
                      half_size * (2.0 * inversesqrt(PI)), s.direction);
 }
@@ -77,7 +78,8 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     float cosine = dot(p.diffuse_at, s.direction) * inversesqrt(d2);
     float area = 4.0 * s.radius * half_length * sqrt(max(1.0 - cosine * cosine, 0.0)) +
                  PI * s.radius * s.radius * abs(cosine);
-    // A thin line's solid angle from beside its middle is that of its area at the mean of two distances.
+    // A thin line's solid angle uses the geometric mean of the squared distances to its middle and its
+    // end.
     p.solid_angle = solidAngleOf(area, sqrt(d2 * (d2 + half_length * half_length)));
     p.half_size = vec2(s.radius, half_length + s.radius);
     return p;
@@ -95,9 +97,9 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     vec3 sum = l + v;
     float sum2 = dot(sum, sum);
     vec3 fresnel = b.f0 + (b.f90 - b.f0) * schlickWeight(0.5 * sqrt(sum2));
-    // Of a round lobe in whose middle a light with the tangent t stands the share t^2 / (t^2 + 4 alpha^2)
-    // meets it: so much is left of the peak that a mirror shows a large light as bright as it is. Aslant the
-    // lobe is n.v narrower.
+    // A light of tangent t in the centre of a round lobe covers t^2 / (t^2 + 4 alpha^2) of it. Lowering
+    // the peak by that share makes a mirror show a large light at its own radiance. At grazing angles the
+    // lobe is narrower by n.v.
     vec2 tangent = 0.5 * p.half_size * to_point;
     float width2 = b.alpha2 * b.n_dot_v;
     vec2 wider = sqrt(vec2(width2) + tangent * tangent);

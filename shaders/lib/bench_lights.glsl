@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A benchmark's entry point around shade(): a full-screen target of tiles of 16 x 16 pixels, each with a list
-// of point lights of its own. The includer says where the lights are: nothing, in the texel buffer that the
-// paths read; BENCH_UNIFORM or BENCH_STORAGE, in a buffer of that kind; and with BENCH_UNIFORM_BASE that all
-// lanes read one list.
+// Benchmark entry point around shade(): a full-screen target of 16 x 16 pixel tiles, each with its own
+// list of point lights. By default the lights are in the paths' texel buffer. BENCH_UNIFORM or
+// BENCH_STORAGE moves them to a buffer of that kind. BENCH_UNIFORM_BASE declares that all lanes read one
+// list.
 #ifndef BENCH_LIGHTS_GLSL
 #define BENCH_LIGHTS_GLSL
 
@@ -23,8 +23,8 @@ Light benchLightAt(uint i) { return bench_lights[i]; }
 
 layout(location = 0) out vec4 out_lit;
 
-// A bent sheet in front of the camera, of arithmetic that is the same in every language; kernel_avx2.cpp has
-// it, too.
+// A curved sheet in front of the camera. Its arithmetic is the same in every language; kernel_avx2.cpp
+// repeats it.
 Surface benchSurface(vec2 pixel) {
     float u = pixel.x * (1.0 / 1024.0), v = pixel.y * (1.0 / 1024.0);
     vec3 slope = vec3(0.4 * (u - 0.3), 0.6 * (v - 0.2), 1.0);
@@ -44,8 +44,8 @@ Surface benchSurface(vec2 pixel) {
     return s;
 }
 
-// Push constants: draw: tiles across; material: packets of four lights that a tile's list holds; light_end:
-// those that are walked.
+// Push constants: `draw` is the number of tiles across; `material` is the number of list entries of a
+// tile, four lights each; `light_end` is the number of entries to evaluate.
 void main() {
     uvec2 tile = uvec2(gl_FragCoord.xy) >> 4;
     uint begin = (tile.y * constants.draw + tile.x) * constants.material;

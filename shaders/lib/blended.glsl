@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a blended surface sends to the viewer and lets through, alike however fragments are put together.
+// Radiance and opacity of a blended surface, the same for every method that combines fragments.
 #ifndef BLENDED_GLSL
 #define BLENDED_GLSL
 
@@ -8,13 +8,13 @@
 #include "shaders/lib/shade.glsl"
 
 struct BlendedFragment {
-    vec3 radiance;  // times the share of its place that it covers, W/(sr m^2)
+    vec3 radiance;  // times coverage, W/(sr m^2)
     float opacity;  // 0 to 1
-    bool covers;    // false: nothing at all
+    bool covers;    // false: the fragment contributes nothing
 };
 
-// All that a surface sends counts as much as it covers, so highlights on glass stay; the haze before it as
-// much as it hides, since what is seen through it has its own.
+// Coverage scales the surface's light, so highlights on glass stay. Opacity scales the haze in front,
+// because surfaces seen through this one have their own haze.
 BlendedFragment blendedFragment() {
     vec4 base_color = baseColor();
     cutOut(base_color);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outputs of a capture pass: the images of CAPTURES that feature_captures names, without a gap.
+// Outputs of a capture pass: the images of CAPTURES in feature_captures, at consecutive locations.
 #ifndef CAPTURE_GLSL
 #define CAPTURE_GLSL
 
@@ -17,7 +17,7 @@ layout(location = 7) out vec4 out_7;
 
 bool isCaptured(uint image) { return (feature_captures >> image & 1u) != 0u; }
 
-// Writes an image that the pass draws to the first location that is free.
+// Writes an image of the pass to the next free location.
 void write(uint image, vec4 texel, inout uint free) {
     if (!isCaptured(image)) return;
     if (free == 0u) out_0 = texel;
@@ -31,17 +31,17 @@ void write(uint image, vec4 texel, inout uint free) {
     ++free;
 }
 
-// shaded: Surfaces that are shaded at the pixel, where it has several samples.
+// shaded: number of Surfaces shaded at the pixel under MSAA.
 void capture(Surface s, float z, uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z);
     Radiance radiance = noRadiance();
     if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
         radiance = shade(s, lights);
-        // An earlier batch has shaded with it.
+        // An earlier batch shaded the directional light.
         if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
     }
     vec4 images[CAPTURE_IMAGES];
-    // The channel at component 0 fills its image, later ones take a component each.
+    // The channel at component 0 fills its image; later channels take one component each.
 #define CAPTURE(name, image, component)                                                      \
     if (isCaptured(image)) {                                                                 \
         vec4 value = debugValue(DEBUG_##name, s, lights, radiance, z, shaded);               \
@@ -50,7 +50,7 @@ void capture(Surface s, float z, uint shaded) {
     }
     CAPTURES(CAPTURE)
 #undef CAPTURE
-    // Without a loop, so that a module with its constants given stores at the locations alone that are drawn.
+    // Unrolled, so that a specialized module stores only to the locations of the pass.
     uint free = 0u;
 #define WRITE(name, image, component) \
     if (component == 0) write(image, images[image], free);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which page of the sun's clipmap a position is read from, by shared/contract/clipmap.h. What marks pages and
-// what reads them ask the same functions.
+// Finds the page of the directional light's clipmap for a position (shared/contract/clipmap.h). Marking
+// and sampling pages share these functions.
 #ifndef CLIPMAP_GLSL
 #define CLIPMAP_GLSL
 
@@ -17,19 +17,19 @@ Cascade clipmapLevel(uint level) {
     return CASCADE_OF_TEXEL(a);
 }
 
-// The finest level that serves so far, the whole scene's where none with a window does. Read from the
-// exponent, rounded up: the same on every device.
+// Finest level that covers the position; the whole-scene level if no window covers it. Computed from the
+// float's exponent, rounded up, so that all devices agree.
 uint levelAt(Clipmap map, vec3 position) {
     uint bits = floatBitsToUint(lengthOf(position - map.centre) * map.levels_from);
     int exponent = int(bits >> 23) - 127 + ((bits & 0x7fffffu) != 0u ? 1 : 0);
     return uint(clamp(exponent, 0, int(map.levels)));
 }
 
-// The number of the page that holds a position in a level, among all ClipmapPages.
+// Index of the page that contains a position in a level, among all ClipmapPages.
 uint pageAt(Clipmap map, ShadowLight light, uint level, vec3 position) {
     Cascade c = clipmapLevel(level);
     vec2 texel = vec2(dot(position, light.x), dot(position, light.y)) * c.texels_per_metre + c.offset;
-    // What rounding has put beside the window lies within the filter's margin around its pages.
+    // A position that rounding moves out of the window is within the filter's margin around the pages.
     uint last = level < map.levels ? map.width - 1u : 0u;
     uvec2 page = uvec2(clamp(floor(texel / map.page), vec2(0.0), vec2(float(last))));
     return (level * map.width + page.y) * map.width + page.x;
@@ -41,7 +41,7 @@ ClipmapPage clipmapPage(Clipmap map, uint page) {
     return CLIPMAP_PAGE_OF_TEXEL(a);
 }
 
-// The page that a position is read from.
+// The page to sample at a position.
 ClipmapPage servingPage(ShadowLight light, vec3 position) {
     Clipmap map = clipmap();
     return clipmapPage(map, pageAt(map, light, levelAt(map, position), position));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything the two languages share, the features as specialization constants, and what a frame reads.
+// Everything that C++ and GLSL share, and the features as specialization constants.
 #ifndef CONTRACT_GLSL
 #define CONTRACT_GLSL
 

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Which clusters and triangles of an instance a view may show. What is left out covers no sample, however a
-// device rounds, so that no bit of a picture changes (shared/draw/README.md, "What cannot show"): everything
-// is compared with a margin, and what compares false, as what is no number does, stays.
+// Culls meshlets and triangles of an instance that a view cannot show. Culled triangles cover no sample
+// under any device's rounding, so images stay bitwise identical (shared/draw/README.md, "What cannot
+// show"). All comparisons have a margin; NaN compares false and keeps the triangle.
 #ifndef CULLING_GLSL
 #define CULLING_GLSL
 
 #include "shaders/lib/contract.glsl"
 #include "shared/contract/culling.h"
 
-// What a view is drawn to, from CullingConstants.
+// The view's render target, from CullingConstants.
 struct CulledPicture {
     vec2 half_size;   // pixels
-    uint samples;     // of a pixel
+    uint samples;     // per pixel
     float place_off;  // pixels
     float snap;       // pixels
 };
 
-// The least of what lies inside of a side of the view, by pairs of sides: w + x and w - x, w + y and w - y,
-// w - z. Both terms of each may be off.
+// Error margins of the clip-plane distances, by pairs of planes: w + x and w - x, w + y and w - y, w - z.
+// Both terms of each contribute.
 vec3 slackOf(CulledItem item) { return item.error.xyz + vec3(item.error.w); }
 
-// Whether a box of object space is wholly beyond a side of the view: whether the largest sum of its points
-// is. item.error holds for products of two shaders; here it is one shader's and this sum's, which round no
-// more often together.
+// Whether an object-space box is entirely outside one clip plane, by its largest plane distance.
+// item.error bounds the products of two shaders; one shader's products and this sum round no more often.
 bool isBeyondView(CulledItem item, vec3 low, vec3 high) {
     mat4 rows = transpose(item.clip_from_object);
     vec3 slack = slackOf(item), middle = 0.5 * (low + high), reach = 0.5 * (high - low);
@@ -36,20 +35,20 @@ bool isBeyondView(CulledItem item, vec3 low, vec3 high) {
     return beyond;
 }
 
-// Of sample i, from the pixel's upper left corner, pixels.
+// Location of sample i from the pixel's upper left corner, pixels.
 vec2 culledSamplePlace(uint samples, uint i) {
     uint low = samples == 4u ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
     uint place = (i < 4u ? low : SAMPLE_PLACES_8_HIGH) >> (8u * (i & 3u));
     return samples == 1u ? vec2(0.5) : vec2(place & 15u, place >> 4 & 15u) / 16.0;
 }
 
-// Of the edge from a to b, both from a sample: positive where that lies inside, times `turn`; and how it
-// changes from one sample to the next across and down.
+// Edge function from a to b, both relative to a sample; positive inside after `turn`. Also its change from
+// one sample to the next, across and down.
 vec3 edgeSide(float turn, vec2 a, vec2 b) {
     return turn * vec3(a.x * b.y - a.y * b.x, a.y - b.y, b.x - a.x);
 }
 
-// Whether a triangle may cover a sample that its draw shows; corners in object space, m.
+// Whether a triangle may cover a sample of its draw; corners in object space, m.
 bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, vec3 third) {
     vec4 a = item.clip_from_object * vec4(first, 1.0), b = item.clip_from_object * vec4(second, 1.0),
          c = item.clip_from_object * vec4(third, 1.0);
@@ -59,16 +58,16 @@ bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, ve
         all(lessThan(w + y, vec3(-slack.y))) || all(lessThan(w - y, vec3(-slack.y))) ||
         all(lessThan(w - z, vec3(-slack.z))) || all(lessThan(z, vec3(-item.error.z))))
         return false;
-    // What a device clips has other corners.
+    // Clipping moves corners, so clipped triangles are kept.
     if (!(all(greaterThanEqual(w - abs(x), vec3(slack.x))) &&
           all(greaterThanEqual(w - abs(y), vec3(slack.y))) &&
           all(greaterThanEqual(w - z, vec3(slack.z))) && all(greaterThanEqual(z, vec3(item.error.z))) &&
           all(greaterThan(w, vec3(item.error.w)))))
         return true;
 
-    // Where each corner is drawn is within `off` pixels of where it is here, across and down: of x / w, which
-    // is at most 1, x may be off by the error of x and by that of w, both over a w that may be smaller; then
-    // comes what places in pixels round, and what the rasteriser does.
+    // Rasterised corners are within `off` pixels of these, across and down. x / w is at most 1; the errors
+    // of x and of w both count, divided by the smallest possible w. Rounding of pixel coordinates and the
+    // rasteriser's snapping add to it.
     float nearest = min(w.x, min(w.y, w.z)) - item.error.w;
     vec2 far = picture.half_size * slack.xy / nearest;
     float off = picture.snap + picture.place_off + max(far.x, far.y), wide = 1.4143 * off;
@@ -78,9 +77,9 @@ bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, ve
     vec2 low = min(p, min(q, r)) - off, high = max(p, max(q, r)) + off;
     float reach = high.x - low.x + high.y - low.y;
 
-    // glTF's fronts are counter-clockwise, which y makes negative, pointing down. Corners that are each off
-    // by `wide` change the doubled area by at most wide * perimeter + 3 wide^2, and the perimeter is at most
-    // that of the box; then what float32 rounds away of the area itself.
+    // glTF's front faces are counter-clockwise, a negative area here because y points down. Corners that
+    // are each off by `wide` change the doubled area by at most wide * perimeter + 3 wide^2. The box's
+    // perimeter bounds the triangle's. The last term is float32 rounding of the area.
     bool either = (item.sides & CULLED_BOTH_SIDES) != 0u;
     float turn = (item.sides & CULLED_MIRRORED) != 0u ? 1.0 : -1.0;
     vec2 to_second = q - p, to_third = r - p;
@@ -88,9 +87,9 @@ bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, ve
     float uncertain = 1.01 * wide * (2.0 * reach + 3.0 * wide) + 5e-7 * (abs(one) + abs(other));
     if (!either && turn * (one - other) < -uncertain) return false;
 
-    // Of a few pixels: whether a sample is within all edges. A corner's move changes twice an area by its
-    // size times how far the others are, and those are in the box with the sample; once more for what float32
-    // rounds away. Without branches on what a sample turns out to be, as one is like another.
+    // For triangles of a few pixels: whether a sample is inside all edges. Moving a corner changes the
+    // doubled area by the move times the distance of the other points, which are in the box. The margin
+    // includes float32 rounding. No branch depends on a sample's result, because all cost the same.
     const int few = 6;
     float margin = 1.01 * wide * (2.0 * reach + wide);
     bool covers = false;

@@ -7,8 +7,8 @@
 #include "shaders/lib/radiance.glsl"
 #include "shaders/lib/shadow.glsl"
 
-// The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth. shaded:
-// Surfaces that are shaded at the pixel.
+// Value of a channel (shared/contract/debug_mode.h), without a colour map. z: reversed depth. shaded:
+// number of Surfaces shaded at the pixel.
 vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z, uint shaded) {
     switch (mode) {
         case DEBUG_lit: return vec4(lit(radiance), 1.0);

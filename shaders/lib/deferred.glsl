@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The Surface that deferred lighting shades at a pixel. With several samples a pixel a draw or
-// dispatch shades one group of samples of each pixel, its number in the push constants, and covers these
-// samples alone: SET_GBUFFER's depth is then the image of groups, which a draw is tested against.
+// The Surface that deferred lighting shades at a pixel. Under MSAA, each draw or dispatch shades one
+// sample group per pixel and writes only its samples; the group's index is a push constant. SET_GBUFFER's
+// depth is then the sample-group image, against which draws are depth-tested.
 #ifndef DEFERRED_GLSL
 #define DEFERRED_GLSL
 
@@ -11,16 +11,16 @@
 #include "shaders/lib/sample_groups.glsl"
 
 #ifdef STAGE_frag
-// A mask that a shader writes must not put the test off until it has run.
+// Writing gl_SampleMask must not delay the depth test until the shader has run.
 layout(early_fragment_tests) in;
 #endif
 
 SampleGroup groupHere() { return sampleGroup(depthAt(pixelHere()), constants.group); }
 
-// Surfaces that are shaded at the pixel.
+// Number of Surfaces shaded at the pixel.
 uint shadedSurfaces() { return multisampled() ? groupsOf(depthAt(pixelHere())) : 1u; }
 
-// Of pixels of one sample.
+// Without MSAA only.
 bool isDrawnHere() { return depthAt(pixelHere()) > 0.0; }
 
 Surface deferredSurface(out float z) {

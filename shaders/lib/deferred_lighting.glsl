@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What deferred lighting makes of a pixel, in a fragment shader and in a compute shader alike.
+// Deferred lighting of one pixel, shared by the fragment and the compute shader.
 #ifndef DEFERRED_LIGHTING_GLSL
 #define DEFERRED_LIGHTING_GLSL
 
@@ -12,10 +12,9 @@ Radiance radianceHere() {
     return shade(s, lightsAt(middleHere(), z));
 }
 
-// The texel of lit.
 vec4 litHere() { return vec4(lit(radianceHere()), 1.0); }
 
-// The texels of the sums that a light batch leaves to the next one.
+// Sums that a light batch passes to the next one.
 struct PartialSums {
     vec4 diffuse, specular;
 };

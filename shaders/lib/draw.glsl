@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which draw a vertex or fragment belongs to.
+// Push constants of a draw.
 #ifndef DRAW_GLSL
 #define DRAW_GLSL
 

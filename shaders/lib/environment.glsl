@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light of an environment: the base reflects its irradiance, the specular lobe what
-// shared/environment/prefilter.h filtered along the mirrored direction (Karis 2013, "Real Shading in Unreal
-// Engine 4"), or samples of it.
+// Environment lighting. The base reflects the environment's irradiance. The specular lobe reads the map
+// prefiltered along the mirrored direction (shared/environment/prefilter.h; Karis 2013, "Real Shading in
+// Unreal Engine 4"), or samples it.
 #ifndef ENVIRONMENT_GLSL
 #define ENVIRONMENT_GLSL
 
@@ -11,7 +11,7 @@
 
 layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAPS) uniform sampler2D environment_maps;
 
-// The place of a direction in an octahedral map, in [-1, 1]^2, +Y in its middle.
+// Coordinates of a direction in an octahedral map, in [-1, 1]^2; +Y is in the centre.
 vec2 octahedralPlace(vec3 d) {
     vec2 p = d.xz * (1.0 / (abs(d.x) + abs(d.y) + abs(d.z)));
     if (d.y < 0.0) p = octahedralWrap(p);
@@ -20,14 +20,14 @@ vec2 octahedralPlace(vec3 d) {
 
 vec3 mapTexel(ivec2 p) { return texelFetch(environment_maps, p, 0).rgb; }
 
-// `map`: the corner of its nodes, and how many a side has. Linear over the triangles on both sides of a
-// cell's diagonal along which the map is folded (shared/environment/octahedral_map.h).
+// `map`: corner of the map's nodes, and nodes per side. Interpolates linearly over the two triangles of a
+// cell, split along the diagonal where the map folds (shared/environment/octahedral_map.h).
 vec3 mapRadiance(vec3 map, vec2 place) {
     vec2 at = (place * 0.5 + 0.5) * (map.z - 1.0);
     vec2 corner = clamp(floor(at), vec2(0.0), vec2(map.z - 2.0)), f = at - corner;
     ivec2 c = ivec2(map.xy + corner);
     bool rising = place.x * place.y >= 0.0;  // the fold runs from the cell's right to its bottom
-    f.y = rising ? f.y : 1.0 - f.y;          // else the same in the cell's mirror image
+    f.y = rising ? f.y : 1.0 - f.y;          // else mirror the cell
     int first = rising ? 0 : 1;
     float beyond = f.x + f.y - 1.0;
     bool far = beyond >= 0.0;
@@ -36,7 +36,7 @@ vec3 mapRadiance(vec3 map, vec2 place) {
     return off * abs(beyond) + right * (far ? 1.0 - f.y : f.x) + down * (far ? 1.0 - f.x : f.y);
 }
 
-// Between two levels, or at the ends of all of them.
+// Interpolates between two levels; clamps at the first and the last.
 vec3 levelRadiance(float level, vec2 place) {
     float levels = environmentTurn().w;
     level = clamp(level, 0.0, levels - 1.0);
@@ -47,7 +47,7 @@ vec3 levelRadiance(float level, vec2 place) {
     return blend(fine, coarse, level - lower);
 }
 
-// Of a GGX width; the first level stands for the least that is shaded.
+// Level for a GGX width; level 0 has the smallest width that is shaded.
 float specularLevel(float alpha) {
     float first = log2(ENVIRONMENT_FIRST_ALPHA), least = 2.0 * log2(MIN_PERCEPTUAL_ROUGHNESS);
     float octaves = log2(alpha);
@@ -57,8 +57,8 @@ float specularLevel(float alpha) {
 
 vec4 harmonic(int i) { return texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_HARMONICS) + i); }
 
-// Irradiance over pi, W/(sr m^2); `n` in world axes. Harmonics ring where light is hard: what is below
-// nothing is nothing.
+// Irradiance over pi, W/(sr m^2); `n` in world axes. Harmonics ring around hard light, so negative values
+// are clamped to 0.
 vec3 environmentIrradiance(vec3 n) {
     if (on(feature_environment & ENVIRONMENT_DIFFUSE_MAP))
         return mapRadiance(texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).xyz,
@@ -77,7 +77,7 @@ float smithLambda(float alpha2, float cosine) {
     return 0.5 * (sqrt(1.0 + alpha2 * max(1.0 - c2, 0.0) / c2) - 1.0);
 }
 
-// Two vectors across `n` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+// Two unit vectors perpendicular to `n` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void axesAcross(vec3 n, out vec3 x, out vec3 y) {
     float sign_z = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (sign_z + n.z), b = n.x * n.y * a;
@@ -85,9 +85,9 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
     y = vec3(b, sign_z + n.y * n.y * a, -n.y);
 }
 
-// What the lobe sends to `v` of the environment's radiance, by half vectors that the viewer sees (Heitz 2018,
-// "Sampling the GGX Distribution of Visible Normals"); each reads the level whose texels are as large as its
-// share of the solid angle. The points are Hammersley's, the same at every pixel, so that there is no noise.
+// Environment light that the lobe reflects to `v`, by sampling visible normals (Heitz 2018, "Sampling the
+// GGX Distribution of Visible Normals"). Each sample reads the level whose texels match its solid angle.
+// Hammersley points, the same at every pixel, avoid noise.
 vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     vec3 x, y;
     axesAcross(n, x, y);
@@ -123,8 +123,8 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// What the surface sends to `v`, by its base and by its lobe. Occlusion dims it. The base of a surface with a
-// lightmap has its light from there.
+// Environment light reflected to `v` by the base and by the lobe, dimmed by occlusion. A lightmapped base
+// takes its light from the lightmap instead.
 void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 from_lobe) {
     float factor = environmentFactor() * s.occlusion;
     vec3 r = environmentFromWorld(reflection(-v, s.normal));
@@ -135,7 +135,7 @@ void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 
         from_lobe = sampledSpecular(b, s.normal, v) * factor;
     else
         from_lobe = lobeShare(b) * levelRadiance(specularLevel(b.alpha), octahedralPlace(r)) * factor;
-    // What is reflected between facets leaves as from a Lambertian surface.
+    // Multiple scattering leaves the surface like Lambertian reflection.
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * PI * received;
 }
 

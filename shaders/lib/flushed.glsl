@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers below the least normal one as 0, which is as dark, on every device and in every stage: lavapipe's
-// fragments make that of them in some processes and not in others, its threads never do.
+// Flushes subnormals to 0 on every device and in every stage. lavapipe's fragment shaders do so in some
+// processes only; its compute shaders never do.
 #ifndef FLUSHED_GLSL
 #define FLUSHED_GLSL
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Surface that the forward+ path shades.
+// The Surface that forward+ shades.
 #ifndef FORWARD_GLSL
 #define FORWARD_GLSL
 
@@ -8,14 +8,14 @@
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/stored_depth.glsl"
 
-// The depth that the pixel is shaded with, reversed.
+// Reversed depth at which the pixel is shaded.
 float shadedDepth() {
     return on(feature_stored_depth) ? depthAt(ivec2(gl_FragCoord.xy)) : fragmentDepth();
 }
 
-// With encoded_surface it is what the deferred path reads back, which gives that path's picture bit for bit.
-// Nothing else may depend on that feature: a test checks it, because a difference between the two variants
-// would count as the encoding's.
+// With encoded_surface, the Surface that the deferred path decodes, which gives that path's image bit for
+// bit. Nothing else may depend on that feature, as a test checks: any other difference would be attributed
+// to the encoding.
 Surface forwardSurface() {
     vec4 base_color = baseColor();
     cutOut(base_color);

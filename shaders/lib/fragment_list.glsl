@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The nearest fragments of each pixel, in order, as many as `layers` of BlendedConstants; whatever the order
-// in which they arrive.
+// The nearest `layers` (BlendedConstants) fragments of each pixel, sorted by depth whatever their arrival
+// order.
 //
-// Places for keys are sorted by an insertion whose every step is one atomic minimum: place i keeps the least
-// of the keys that come to it and hands each other one on to place i + 1, so that when all have come it holds
-// the one of rank i. What is drawn again in a second pass finds its place by its key, and is added to sums of
-// the pixel where it has none, which are integers and thus the same in any order.
+// Insertion sort with one atomic minimum per step. Entry i keeps the smallest key and passes the others on
+// to entry i + 1, so that in the end it contains the key of rank i. A second pass draws the fragments
+// again and finds each entry by its key. Fragments without an entry are added to integer sums of the
+// pixel, which do not depend on the order.
 //
 // uint64 fragment_keys[]: [layers][pixels] keys; [FRAGMENT_SUMS][pixels] sums; [FRAGMENT_COUNTERS].
 #ifndef FRAGMENT_LIST_GLSL
@@ -27,21 +27,21 @@ BlendedConstants list_of = constants.blended;
 
 uint listedPixels() { return list_of.width * list_of.rows; }
 
-// Whether the buffers hold the pixel.
+// Whether the buffers cover the pixel.
 bool isListed(uvec2 pixel) {
     return pixel.y >= list_of.first_row && pixel.y - list_of.first_row < list_of.rows;
 }
 
 uint listedPixel(uvec2 pixel) { return (pixel.y - list_of.first_row) * list_of.width + pixel.x; }
 
-// Grows with the distance; of two at the same depth the one that comes later in the scene is in front. `z`:
-// reversed depth, 0 to 1. `triangle`: its number among all blended triangles.
+// Sort key that grows with distance. At equal depth, the fragment later in the scene is in front. `z`:
+// reversed depth, 0 to 1. `triangle`: index among all blended triangles.
 uint64_t fragmentKey(float z, uint triangle) {
     return (uint64_t(~floatBitsToUint(max(z, 0.0))) << 32) | uint64_t(~(triangle + 1u));
 }
 
-// A key beyond that of the last place finds no room: places only ever get smaller keys, so one that is read
-// too early is no less.
+// A key greater than the last entry's overflows the list. Entries only decrease, so a stale read never
+// rejects a key that fits.
 void insertKey(uint pixel, uint64_t key) {
     if (key > fragment_keys[(list_of.layers - 1u) * listedPixels() + pixel]) return;
     for (uint i = 0; i < list_of.layers && key != NO_FRAGMENT; ++i) {
@@ -50,7 +50,7 @@ void insertKey(uint pixel, uint64_t key) {
     }
 }
 
-// The place of a key that was inserted; `layers`: it found no room.
+// List index of an inserted key; `layers` if it overflowed.
 uint placeOf(uint pixel, uint64_t key) {
     uint i = 0;
     while (i < list_of.layers && fragment_keys[i * listedPixels() + pixel] < key) ++i;

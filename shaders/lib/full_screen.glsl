@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One triangle over the screen at the far end of the reversed depth, which the viewport maps to just above 0.
-// A depth test of LESS_OR_EQUAL then passes where something was drawn, and the background is skipped before
-// it is shaded.
+// Full-screen triangle at the far end of reversed depth, which the viewport maps to just above 0. A
+// LESS_OR_EQUAL depth test then passes where geometry was rendered and skips the background before
+// shading.
 #ifndef FULL_SCREEN_GLSL
 #define FULL_SCREEN_GLSL
 

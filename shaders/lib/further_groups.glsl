@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The list of groups of samples after the first one of their pixel (shared/contract/samples.h): where few
-// pixels have any, what shades them takes one fragment each. lavapipe shades every fragment of a draw to
-// images of several samples, also where the depth test leaves none of its samples.
+// List of secondary sample groups (shared/contract/samples.h). If few pixels have any, the pass that
+// shades them runs one fragment per group. lavapipe shades every fragment of a multisampled draw, even if
+// no sample passes the depth test.
 #ifndef FURTHER_GROUPS_GLSL
 #define FURTHER_GROUPS_GLSL
 
@@ -30,14 +30,14 @@ ivec2 pixelOfListed(uint word) {
 }
 uint groupOfListed(uint word) { return word >> 2u * FURTHER_PIXEL_BITS; }
 
-// The entry that a fragment of draw number `page` shades. Entries that follow each other are in two rows, as
-// fragments are shaded in blocks, and neighbours in the picture walk like lists of lights.
+// Index of the list entry that a fragment of draw `page` shades. Consecutive entries alternate between two
+// rows: fragments are shaded in blocks, and neighbouring pixels loop over similar light lists.
 uint entryAt(uvec2 fragment, uint page) {
     return (page * (FURTHER_ROWS / 2u) + (fragment.y >> 1) << FURTHER_WIDTH_BITS | fragment.x) << 1 |
            fragment.y & 1u;
 }
 
-// Rows of draw number `page` that hold `count` entries, as a share of FURTHER_ROWS.
+// Rows of draw `page` that `count` entries need, as a fraction of FURTHER_ROWS.
 float rowsOf(uint count, uint page) {
     uint row = 2u * FURTHER_WIDTH, before = page * (FURTHER_ROWS / 2u) * row;
     uint left = count > before ? count - before : 0u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Surface to the bits of the G-buffer and back; the layouts are in shared/contract/gbuffer.h.
+// Encodes a Surface into the G-buffer and decodes it. shared/contract/gbuffer.h defines the layouts.
 #ifndef GBUFFER_GLSL
 #define GBUFFER_GLSL
 
@@ -8,13 +8,13 @@
 #include "shaders/lib/surface.glsl"
 
 struct GBufferTexel {
-    uvec4 attachments[GBUFFER_ATTACHMENTS];  // attachments that a layout lacks are 0
+    uvec4 attachments[GBUFFER_ATTACHMENTS];  // 0 if the layout lacks it
 };
 
 bool fullGBuffer() { return feature_gbuffer_encoding == GBUFFER_full; }
 bool compactGBuffer() { return feature_gbuffer_encoding == GBUFFER_compact; }
 
-// The geometric normal is quantised alike in both paths: what is offset along it (shadow bias) must agree.
+// Both paths quantise the geometric normal equally, because shadow bias offsets along it.
 vec3 quantiseGeometricNormal(vec3 n) {
     if (fullGBuffer() || !needsGeometricNormal()) return n;
     uint bits = compactGBuffer() ? COMPACT_GEOMETRIC_NORMAL_BITS : STANDARD_NORMAL_BITS;
@@ -29,8 +29,7 @@ vec3 decodeRadiance(uvec4 texel, bool wide) {
     return wide ? uintBitsToFloat(texel.xyz) : unpackSharedExponent(texel.x);
 }
 
-// A texel of 0 is no lightmap: a black one has 1 in its last component, or an exponent, which makes nothing
-// of mantissas of 0.
+// A texel of 0 means no lightmap. A black lightmap has 1 in w (wide), or an exponent with mantissas of 0.
 uvec4 encodeLightmap(Surface s, bool wide) {
     uvec4 texel = encodeRadiance(s.lightmap, wide);
     if (s.lightmapped && wide) texel.w = 1u;
@@ -79,7 +78,7 @@ GBufferTexel encodeGBuffer(Surface s) {
     return t;
 }
 
-// Everything but the position, which comes from depth, and what is forward+'s alone, which is not stored.
+// Decodes all fields except the position, which comes from depth, and those that only forward+ has.
 Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     Surface s;
     s.position = position;
@@ -90,7 +89,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     s.lightmap = vec3(0.0);
     s.lightmapped = false;
     s.object_irradiance = vec3(0.0);  // not stored
-    s.transmission = 0.0;             // what is blended is not
+    s.transmission = 0.0;             // blended surfaces are not stored
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (fullGBuffer()) {

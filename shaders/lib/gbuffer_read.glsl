@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a Surface from the G-buffer.
+// Reads a Surface from the G-buffer.
 #ifndef GBUFFER_READ_GLSL
 #define GBUFFER_READ_GLSL
 
@@ -8,7 +8,7 @@
 #include "shaders/lib/samples.glsl"
 #include "shaders/lib/stored_depth.glsl"
 
-// Each image twice, for one sample a pixel and for several: a pipeline has the one that it reads.
+// Declares each image twice, single-sampled and multisampled; a pipeline keeps the one that it reads.
 #define GBUFFER_IMAGE(at, name)                                       \
     layout(set = SET_GBUFFER, binding = at) uniform usampler2D name;  \
     layout(set = SET_GBUFFER, binding = at) uniform usampler2DMS name##_samples;
@@ -24,7 +24,7 @@ layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform usampler2DMS gbuffer
 
 #define FETCHED(name, p, i) (multisampled() ? texelFetch(name##_samples, p, i) : texelFetch(name, p, i))
 
-// i: the sample, 0 where pixels have one.
+// i: sample index; 0 without MSAA.
 GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     GBufferTexel t;
     for (uint k = 0; k < GBUFFER_ATTACHMENTS; ++k) t.attachments[k] = uvec4(0);
@@ -40,7 +40,7 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     return t;
 }
 
-// The Surface of a sample and the reversed depth z that it is shaded at.
+// Surface of a sample; z is the reversed depth at which it is shaded.
 Surface surfaceFromGBuffer(ivec2 p, int i, out float z) {
     GBufferTexel t = texelOfGBuffer(p, i);
     vec2 place = vec2(0.5);

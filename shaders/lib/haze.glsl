@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haze before a surface or the background: whatever is drawn asks for it at its own place, once.
+// Haze in front of a surface or the background. Each surface evaluates it once, at its own position.
 #ifndef HAZE_GLSL
 #define HAZE_GLSL
 
@@ -10,7 +10,7 @@ layout(set = SET_FRAME, binding = BINDING_HAZE) uniform samplerBuffer haze_texel
 
 vec4 hazeTexel(uint i) { return texelFetch(haze_texels, int(i)); }
 
-// Without ambient light and a march nothing reads the last texel.
+// Only ambient light and ray marching use the last texel.
 Haze readHaze() {
     vec4 a = hazeTexel(0), b = hazeTexel(1), c = hazeTexel(2), d = hazeTexel(3), e = vec4(0.0);
     if (on(feature_haze & (HAZE_AMBIENT | HAZE_MARCHED))) e = hazeTexel(4);
@@ -21,7 +21,7 @@ HazeMarch readHazeMarch() {
     return HAZE_MARCH_OF_TEXELS(a, b, c);
 }
 
-// Between the camera and a surface at `position` (world axes, camera as origin, m).
+// Haze between the camera and `position` (world axes, camera as origin, m).
 Hazed hazeTo(vec3 position) {
     Haze h = readHaze();
     float reach, height = h.camera_height, rise = position.y;
@@ -40,7 +40,7 @@ Hazed hazeTo(vec3 position) {
     return hazeOfAir(h, airAlong(height, rise, reach, h.inverse_height), away);
 }
 
-// Before what is endlessly far away along a ray from `origin` (the camera as origin, m); `away`: unit.
+// Haze in front of the background along a ray from `origin` (camera as origin, m); `away`: unit.
 Hazed hazeBeyond(vec3 origin, vec3 away) {
     Haze h = readHaze();
     float height = h.camera_height + origin.y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cell of a pixel and the bounds of a cell (shared/contract/light_list.h).
+// The light grid: the cell of a pixel, and the bounds of a cell (shared/contract/light_list.h).
 #ifndef LIGHT_GRID_GLSL
 #define LIGHT_GRID_GLSL
 
@@ -17,11 +17,11 @@ uint cellOf(vec2 pixel, float depth) {
     return (slice * grid.tiles.y + tile.y) * grid.tiles.x + tile.x;
 }
 
-// Tiled: the list of what is blended in a tile, from that of what is solid (LightGrid::lists).
+// Tiled lists: index of a tile's list for blended surfaces, from that for opaque ones (LightGrid::lists).
 uint listInFront(uint list) { return grid.tiles.x * grid.tiles.y + list; }
 
-// View depths of a slice, m, a little wider than sliceOf() can round; the first begins at the camera and the
-// last has no end.
+// View depths of a slice, m, widened by the rounding of sliceOf(). The first slice begins at the camera;
+// the last has no end.
 vec2 sliceDepths(uint slice) {
     uint first = floatBitsToUint(grid.slice_offset) + (slice << grid.slice_shift);
     vec2 sum = vec2(uintBitsToFloat(first), uintBitsToFloat(first + (1u << grid.slice_shift)));
@@ -29,11 +29,11 @@ vec2 sliceDepths(uint slice) {
     return vec2(slice == 0u ? 0.0 : depths.x, slice + 1u == grid.slices ? MAX_BOUND_RADIUS : depths.y);
 }
 
-// A cell as two pairs of planes through the camera, given as x and y over depth (orthographic: x and y in m),
-// and a range of view depths.
+// A cell: two pairs of planes through the camera, given as x and y over depth (orthographic: x and y in
+// m), and a range of view depths.
 struct CellBounds {
     vec2 x, y;
-    vec2 depth;  // m; empty where the first is larger
+    vec2 depth;  // m; empty if depth.x > depth.y
 };
 
 CellBounds cellBounds(uvec2 tile, vec2 depth) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels that make light lists read and write.
+// Buffers and helpers of the compute shaders that build light lists.
 #ifndef LIGHT_KERNEL_GLSL
 #define LIGHT_KERNEL_GLSL
 
@@ -19,10 +19,11 @@ layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads 
 layout(set = SET_LISTS, binding = BINDING_INDICES, scalar) writeonly buffer Indices { uint indices[]; };
 layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Listed { uint listed[]; };
 
-// Packets that so many lights of a kind fill; at least one where the scene has that kind.
+// Packets (list entries of grid.width lights) for `lights` lights; at least one if the scene has any of
+// their type.
 uint packetsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
 
-// Sums a list's counts over its segments; `begin` is where the list begins.
+// Sums a list's counts over its segments; `begin` is the list's first entry.
 LightListCount countOf(uint list) {
     LightListCount sum =
         LightListCount(0u, 0u, 0u, four_begins[list / 4u] + counts[list * grid.segments].begin);
@@ -34,7 +35,7 @@ LightListCount countOf(uint list) {
     return sum;
 }
 
-// Where the list lies: its begin and the ends of its parts.
+// The list's first entry and the ends of its light-type segments.
 LightListHead headOf(LightListCount count) {
     LightListHead head;
     head.begin = count.begin;
@@ -55,25 +56,25 @@ LightBound boundOf(uint light) {
     return LIGHT_BOUND_OF_TEXELS(a, b, c);
 }
 
-// Words of the masks are stored word by word, not list by list: neighbouring threads have neighbouring lists
-// and so read neighbouring words.
+// Mask words are stored word by word, not list by list: neighbouring threads process neighbouring lists
+// and so read adjacent words.
 uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
 
-// Where a word of a tile's and of a slice's candidates stands: word by word, too.
+// Index of a word of a tile's or a slice's candidates; also stored word by word.
 uint tileWord(uint word, uint tile) { return word * (grid.tiles.x * grid.tiles.y + grid.slices) + tile; }
 uint sliceWord(uint word, uint slice) { return tileWord(word, grid.tiles.x * grid.tiles.y + slice); }
 
-// Of a dispatch in rows of workgroups.
+// Linear thread index in a dispatch of rows of workgroups.
 uint threadNumber() {
     return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
 }
 
-// View depths that a cell covers, m; tiled: those drawn there.
+// View depths of a cell, m; for tiles, the depths of the geometry in them.
 vec2 cellDepths(uint tile, uint slice) {
     return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
 }
 
-// The bits of `word` that are lights below number `end`.
+// Bits of mask word `word` for light indices below `end`.
 uint bitsBelow(uint word, uint end) {
     uint first = word * 32u;
     return end <= first ? 0u : end - first >= 32u ? ~0u : (1u << (end - first)) - 1u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The lights that a pixel evaluates, always in the order of the light buffer, whichever assignment chose
-// them. Lights and lists are texel buffers: on lavapipe a fetch of four lanes costs less than one gathered
-// load from a storage buffer.
+// The lights that a pixel evaluates, in the order of the light buffer for every assignment method. Lights
+// and lists are texel buffers: on lavapipe a fetch of four components costs less than one gathered load
+// from a storage buffer.
 #ifndef LIGHT_LISTS_GLSL
 #define LIGHT_LISTS_GLSL
 
@@ -23,7 +23,6 @@ layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objec
     ObjectLights object_lights[];
 };
 
-// Texels of the lights' buffers and of the lists.
 vec4 lightTexel(uint i) {
     if (on(feature_addressed_lights)) return FloatTexels(view_block.lights).at[i];
     return texelFetch(light_texels, int(i));
@@ -54,13 +53,13 @@ Light lightAt(uint i) {
 }
 
 SpotCone spotConeAt(uint i) {
-    // The null light's cone is the last one.
+    // The null light uses the last cone.
     uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);
     vec4 a = spotConeTexel(2u * cone), b = spotConeTexel(2u * cone + 1u);
     return SPOT_CONE_OF_TEXELS(a, b);
 }
 
-// Numbers among the area lights: rectangles, discs, tubes.
+// Indices among the area lights: rectangles, then discs, then tubes.
 uint firstDisc() { return view.rect_light_count; }
 uint firstTube() { return view.rect_light_count + view.disc_light_count; }
 uint areaCount() { return firstTube() + view.tube_light_count; }
@@ -70,17 +69,17 @@ AreaLight areaLightAt(uint area) {
     return AREA_LIGHT_OF_TEXELS(a, b, c);
 }
 
-// A pixel's lights as packets of its list: one or four lights each, feature_list_width. Without lists
-// (LISTS_NONE) a packet is one light and the list holds all local ones; with object_lights it is the draw's
-// own list.
+// A pixel's light list as packets (list entries) of feature_list_width lights, one or four. Without lists
+// (LISTS_NONE) a packet is one light and the list contains all local lights. With object_lights it is the
+// draw's own list.
 struct PixelLights {
     uint list;
     LightListHead packets;
 };
 
-// The list of a pixel at a view depth, m. With several samples a pixel a triangle that is hidden in some of
-// them may be shaded farther away than the farthest surface that is seen in the tile: there the list is that
-// of all lights, which follows the tiles' ones.
+// The list of a pixel at a view depth, m. Under MSAA, a triangle that is hidden in some samples may be
+// shaded beyond the farthest surface that is visible in the tile. It then uses the list of all lights,
+// which follows the tiles' lists.
 uint listAt(vec2 pixel, float depth, bool blended) {
     uint list = cellOf(pixel, depth);
     if (feature_light_lists == LISTS_TILED && blended) list = listInFront(list);
@@ -89,7 +88,7 @@ uint listAt(vec2 pixel, float depth, bool blended) {
     return list;
 }
 
-// `pixel`: gl_FragCoord.xy; z: the reversed depth; of a surface that is `blended` over solid ones.
+// `pixel`: gl_FragCoord.xy; z: reversed depth; `blended`: the surface is blended over opaque ones.
 PixelLights lightsAt(vec2 pixel, float z, bool blended) {
     if (on(feature_object_lights)) {
         ObjectLights object = object_lights[constants.draw];
@@ -108,12 +107,13 @@ PixelLights lightsAt(vec2 pixel, float z, bool blended) {
 
 PixelLights lightsAt(vec2 pixel, float z) { return lightsAt(pixel, z, false); }
 
-// Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
+// Number of lights evaluated at the pixel, including directional ones.
 uint lightCount(PixelLights lights) {
     if (on(feature_object_lights)) return lights.packets.end - object_lights[constants.draw].begin;
     uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.packets.end;
     return view.directional_light_count + local;
 }
+// Whether the pixel's list overflowed.
 bool listOverflowed(PixelLights lights) {
     bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
                   lights.list == grid.lists;
@@ -121,21 +121,21 @@ bool listOverflowed(PixelLights lights) {
            !tooFar;
 }
 
-// Of the packets [begin, end) of a list those that this draw walks: all of them, or those of its light batch.
+// Packets of [begin, end) that this draw evaluates: all, or those of its light batch.
 uvec2 walked(PixelLights lights, uint begin, uint end) {
     if (feature_light_batch == BATCH_WHOLE) return uvec2(begin, end);
     uint first = lights.packets.begin;
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
 }
 
-// The share of the light that lightsOfPacket() returned last; 1 without object_lights.
+// Weight of the light that lightsOfPacket() returned last; 1 without object_lights.
 float packet_share = 1.0;
 Light withShare(Light light) {
     if (on(feature_object_lights)) light.intensity *= packet_share;
     return light;
 }
 
-// The lights of a packet; without lists only the first component counts.
+// Light indices of a packet; without lists only the first component is used.
 uvec4 lightsOfPacket(uint packet) {
     if (on(feature_object_lights)) {
         ObjectLight entry = object_list[packet];
@@ -146,13 +146,13 @@ uvec4 lightsOfPacket(uint packet) {
     return packetTexel(packet);
 }
 
-// The directional lights, the same for a whole draw: directionalAt() of [x, y).
+// Range [x, y) of directional lights for directionalAt(); constant over a draw.
 uvec2 directionalPackets() {
     if (!on(feature_object_lights)) return uvec2(0u, view.directional_light_count);
     ObjectLights object = object_lights[constants.draw];
     return uvec2(object.begin, object.local_begin);
 }
-// Its number among the directional lights.
+// Index among the directional lights.
 uint directionalOf(uint packet) {
     return on(feature_object_lights) ? lightsOfPacket(packet).x : packet;
 }
@@ -160,11 +160,12 @@ Light directionalAt(uint packet) {
     return withShare(lightAt(directionalOf(packet)));
 }
 
-// The area lights of a list one by one: evaluating those that pad the last packet would be too expensive.
+// Iterates over a list's area lights one by one, because evaluating the padding of the last packet would
+// be too expensive.
 struct AreaWalk {
-    uint place, end;  // of lights in the list: packets times list_width
-    uint light;       // in the buffer
-    uint number;      // among the area lights; the null light's is areaCount()
+    uint place, end;  // positions in the list: packets times list_width
+    uint light;       // index in the light buffer
+    uint number;      // index among the area lights; areaCount() for the null light
     bool more;
 };
 void look(inout AreaWalk walk) {

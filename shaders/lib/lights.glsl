@@ -7,15 +7,15 @@
 
 struct Incident {
     vec3 direction;   // unit, to the light
-    vec3 irradiance;  // W/m^2 on a surface across the direction
+    vec3 irradiance;  // W/m^2, perpendicular to the direction
 };
 
 Incident fromDirectionalLight(Light light) {
     return Incident(light.position, light.intensity);
 }
 
-// The window max(1 - (d / range)^4, 0), or its square, of d^2. It is compared first, so that it is exactly
-// zero from the range on: a light that is out of reach adds nothing, not even rounding, whether or not it is
+// The window max(1 - (d / range)^4, 0), or its square, as a function of d^2. The comparison makes it
+// exactly 0 beyond the range. A light out of range thus adds nothing, not even rounding, if it is
 // evaluated.
 float rangeWindow(Light light, float d2) {
     float x = d2 * light.inverse_range_squared;
@@ -29,7 +29,7 @@ Incident fromPointLight(Light light, vec3 position) {
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);
     float window = rangeWindow(light, d2);
     float inverse = inversesqrt(d2);
-    // Zero, and no light, in the light's own centre.
+    // At the light's own position the direction is 0, so no light arrives.
     return Incident(to_light * inverse, light.intensity * (window * (inverse * inverse)));
 }
 

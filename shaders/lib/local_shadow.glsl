@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of a point or a spot a surface sees: what the atlas holds, read by local_face.glsl. The lights of
-// a list that cast are walked first, one by one, so that those which do not cost no more than without
+// Visibility of point and spot lights from the shadow atlas, read by local_face.glsl. A list's
+// shadow-casting lights are evaluated first, one by one, so that the others cost no more than without
 // shadows.
 #ifndef LOCAL_SHADOW_GLSL
 #define LOCAL_SHADOW_GLSL
@@ -28,8 +28,8 @@ LocalFace localFaceAt(uint place, uint face) {
     return LOCAL_FACE_OF_TEXEL(a);
 }
 
-// 0 to 1, of the light at `place` of LocalShadow[], whose position is `light_position`. 0 where the triangle
-// is turned from it.
+// Visibility, 0 to 1, of the light at index `place` of LocalShadow[], at `light_position`. 0 if the
+// triangle faces away from it.
 float visibilityOf(Surface s, uint place, vec3 light_position) {
     LocalShadow light = localShadowAt(place);
     vec3 from_light = s.position - light_position;
@@ -43,10 +43,10 @@ float visibilityOf(Surface s, uint place, vec3 light_position) {
     return dot(s.geometric_normal, from_light) < 0.0 ? visibility : 0.0;
 }
 
-// The lights with numbers below an end, which are the first of those that a part of a list holds, one by one:
-// evaluating what else a packet holds would be too expensive.
+// Iterates one by one over the shadow-casting lights of a segment of a list: the first ones, with indices
+// below `light_end`. Evaluating a packet's other lights as well would be too expensive.
 struct CasterWalk {
-    uint place, end;  // of lights in the list: packets times list_width
+    uint place, end;  // positions in the list: packets times list_width
     uint light;
     uint light_end;
     bool more;
@@ -67,7 +67,7 @@ void step(inout CasterWalk walk) {
     look(walk);
 }
 
-// What is left of a packet without those lights.
+// A packet without its shadow-casting lights.
 uvec4 withoutCasters(uvec4 lights, uint light_end, uint null_light) {
     return uvec4(lights.x < light_end ? null_light : lights.x, lights.y < light_end ? null_light : lights.y,
                  lights.z < light_end ? null_light : lights.z, lights.w < light_end ? null_light : lights.w);

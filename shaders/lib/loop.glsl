@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loop over what differs from pixel to pixel:
+// The loop over a range that differs between pixels:
 //
 //     uvec2 range = uvec2(begin, end);
 //     EACH(range) {
@@ -7,9 +7,9 @@
 //         NEXT(range);
 //     }
 //
-// On lavapipe a loop with its test at the top alone runs one body too many; with its test at the bottom
-// alone it goes on adding to pixels that are done while others of the same eight are not, because values
-// are masked only where control flow merges. So the loop has both exits.
+// On lavapipe a loop with its test only at the top runs one body too many. With its test only at the
+// bottom it keeps adding to finished pixels while others of the same eight run. The cause: values are
+// masked only where control flow merges. So the loop has both exits.
 #ifndef LOOP_GLSL
 #define LOOP_GLSL
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Light from polygons, ellipses and cylinders of constant radiance under a linearly transformed cosine
-// (Heitz, Dupuy, Hill and Neubelt 2016). Every direction of a light becomes a direction under the plain
-// cosine by M^-1, where the integral is known: Lambert's contour (1760, "Photometria"), edge by edge.
+// (Heitz, Dupuy, Hill and Neubelt 2016). M^-1 maps a light's directions to directions under the plain
+// cosine. There the integral is known, edge by edge: Lambert's contour (1760, "Photometria").
 //
-// Vectors are in the frame of shared/contract/ltc.h (z = n), from the surface, of any length whose square
-// float32 holds. A factor is the vector (1 / pi) integral of l dl over what of the light is above the
-// horizon; its z is the share, 0 to 1, that the light has of a sky as bright, pi times it the irradiance for
-// radiance 1.
+// Vectors are relative to the surface, in the frame of shared/contract/ltc.h (z = n), of any length whose
+// square fits in float32. A form factor is the vector (1 / pi) integral of l dl over the light's part
+// above the horizon. Its z, 0 to 1, is the light's fraction of a sky of equal radiance; times pi it is the
+// irradiance for radiance 1.
 #ifndef LTC_GLSL
 #define LTC_GLSL
 
@@ -24,19 +24,20 @@ vec3 fromCosine(Ltc m, vec3 l) { return vec3(l.x / m.inverse_a + m.b * l.z, l.y 
 
 vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
-// The part of an outline between two directions on the great circle through them, counter-clockwise about
-// where the light is; the sum over a closed outline is its factor. Zero for no direction, or one.
+// One edge of an outline, along the great circle between two directions, counter-clockwise about the
+// direction to the light. The sum over a closed outline is its form factor. Zero if a direction is 0 or
+// both are equal.
 vec3 edgeFactor(vec3 from, vec3 to) {
     vec3 p = unitOrZero(from), q = unitOrZero(to);
     vec3 c = crossProduct(p, q);
     return c * (angleRatio(dot(p, q), lengthOf(c)) * 0.5 * INVERSE_PI);
 }
 
-// An outline above the horizon, as it grows edge by edge. What is convex crosses the horizon twice or never;
-// between the two the horizon closes the outline.
+// An outline above the horizon, built edge by edge. A convex one crosses the horizon twice or never; the
+// horizon closes it between the crossings.
 struct Outline {
     vec3 sum;
-    vec3 leaves, returns;  // where it crosses, down and up; 0 where it does not
+    vec3 leaves, returns;  // downward and upward crossing; 0 without one
 };
 Outline noOutline() { return Outline(vec3(0.0), vec3(0.0), vec3(0.0)); }
 vec3 closed(Outline o) { return o.sum + edgeFactor(o.leaves, o.returns); }
@@ -44,7 +45,7 @@ vec3 closed(Outline o) { return o.sum + edgeFactor(o.leaves, o.returns); }
 void addEdge(inout Outline o, vec3 p, vec3 q) {
     bool p_above = p.z > 0.0, q_above = q.z > 0.0;
     bool crosses = p_above != q_above;
-    // p (-q.z) + q p.z, and the other sign where it rises: a direction, so that nothing is divided.
+    // p (-q.z) + q p.z, negated where the edge rises; a direction only, so that nothing is divided.
     vec3 crossing = (q * p.z - p * q.z) * (p_above ? 1.0 : -1.0);
     crossing.z = 0.0;
     vec3 edge = edgeFactor(p_above ? p : crossing, q_above ? q : crossing);
@@ -53,8 +54,8 @@ void addEdge(inout Outline o, vec3 p, vec3 q) {
     if (crosses && q_above) o.returns = crossing;
 }
 
-// A parallelogram c +- x +- y whose cross(x, y) points away from the surface. One as small as it looks from
-// afar is taken as a point: its outline is a sum of large parts.
+// A parallelogram c +- x +- y whose cross(x, y) points away from the surface. One that looks very small is
+// treated as a point, because its outline is a sum of large terms.
 vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
     c = toCosine(m, c), x = toCosine(m, x), y = toCosine(m, y);
     Outline o = noOutline();
@@ -68,15 +69,16 @@ vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
     return c.z > reach && c2 > 16384.0 * reach * reach ? afar : closed(o);
 }
 
-// The cone of directions c + a cos t + b sin t, for any ellipse whose plane misses the surface, in its own
+// The cone of directions c + a cos t + b sin t, for any ellipse whose plane misses the surface. In its own
 // axes: (half_x cos t, half_y sin t, 1) along x, y, z. After Heitz and Hill 2017, "Real-Time Line- and
-// Disk-Light Shading with Linearly Transformed Cosines", whose matrix is the inverse of one of the two here.
+// Disk-Light Shading with Linearly Transformed Cosines"; their matrix is the inverse of one of the two
+// here.
 struct Cone {
     vec3 x, y, z;  // unit; right-handed
     float half_x, half_y;  // half_x >= half_y >= 0
 };
 
-// A step of Laguerre's method up or down to the largest root of x^3 - trace x^2 + minors x - det.
+// One step of Laguerre's method, up or down, to the largest root of x^3 - trace x^2 + minors x - det.
 float nearerRoot(float x, float trace, float minors, float det) {
     float f = ((x - trace) * x + minors) * x - det;
     float slope = (3.0 * x - 2.0 * trace) * x + minors, bend = 6.0 * x - 2.0 * trace;
@@ -87,8 +89,9 @@ float nearerRoot(float x, float trace, float minors, float det) {
 Cone coneOf(vec3 c, vec3 a, vec3 b) {
     vec3 bc = crossProduct(b, c), ca = crossProduct(c, a), ab = crossProduct(a, b);
     float volume = abs(dot(c, ab));
-    // Both c c^T - a a^T - b b^T and its adjoint, the same of the cross products, have z for their one
-    // positive eigenvalue; in the first it is large where the cone is narrow, in the second where it is wide.
+    // z is the eigenvector of the only positive eigenvalue of c c^T - a a^T - b b^T, and of its adjoint,
+    // the same for the cross products. The eigenvalue is large in the first for narrow cones, in the
+    // second for wide ones.
     float c2 = dot(c, c);
     bool narrow = volume < c2 * sqrt(c2);
     vec3 p = narrow ? c : ab, q = narrow ? a : bc, r = narrow ? b : ca;
@@ -96,10 +99,9 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float scale = sqrt(size);
     p *= scale, q *= scale, r *= scale;
     vec3 pq = crossProduct(p, q), rp = crossProduct(r, p), qr = crossProduct(q, r);
-    // The largest root of its characteristic polynomial, the only positive one: by angles (Smith 1961,
-    // "Eigenvalues of a Symmetric 3 x 3 Matrix"), and since these know only half the digits where two roots
-    // are near one another, by Laguerre's method, which triples them with every step where all roots are
-    // real.
+    // The largest root of the characteristic polynomial, its only positive one. The trigonometric solution
+    // (Smith 1961, "Eigenvalues of a Symmetric 3 x 3 Matrix") has half the digits where two roots are
+    // close. Each step of Laguerre's method triples the digits if all roots are real.
     float trace = dot(p, p) - dot(q, q) - dot(r, r);
     float minors = dot(qr, qr) - dot(pq, pq) - dot(rp, rp);
     float det = dot(p, qr);
@@ -111,7 +113,7 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     root = nearerRoot(root, trace, minors, det);
     root = nearerRoot(root, trace, minors, det);
     root = max(root, 0.0);
-    // adj(S - root 1) = adj S + root S + root (root - trace) 1, which is z z^T but for a factor: its longest
+    // adj(S - root 1) = adj S + root S + root (root - trace) 1 is a multiple of z z^T; z is its longest
     // column.
     mat3 s = outerProduct(p, p) - outerProduct(q, q) - outerProduct(r, r);
     mat3 adjoint = outerProduct(qr, qr) - outerProduct(pq, pq) - outerProduct(rp, rp) + root * s;
@@ -124,8 +126,8 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     z = unitOrZero(z);
     if (dot(z, c) < 0.0) z = -z;
 
-    // Across z the first matrix is left, two by two. A frame by Duff et al. 2017, "Building an Orthonormal
-    // Basis, Revisited".
+    // The first matrix, restricted to the plane perpendicular to z. Frame: Duff et al. 2017, "Building an
+    // Orthonormal Basis, Revisited".
     float sign_z = z.z >= 0.0 ? 1.0 : -1.0;
     float k = -1.0 / (sign_z + z.z), kxy = z.x * z.y * k;
     vec3 u = vec3(1.0 + sign_z * z.x * z.x * k, sign_z * kxy, -sign_z * z.x);
@@ -138,7 +140,7 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     // Half the angle whose tangent is uv / apart.
     float large = sqrt(0.5 + 0.5 * min(abs(apart) / max(spread, 1e-37), 1.0));
     float small = 0.5 * uv / max(spread * large, 1e-37);
-    // Any two axes are those of a round cone, where neither is told by more than rounding.
+    // Any axes fit a round cone; with this little spread they would be rounding error.
     if (spread <= 1e-9 * (abs(uu) + abs(vv))) large = 1.0, small = 0.0, apart = 0.0;
     vec2 turn = apart >= 0.0 ? vec2(large, small) : vec2(abs(small), uv >= 0.0 ? large : -large);
     Cone cone;
@@ -151,28 +153,28 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     return cone;
 }
 
-// atanh(x) / x and atan(x) / x.
+// atanh(x) / x.
 float atanhRatio(float x) {
     float x2 = x * x;
     float series = 1.0 + x2 * (1.0 / 3.0 + x2 * (0.2 + x2 * (1.0 / 7.0 + x2 * (1.0 / 9.0))));
     return abs(x) < 0.25 ? series : 0.5 * log((1.0 + x) / max(1.0 - x, 1e-7)) / x;
 }
 
-// The part of an outline along the cone from one t to a later one, both as (cos, sin), in the cone's axes;
-// `beyond`: over half of it. In closed form: with r = (half_x cos t, half_y sin t, 1) the integral of
-// cross(r, dr) / r.r, whose denominator is 1 + half_y^2 + (half_x^2 - half_y^2) cos^2 t.
+// Part of an outline along the cone from one t to a later one, both as (cos, sin), in the cone's axes.
+// `beyond`: more than half of the cone. In closed form: with r = (half_x cos t, half_y sin t, 1), the
+// integral of cross(r, dr) / r.r, whose denominator is 1 + half_y^2 + (half_x^2 - half_y^2) cos^2 t.
 vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
     float x2 = cone.half_x * cone.half_x, y2 = cone.half_y * cone.half_y;
     float gx = 1.0 + x2, gy = 1.0 + y2, between = max(x2 - y2, 0.0);
-    // Integral of dt: the angle between the two ends as seen along z, stretched.
+    // Integral of dt: the angle between the two ends seen along z, stretched.
     vec2 stretch = sqrt(vec2(gy, gx));
     vec2 p = normalized(from * stretch.yx), q = normalized(to * stretch.yx);
     float angle = angleOf(dot(p, q), abs(p.x * q.y - p.y * q.x));
     angle = beyond ? 2.0 * PI - angle : angle;
-    // Integral of cos t dt: the difference of two atanh of k sin t.
+    // Integral of cos t dt: the difference of two atanh(k sin t).
     float k = sqrt(between / gx);
     float dx = (to.y - from.y) / max(1.0 - k * k * from.y * to.y, 1e-7);
-    // Integral of sin t dt: the difference of two atan of j cos t, as the angle of one vector.
+    // Integral of sin t dt: the difference of two atan(j cos t), as the angle of one vector.
     float j = sqrt(between / gy);
     vec2 w = vec2(1.0 + j * j * from.x * to.x, j * (to.x - from.x));
     float w_length = max(lengthOf(w), 1e-37);
@@ -188,10 +190,10 @@ vec3 onCone(Cone cone, vec2 t) {
 vec3 fromCone(Cone cone, vec3 v) { return cone.x * v.x + cone.y * v.y + cone.z * v.z; }
 vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
-// Which of a cone is above the horizon: t within `half_angle` of `middle`, both as (cos, sin).
+// The part of a cone above the horizon: t within `half_angle` of `middle`, both as (cos, sin).
 struct Horizon {
     vec2 middle;
-    vec2 half_angle;  // from (1, 0), nothing, to (-1, 0), all of it
+    vec2 half_angle;  // from (1, 0), none of it, to (-1, 0), all of it
 };
 Horizon horizonOf(Cone cone) {
     vec2 rise = vec2(cone.x.z * cone.half_x, cone.y.z * cone.half_y);
@@ -201,14 +203,14 @@ Horizon horizonOf(Cone cone) {
                    vec2(cosine, sqrt(max(1.0 - cosine * cosine, 0.0))));
 }
 
-// An ellipse c + a cos t + b sin t and what is in it.
+// Form factor of the filled ellipse c + a cos t + b sin t.
 vec3 ellipseFactor(Ltc m, vec3 c, vec3 a, vec3 b) {
     Cone cone = coneOf(toCosine(m, c), toCosine(m, a), toCosine(m, b));
     Horizon h = horizonOf(cone);
     vec2 from = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)), to = turned(h.middle, h.half_angle);
     vec3 cut = fromCone(cone, arcFactor(cone, from, to, h.half_angle.x < 0.0)) +
                edgeFactor(onCone(cone, to), onCone(cone, from));
-    // The whole of it shines along its axis.
+    // The factor of a complete ellipse points along the cone's axis.
     float x2 = cone.half_x * cone.half_x, y2 = cone.half_y * cone.half_y;
     vec3 whole = cone.z * (cone.half_x * cone.half_y / sqrt((1.0 + x2) * (1.0 + y2)));
     return h.half_angle.x <= -1.0 ? whole : h.half_angle.x >= 1.0 ? vec3(0.0) : cut;

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A closed cylinder under a linearly transformed cosine. All of it that is seen has one radiance, so its
-// outline is all that counts: two straight lines along its side, and at each end the part of the rim that is
-// outermost, the far part where the end's face is seen and the near one where it is not.
+// A closed cylinder under a linearly transformed cosine. All visible parts have one radiance, so only the
+// outline counts: two straight lines along the side, and the outermost part of the rim at each end. That
+// is the far part if the end's face is visible, else the near part.
 #ifndef LTC_TUBE_GLSL
 #define LTC_TUBE_GLSL
 
 #include "shaders/lib/ltc.glsl"
 
-// From the surface, in the frame z = n.
+// Relative to the surface, in the frame z = n.
 struct Tube {
-    vec3 centre, half_axis;  // from there to the top
+    vec3 centre, half_axis;  // half_axis: from the centre to the top
     vec3 top, bottom;        // centres of its ends
-    vec3 towards, across;    // radius long, at right angles to the axis: towards the surface, and along
-                             // cross(axis, towards)
-    vec2 tangent;       // (cos, sin) of the angle from towards to where the two lines are
-    bool beside;        // the surface is outside the cylinder made endless: there are lines
+    vec3 towards, across;    // length radius, across the axis: to the surface; cross(axis, towards)
+    vec2 tangent;       // (cos, sin) of the angle from `towards` to either line
+    bool beside;        // the surface is outside the infinite cylinder: there are lines
     bool top_shows, bottom_shows;
 };
 
@@ -46,19 +45,19 @@ vec2 onRim(Cone cone, vec3 direction) {
     return t * inversesqrt(max(dot(t, t), 1e-37));
 }
 
-// The rim from one direction to another, counter-clockwise, or where there are no lines all of it or none.
+// The rim from one direction to another, counter-clockwise; without lines, all of it or none.
 void addRim(inout Outline o, Cone cone, vec3 from, vec3 to, bool shows, bool beside) {
     Horizon h = horizonOf(cone);
     vec2 p = onRim(cone, from), q = onRim(cone, to);
     float cosine = dot(p, q), sine = p.x * q.y - p.y * q.x;
-    // Between two ends that are next to one another lies nothing of the near rim, and all of the far one.
+    // Between two nearly equal ends lies none of the near rim and all of the far rim.
     bool beyond = cosine > 0.9 ? shows : sine < 0.0;
     float angle = angleOf(cosine, abs(sine));
     float rim = 0.5 * (beyond ? 2.0 * PI - angle : angle);  // half of it
     vec2 middle = turned(p, vec2(cos(rim), sin(rim)));
     if (!beside) p = -h.middle, q = p, middle = h.middle, rim = shows ? PI : 0.0;
 
-    // Angles from its middle; the horizon's part may meet it on both sides.
+    // Angles from its middle; the part above the horizon may meet it on both sides.
     vec2 rises = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)),
          sets = turned(h.middle, h.half_angle);
     float sky = angleOf(h.half_angle.x, h.half_angle.y);
@@ -88,7 +87,7 @@ vec3 tubeFactor(Ltc m, Tube t) {
         addEdge(o, top + right, bottom + right);
         addEdge(o, bottom + left, top + left);
     }
-    // From afar a point, as a parallelogram is: the side's middle plane, and an end.
+    // From afar it is treated as a point, like a parallelogram: the side's middle plane, and an end.
     vec3 c = toCosine(m, t.centre), half_axis = toCosine(m, t.half_axis);
     float c2 = dot(c, c), reach = lengthOf(half_axis) + lengthOf(x) + lengthOf(y);
     float area = 4.0 * abs(dot(c, crossProduct(half_axis, y))) + PI * abs(dot(c, crossProduct(x, y)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes a Surface from the material's factors and textures at a fragment, for forward+ and for the G-buffer
-// pass. Everything that needs screen-space derivatives (mip levels, the triangle's normal) happens here and
+// Makes a Surface from the material's factors and textures, for forward+ and for the G-buffer pass.
+// Everything that needs screen-space derivatives (mip levels, the triangle's normal) happens here and
 // nowhere later.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
@@ -22,16 +22,16 @@ layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_t
 layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
 
-// Texture coordinates of a slot, computed per vertex. They must not be computed here from the material
-// buffer: in the pixels of a quad that the triangle does not cover lavapipe reads 0 from it, and derivatives,
-// which choose the mip level, would be wrong.
+// Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
+// break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
+// not cover.
 vec2 slotTexcoord(uint slot) {
     if (on(feature_texture_transform) || on(feature_second_texcoord)) return SHADED(v_slot_texcoords[slot]);
     return shaded_texcoord;
 }
 
-// A slot's texture. With several samples a pixel the mip level is that of coordinates at the pixel's middle:
-// where they are shaded, neighbouring pixels are not a pixel apart.
+// Samples a slot's texture. Under MSAA, coordinates at the pixel's centre select the mip level: the shaded
+// locations of neighbouring pixels are not one pixel apart.
 vec2 middleTexcoord(uint slot) {
     if (on(feature_texture_transform) || on(feature_second_texcoord)) return MIDDLE(v_slot_texcoords[slot]);
     return middle_texcoord;
@@ -42,14 +42,13 @@ vec4 sampledTexel(sampler2D map, uint slot) {
     return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
 }
 
-// The texel of a slot that has a sample of its own or an image of one colour; `texel` is its feature. In
-// pixels that the triangle does not cover the latter may read 0: what takes differences to them samples the
+// Texel of a slot: sampled, or constant for images of one colour; `texel` is the slot's feature. In pixels
+// that the triangle does not cover the constant may read 0, so code that takes differences samples the
 // map.
 vec4 slotTexel(sampler2D map, uint slot, uint texel) {
     return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
 }
-// Where a slot's texel is that of another's sample, it is written as the same sample once more, which
-// compilers take for one.
+// Slots that share a texel repeat the same sample, which compilers merge.
 vec4 baseColorTexel() { return slotTexel(base_color_texture, SLOT_base_color, feature_base_color_texture); }
 vec4 normalTexel() { return slotTexel(normal_texture, SLOT_normal, feature_normal_texture); }
 // Roughness in green, metallic in blue.
@@ -74,13 +73,13 @@ vec4 baseColor() {
     return color;
 }
 
-// The share of a pixel where alpha reaches the cutoff, as if it changed evenly across it (Golus 2017,
-// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is that of the place which is shaded,
-// and lies within the triangle: beyond its edge a texture that repeats begins anew. What it changes by is
-// taken from pixel to pixel at their middles, along both axes together, the width over which an edge in any
-// direction passes through a pixel, and before the factor, which reads as 0 where a quad leaves its triangle
-// (slotTexcoord). It is 1 at most: pixels beside the triangle may lie where a texture begins anew, and a
-// clear place then stays clear where the cutoff is above 3/8.
+// Fraction of a pixel where alpha reaches the cutoff, if alpha changes linearly across it (Golus 2017,
+// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is at the shaded location, inside
+// the triangle: beyond the edge a repeating texture starts again. The change of alpha sums the differences
+// between pixel centres along both axes: the width over which an edge in any direction crosses a pixel. It
+// excludes the factor, which reads as 0 where a quad leaves its triangle (slotTexcoord). It is at most 1,
+// because pixels beside the triangle may lie where the texture repeats; transparent locations then stay
+// transparent for cutoffs above 3/8.
 float sharpenedAlpha(float alpha) {
     float middle = 1.0;
     if (on(feature_base_color_texture))
@@ -91,10 +90,10 @@ float sharpenedAlpha(float alpha) {
     return change > 0.0 ? clamp(above / change + 0.5, 0.0, 1.0) : above < 0.0 ? 0.0 : 1.0;
 }
 
-// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading. A
-// pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
-// differences to it; after `discard` they would be undefined. Returns which of the samples that the triangle
-// covers are left of it.
+// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading.
+// A masked pixel continues as a helper invocation: its neighbours' mip levels and triangle normals are
+// differences to it and would be undefined after `discard`. Returns the remaining samples of the
+// triangle's coverage.
 uint cutOut(vec4 base_color) {
     if (feature_alpha_mask == MASK_COVERS) {
         uint covered = coverageOf(sharpenedAlpha(base_color.a));
@@ -107,23 +106,23 @@ uint cutOut(vec4 base_color) {
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// Along the triangle's normal, of any length but 0 and on either side. The derivatives are scaled first,
-// because in a tiny scene the square of their cross product's length would underflow. For a triangle seen
-// edge-on or without area it is the direction to the viewer, `towards` (of any length).
+// A vector along the triangle's normal, of any non-zero length and either sign. The derivatives are scaled
+// first: in a tiny scene the squared length of their cross product would underflow. A triangle seen
+// edge-on or without area gives the direction to the viewer, `towards` (of any length).
 vec3 alongTriangleNormal(vec3 towards) {
     vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
     vec3 n = crossProduct(dx * (1.0 / max(largestOf(dx), 1e-37)),
                           dy * (1.0 / max(largestOf(dy), 1e-37)));
     return dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
 }
-// The triangle's unit normal, on the viewer's side.
+// The triangle's unit normal, facing the viewer.
 vec3 triangleNormal(vec3 towards) {
     vec3 along = alongTriangleNormal(towards);
     vec3 unit = along * inversesqrt(dot(along, along));
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
-// Of a texel: in tangent space, scaled, not of unit length.
+// Tangent-space normal of a texel, scaled and not normalised.
 vec3 mappedNormal(vec4 texel, float scale) {
     vec3 t = texel.xyz * 2.0 - 1.0;
     t.xy *= scale;
@@ -133,22 +132,22 @@ vec3 mappedNormal() {
     return mappedNormal(normalTexel(), material.normal_scale);
 }
 
-// `v` as a unit vector, or 0 where it has no direction.
+// Unit vector along `v`; 0 for the zero vector.
 vec3 directionOf(vec3 v) {
     float length2 = dot(v, v);
     return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
 }
 
-// `t` of tangent space, which is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as
+// Transforms `t` from tangent space, (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as
 // MikkTSpace defines it (glTF 2.0).
 vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
     vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
     return t.x * tangent.xyz + t.y * bitangent + t.z * n;
 }
 
-// On the back face of a double-sided material the result is negated. The triangle's normal replaces a normal
-// that vanished, flattened by the node's scale or by interpolation; only variants where that can happen check
-// for it. Either is made a unit vector by the same operations, which are then done once.
+// Negated on the back of a double-sided material. The triangle's normal replaces a normal that vanished,
+// by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
+// share one normalisation.
 vec3 shadingNormal(vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
@@ -165,8 +164,8 @@ vec3 shadingNormal(vec3 towards) {
     return negated ? -unit : unit;
 }
 
-// The value in the pixels of a quad that the triangle covers, in all four. The others, whose differences make
-// derivatives, read 0 from the material buffer on lavapipe: there it is taken from a neighbour.
+// Gives all four pixels of a quad the value of the covered ones. On lavapipe the others, which derivatives
+// use, read 0 from the material buffer, so they take a neighbour's value.
 float overQuad(float value) {
     uvec2 odd = uvec2(gl_FragCoord.xy) & 1u;
     float dx = dFdxFine(value);
@@ -175,8 +174,8 @@ float overQuad(float value) {
     return in_row != 0.0 ? in_row : (odd.y != 0 ? -dy : dy);
 }
 
-// Specular anti-aliasing by what the normal does from pixel to pixel: at their middles, because the places
-// where they are shaded are not a pixel apart. Which face is seen makes no difference to its changes.
+// Specular anti-aliasing by the normal's change between pixel centres; shaded locations are not one pixel
+// apart. The change is the same for front and back faces.
 float filteredRoughness(float roughness) {
     vec3 n = middle_normal;
     if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
@@ -211,7 +210,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.handedness = 0.0;
     if (on(feature_captured) && on(feature_normal_texture)) {
         s.tangent = directionOf(shaded_tangent.xyz);
-        s.handedness = shaded_tangent.w < 0.0 ? -1.0 : 1.0;  // which interpolation rounds
+        s.handedness = shaded_tangent.w < 0.0 ? -1.0 : 1.0;  // undoes the rounding of interpolation
         s.tangent_normal = directionOf(mappedNormal());
     }
     s.lightmap = vec3(0.0);

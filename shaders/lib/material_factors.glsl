@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The factors of a draw's material.
+// Material factors of a draw.
 #ifndef MATERIAL_FACTORS_GLSL
 #define MATERIAL_FACTORS_GLSL
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Moment shadow maps (Peters and Klein 2015, "Moment Shadow Mapping"): a map's texel holds the means of d,
-// d^2, d^3 and d^4 over the filter, of the depth d that grows away from the light from 0 to 1. Of all
-// distributions of depth with these moments, the one that shadows least is found in closed form.
+// Moment shadow maps (Peters and Klein 2015, "Moment Shadow Mapping"). A texel stores the filtered means
+// of d, d^2, d^3 and d^4; depth d grows away from the light from 0 to 1. The distribution with these
+// moments that shadows least has a closed form.
 #ifndef MSM_GLSL
 #define MSM_GLSL
 
 #include "shaders/lib/hamburger.glsl"
 #include "shaders/lib/moments.glsl"
 
-// Their section 4.3: the affine map that makes the most of 16 bits, 0 to 1 each; and back.
+// Section 4.3 of the paper: the affine map that uses 16 bits best, 0 to 1 for each moment; and its
+// inverse.
 vec4 quantisedMoments(float depth) {
     const mat4 quantise = mat4(-2.07224649, 13.7948857237, 0.105877704, 9.7924062118,       //
                                32.23703778, -59.4683975703, -1.9077466311, -33.7652110555,  //
@@ -25,15 +26,15 @@ vec4 momentsOfQuantised(vec4 q) {
     return back * (q - vec4(0.035955884801, 0.0, 0.0, 0.0));
 }
 
-// The least share of the filter that lies before `depth` (Peters and Klein, algorithm 3, "Hamburger 4MSM"):
-// of all distributions with these moments the one of three places has the least. `bias` moves the moments
-// towards those of a distribution whose Hankel matrix is far from singular, by more than they are rounded by.
-// Whatever the moments are, the result is 0 to 1.
+// Smallest fraction of the filter that may lie in front of `depth` (Peters and Klein, algorithm 3,
+// "Hamburger 4MSM"). A distribution on three points attains it. `bias` moves the moments, by more than
+// their rounding, towards a distribution whose Hankel matrix is far from singular. The result is in [0, 1]
+// for any moments.
 float least4MomentShadow(vec4 moments, float depth, float bias) {
     return shareOf(threePlaces(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
 }
 
-// Of a receiver at `depth` as in the map, by what feature_shadows stores.
+// Visibility of a receiver at `depth` (as in the map), from the moments of feature_shadows.
 float visibilityOfMoments(vec4 moments, float depth, ShadowLight light) {
     if (feature_shadows != SHADOWS_MSM4) return momentVisibility(moments, depth, light);
     return 1.0 - least4MomentShadow(momentsOfQuantised(moments), depthAway(depth, 0.0), light.moment_bias);

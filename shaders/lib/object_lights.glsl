@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --assign per_object: a draw's own lights, few of them per pixel, some per vertex, the rest as spherical
-// harmonics.
+// --assign per_object: each draw has its own lights, a few per pixel, some per vertex, the rest as
+// spherical harmonics.
 #ifndef OBJECT_LIGHTS_GLSL
 #define OBJECT_LIGHTS_GLSL
 
@@ -14,7 +14,7 @@ Incident weighted(Incident light, float weight) {
 
 vec3 lambert(Incident light, vec3 n) { return light.irradiance * max(dot(light.direction, n), 0.0); }
 
-// Irradiance of the draw's vertex lights on a surface with the unit normal `n` at a vertex, W/m^2.
+// Irradiance from the draw's vertex lights at a vertex with the unit normal `n`, W/m^2.
 vec3 vertexIrradiance(vec3 position, vec3 n) {
     ObjectLights object = object_lights[constants.draw];
     vec3 sum = vec3(0.0);
@@ -34,8 +34,8 @@ vec3 vertexIrradiance(vec3 position, vec3 n) {
     return sum;
 }
 
-// Irradiance of the draw's other lights, W/m^2; clamped to 0, as three bands of harmonics can overshoot below
-// it.
+// Irradiance from the draw's remaining lights, W/m^2. Clamped to 0, because three bands of harmonics can
+// be negative.
 vec3 harmonicIrradiance(vec3 n) {
     ObjectIrradiance e = object_lights[constants.draw].irradiance;
     vec3 linear = e.linear_x * n.x + e.linear_y * n.y + e.linear_z * n.z;

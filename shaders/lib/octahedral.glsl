@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": the octahedral
-// map, each coordinate a signed integer of `bits` bits. 0 is exact, so axes are.
+// Octahedral map of unit vectors (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors"). Each coordinate is a signed integer of `bits` bits. 0 is exact, so axes are.
 #ifndef OCTAHEDRAL_GLSL
 #define OCTAHEDRAL_GLSL
 
@@ -10,7 +10,7 @@ vec2 octahedralWrap(vec2 p) {
     return (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
 }
 
-// n: unit. Returns x in the low `bits`, y above it.
+// n: unit. Returns x in the low `bits`, y above them.
 uint encodeOctahedral(vec3 n, uint bits) {
     vec2 p = n.xy * (1.0 / (abs(n.x) + abs(n.y) + abs(n.z)));
     if (n.z < 0.0) p = octahedralWrap(p);

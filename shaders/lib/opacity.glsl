@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How much a blended surface covers of what is behind it, before anything is shaded.
+// Opacity of a blended surface, computed before shading.
 #ifndef OPACITY_GLSL
 #define OPACITY_GLSL
 
 #include "shaders/lib/material.glsl"
 #include "shaders/lib/transmission.glsl"
 
-// The share of its place that it covers, 0 to 1. What covers nothing sends nothing.
+// Coverage, 0 to 1. A surface without coverage adds no light.
 float coverageOf(vec4 base_color) {
     return feature_transmission == TRANSMISSION_WHOLE ? 1.0 : clamp(base_color.a, 0.0, 1.0);
 }
 
-// What it hides of what is behind it, 0 to 1.
+// Fraction of the light behind it that it hides, 0 to 1.
 float opacityOf(Surface s, vec4 base_color) {
     float covers = coverageOf(base_color);
     if (on(feature_transmission)) covers *= 1.0 - transmittedShare(s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers to bits and back, rounded to nearest here and not by the device.
+// Packs numbers into bits and back. Rounds to nearest itself instead of relying on the device.
 #ifndef PACKING_GLSL
 #define PACKING_GLSL
 
@@ -13,10 +13,10 @@ uint packUnorm(float x, uint bits) {
 
 float unpackUnorm(uint code, uint offset, uint bits) {
     return float(bitfieldExtract(code, int(offset), int(bits))) *
-           (1.0 / float((1u << bits) - 1u));  // of the top: 1
+           (1.0 / float((1u << bits) - 1u));  // the largest code gives 1
 }
 
-// The square root of each component in 8 bits, with `w` (no root) above them.
+// Square root of each component in 8 bits; `w` (no root) in the highest 8.
 uint packSqrt(vec3 rgb, float w) {
     vec3 root = sqrt(max(rgb, vec3(0.0)));
     return packUnorm(root.r, 8) | (packUnorm(root.g, 8) << 8) | (packUnorm(root.b, 8) << 16) |
@@ -31,7 +31,7 @@ vec3 unpackSqrt(uint code) {
 // 2^e for e in [-126, 127], exact.
 float powerOfTwo(int e) { return uintBitsToFloat(uint(e + 127) << 23); }
 
-// EXT_texture_shared_exponent's 9.9.9.e5: nine bits a component, the largest one's exponent for all.
+// EXT_texture_shared_exponent's 9.9.9.e5: nine bits per component, with the exponent of the largest one.
 uint packSharedExponent(vec3 rgb) {
     vec3 c = clamp(rgb, vec3(0.0), vec3(EMISSION_MAX));
     float largest = max(c.r, max(c.g, c.b));
@@ -41,7 +41,7 @@ uint packSharedExponent(vec3 rgb) {
     return m.r | (m.g << 9) | (m.b << 18) | (uint(exponent + 15) << 27);
 }
 
-// Zero, told from packSharedExponent(vec3(0.0)), which is 0.
+// Decodes to zero, but differs from packSharedExponent(vec3(0.0)), which is 0.
 const uint SHARED_EXPONENT_BLACK = 1u << 27;
 
 vec3 unpackSharedExponent(uint code) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the light batches before this draw reflected at the pixel, W/(sr m^2); in the fourth component what is
-// seen of the points and spots that cast, and their light, of Radiance.
+// Light that earlier light batches reflected at the pixel, W/(sr m^2). The fourth components contain
+// Radiance's local_seen (diffuse) and local_light (specular).
 #ifndef PARTIAL_SUMS_GLSL
 #define PARTIAL_SUMS_GLSL
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Percentage-closer soft shadows (Fernando 2005): the sun is a disc, so the farther what blocks it is, the
-// wider its shadow's edge. First the blockers that lie within the cone from the receiver to the disc are
-// sought; then comparisons are filtered over the cone's width at their mean distance. Both read blocks of two
-// by two texels in a square grid: every texel up to SOFT_BLOCKS blocks across, evenly spread blocks beyond.
+// Percentage-closer soft shadows (Fernando 2005). The directional light is a disc, so the penumbra widens
+// with the blocker's distance. First a search finds blockers within the cone from the receiver to the
+// disc. Then comparisons are filtered over the cone's width at the blockers' mean distance. Both read 2 x
+// 2 texel blocks in a square grid: every texel up to SOFT_BLOCKS blocks across, evenly spread blocks
+// beyond.
 #ifndef PCSS_GLSL
 #define PCSS_GLSL
 
@@ -10,7 +11,7 @@
 
 const float SOFT_BLOCKS = 8.0;
 
-// Blocks that cover all texels of which a part lies within width / 2 of `middle`.
+// Blocks that cover all texels partly within width / 2 of `middle`.
 struct Blocks {
     vec2 first;  // texel
     float step;  // texels
@@ -20,7 +21,7 @@ Blocks blocksAround(vec2 middle, float width) {
     float texels = ceil(width) + 1.0, side = min(ceil(0.5 * texels), SOFT_BLOCKS);
     return Blocks(floor(middle - 0.5 * width), max(texels / side, 2.0), uint(side));
 }
-// The lower corner of a block, and its texels' depths in textureGather's order.
+// The lower corner of a block, and its depths in textureGather's order.
 vec2 cornerOf(Blocks b, uint x, uint y) { return floor(b.first + b.step * vec2(x, y)); }
 vec4 depthsOf(vec2 corner, uint layer) {
     float size = float(textureSize(shadow_map, 0).x);
@@ -28,9 +29,8 @@ vec4 depthsOf(vec2 corner, uint layer) {
 }
 const vec2 GATHERED[4] = vec2[](vec2(0.5, 1.5), vec2(1.5, 1.5), vec2(1.5, 0.5), vec2(0.5, 0.5));
 
-// How much nearer to the light than the receiver what may block its disc is, in the map's depth: on average,
-// and at the least; 0 where nothing may. `cone`: texels of radius for a depth of 1. What the triangle's own
-// plane reaches up to is no blocker.
+// Mean and smallest distance of blockers in front of the receiver, in the map's depth; 0 without any.
+// `cone`: radius in texels at a depth of 1. Texels up to the triangle's own plane are not blockers.
 vec2 blockerDistance(Receiver r, uint layer, float cone, float widest) {
     Blocks blocks = blocksAround(r.texel, clamp(2.0 * cone * (1.0 - r.depth), 1.0, widest));
     float sum = 0.0, count = 0.0, least = 1.0;
@@ -56,7 +56,7 @@ vec2 blockerDistance(Receiver r, uint layer, float cone, float widest) {
     return count > 0.0 ? vec2(sum / count, least) : vec2(0.0);
 }
 
-// A disc `width` texels wide around the receiver; texels at its rim count in part.
+// Filters over a disc `width` texels wide around the receiver; texels at the rim count in part.
 float filteredDisc(Receiver r, uint layer, float width) {
     Blocks blocks = blocksAround(r.texel, width);
     float lit = 0.0, area = 0.0;
@@ -80,8 +80,8 @@ float filteredDisc(Receiver r, uint layer, float width) {
     return area > 0.0 ? lit / area : 1.0;
 }
 
-// `r`: for the least width, that of feature_shadow_kernel. In a wide filter the plane may rise to half way to
-// the nearest blocker: where it is steeper the filter is narrower.
+// `r`: for the smallest width, feature_shadow_kernel. In a wide filter the plane may rise halfway to the
+// nearest blocker; where it is steeper the filter is narrower.
 float softlyFiltered(Surface s, ShadowLight light, Cascade cascade, Receiver r, uint layer) {
     float texels = cascade.texels_per_metre / light.depth_scale, cone = light.disc * texels;
     vec2 blocker = blockerDistance(r, layer, cone, light.widest);

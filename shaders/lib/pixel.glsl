@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pixel that an invocation shades: its fragment's, or of a compute shader the one of its place in its
-// workgroup, a square of LIGHTING_GROUP pixels. Eight threads that follow each other, and so the lanes of
-// lavapipe, shade four pixels of two rows, as the fragments lie that it shades together.
+// The pixel that an invocation shades. A fragment shader shades its own; a compute shader's workgroup
+// shades a square of LIGHTING_GROUP pixels. Eight consecutive threads, lavapipe's lanes, shade 4 x 2
+// pixels, like the fragments that lavapipe shades together.
 #ifndef PIXEL_GLSL
 #define PIXEL_GLSL
 
@@ -21,7 +21,7 @@ ivec2 pixelHere() {
     return ivec2(gl_WorkGroupID.xy * LIGHTING_GROUP + inside);
 }
 
-// Workgroups at the right and lower edge have threads beyond the picture.
+// Workgroups at the right and lower edge extend beyond the image.
 bool isInPicture() {
     ivec2 size = multisampled() ? imageSize(lit_samples) : imageSize(lit_target);
     return all(lessThan(pixelHere(), size));
@@ -33,7 +33,7 @@ ivec2 pixelHere() { return ivec2(gl_FragCoord.xy); }
 
 #endif
 
-// gl_FragCoord.xy of a fragment at the pixel's middle.
+// gl_FragCoord.xy at the pixel's centre.
 vec2 middleHere() { return vec2(pixelHere()) + 0.5; }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vertices of skinned and morphed instances: morph targets first, then joints (glTF 2.0, 3.7.2.2 and
-// 3.7.3.3). A kernel and the vertex shader call the same functions, so that both have the same bits.
+// Skinning and morphing: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3). The compute
+// shader and the vertex shader call the same functions, so that results are bitwise identical.
 #ifndef POSING_GLSL
 #define POSING_GLSL
 
@@ -9,8 +9,8 @@
 
 #include "shaders/lib/contract.glsl"
 
-// Whether two numbers of 32 bits are loaded as one of 64, where they lie so, which a device may lack.
-// lavapipe takes a quarter of the time.
+// Whether two adjacent 32-bit values are loaded as one of 64 bits, which is optional in Vulkan. It takes
+// lavapipe a quarter of the time.
 #ifdef STAGE_comp
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 bool loadsPairs() { return (feature_posed_parts & POSED_PAIRS) != 0; }
@@ -38,10 +38,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pos
     PosedInstance instance;
 };
 
-// Morph targets' sums of one attribute, deltas [first, end), and `rest`. What each addition rounds away is
-// added to the next term (W. Kahan, "Further Remarks on Reducing Truncation Errors", 1965), so that any
-// number of targets are as exact as one. lavapipe runs one round more of a loop that tests first; all
-// threads of an instance have the same number.
+// Sums the morph targets of one attribute, deltas [first, end), and `rest`. Compensated summation (W.
+// Kahan, "Further Remarks on Reducing Truncation Errors", 1965) makes any number of targets as exact as
+// one. The loop tests at its end, because lavapipe runs one round too many of a loop that tests first. All
+// threads of an instance have the same count.
 #define MORPHED(Name, type, Array)                                               \
     type Name(PosedInstance i, type rest, uint first, uint end, uint vertex) {   \
         type sum = rest, rounded = type(0.0);                                    \
@@ -61,12 +61,12 @@ MORPHED(morphed3, vec3, Vec3Array)
 MORPHED(morphed4, vec4, Vec4Array)
 #undef MORPHED
 
-// Object, from the pivot, m.
+// Object axes, from the pivot, m.
 vec3 morphedPosition(PosedInstance i, uint vertex) {
     vec3 rest = Vec3Array(i.positions).at[vertex];
     return morphed3(i, rest - i.pivot, 0, i.positions_end, vertex);
 }
-// Object, any length.
+// Object axes, any length.
 vec3 morphedNormal(PosedInstance i, uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].normal;
     return morphed3(i, rest, i.positions_end, i.normals_end, vertex);
@@ -111,8 +111,8 @@ mat4x3 matrixAt(PosedInstance i, uint at) {
 
 float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// A matrix's axes over its largest component, since products of what is very long or short leave
-// float32, and one over that component; 0 where all are.
+// A matrix's axes divided by its largest component, since products of very long or short axes leave
+// float32. `scale` is one over that component; 0 if all are 0.
 struct Axes {
     vec3 x, y, z;
     float scale;
@@ -123,23 +123,22 @@ Axes axesOf(mat4x3 matrix) {
     return Axes(matrix[0] * scale, matrix[1] * scale, matrix[2] * scale, scale);
 }
 
-// Of any length. Cofactors are the inverse transpose times the determinant, and exist where a matrix
-// flattens.
+// Any length. Cofactors are the inverse transpose times the determinant; they also exist for singular
+// matrices.
 vec3 byCofactors(Axes a, vec3 normal) {
     return crossProduct(a.y, a.z) * normal.x + crossProduct(a.z, a.x) * normal.y +
            crossProduct(a.x, a.y) * normal.z;
 }
 
-// What joints make of a vertex.
+// Skinning matrix and normal of a vertex.
 struct Joined {
-    mat4x3 matrix;  // their weighted mean: from the object, about the pivot, to world axes
-    vec3 normal;    // the mean of their inverse transposes times the normal, times a number above 0
-    float unit;     // one over that number, which is the first joint's that counts; 0: none does yet
+    mat4x3 matrix;  // weighted mean of the joints: from the object, about the pivot, to world axes
+    vec3 normal;    // mean of their inverse transposes times the normal, times a number above 0
+    float unit;     // one over that number, from the first joint with a weight; 0 before it
 };
 
-// The determinant counts without its sign, which PosedInstance::handedness has. As a ratio to the
-// first joint's it is 1 at a vertex of one joint, whose normal then has the bits of that joint's
-// cofactors.
+// The determinant's sign is ignored; PosedInstance::handedness contains it. The ratio to the first joint's
+// determinant is 1 at a vertex of one joint, whose normal then equals that joint's cofactors bit for bit.
 void addJoint(inout Joined sum, mat4x3 matrix, float weight, bool of_joints, vec3 normal) {
     sum.matrix += weight * matrix;
     if (!of_joints) return;
@@ -166,7 +165,7 @@ Joined joined(PosedInstance i, uint vertex, bool of_joints, vec3 normal) {
     return sum;
 }
 
-// World axes, from the box's origin, m. NaN beyond what positions may be, as the reference has it.
+// World axes, from the box's origin, m. NaN beyond MAX_POSED_COORDINATE, as in the reference.
 vec3 placedBy(mat4x3 matrix, vec3 position) {
     vec3 placed = matrix * vec4(position, 1.0);
     bool within = all(lessThanEqual(abs(placed), vec3(MAX_POSED_COORDINATE)));
@@ -176,7 +175,7 @@ vec3 posedPosition(PosedInstance i, uint vertex) {
     return placedBy(joined(i, vertex, false, vec3(0.0)).matrix, morphedPosition(i, vertex));
 }
 
-// Of a vertex whose triangle has a normal of its own: from the posed corners.
+// Normal of a vertex of a flat-shaded triangle, from the deformed corners.
 vec3 flatNormal(PosedInstance i, uint vertex) {
     uint first = vertex / 3 * 3;
     vec3 a = posedPosition(i, first);
@@ -186,7 +185,8 @@ vec3 flatNormal(PosedInstance i, uint vertex) {
     return i.handedness * unitVector(crossProduct(u * scale, v * scale));
 }
 
-// Object, any length: as tangents are made of it. Of a flat triangle the morphed one's own.
+// Object axes, any length; used to make tangents. For a flat-shaded triangle, the morphed triangle's own
+// normal.
 vec3 morphedSurfaceNormal(PosedInstance i, uint vertex) {
     if (i.flat_normals == 0) return morphedNormal(i, vertex);
     uint first = vertex / 3 * 3;
@@ -197,12 +197,12 @@ vec3 morphedSurfaceNormal(PosedInstance i, uint vertex) {
     return crossProduct(u * scale, v * scale);
 }
 
-// Unit, at right angles to the normal; where nothing says which way it points.
+// A unit vector perpendicular to the normal, if the tangent's direction is unknown.
 vec3 anyTangent(vec3 normal) {
     return unitVector(crossProduct(abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), normal));
 }
 
-// Object; before joints move it.
+// Object axes, before skinning.
 vec3 morphedTangent(PosedInstance i, uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].tangent.xyz;
     if (i.groups > 0) {
@@ -217,18 +217,18 @@ vec3 morphedTangent(PosedInstance i, uint vertex) {
 struct PosedVertex {
     vec3 position;  // world axes, from the box's origin, m
     vec3 normal;    // world axes, unit or 0
-    vec3 tangent;   // likewise
+    vec3 tangent;   // world axes, unit or 0
 };
 
-// `of_joints`: the normal goes by each joint's inverse transpose, else by the cofactors of the
-// vertex's matrix.
+// `of_joints`: each joint's inverse transpose transforms the normal, else the cofactors of the vertex's
+// matrix do.
 PosedVertex posedVertex(PosedInstance i, uint vertex, bool of_joints) {
     vec3 normal = morphedNormal(i, vertex);
     Joined by = joined(i, vertex, of_joints, normal);
     PosedVertex posed;
     posed.position = placedBy(by.matrix, morphedPosition(i, vertex));
     vec3 turned = of_joints ? by.normal : byCofactors(axesOf(by.matrix), normal);
-    // On the side from which the front is seen.
+    // On the side of the front face.
     posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex) : i.handedness * unitVector(turned);
     posed.tangent = unitVector(mat3(by.matrix) * morphedTangent(i, vertex));
     return posed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of posing begin with.
+// Common part of the compute shaders for skinning and morphing.
 #ifndef POSING_THREAD_GLSL
 #define POSING_THREAD_GLSL
 
@@ -10,8 +10,8 @@ layout(push_constant, scalar) uniform PosingBlock { PosingConstants constants; }
 
 bool has(uint part) { return (feature_posed_parts & part) != 0; }
 
-// What it has not is known when the kernel is compiled: on lavapipe a loop without rounds costs as much as
-// one with one, and a branch that is not taken as much as one that is.
+// Missing parts are constants when the shader is compiled. On lavapipe a loop without rounds costs as much
+// as one round, and a branch that is not taken as much as one that is.
 PosedInstance instanceOfDispatch() {
     PosedInstance i = PosedInstanceBlock(constants.instance).instance;
     i.positions = constants.positions;
@@ -37,7 +37,7 @@ PosedInstance instanceOfDispatch() {
     return i;
 }
 
-// The number of this thread among those of all workgroups.
+// Linear index of this thread over all workgroups.
 uint posingThread() {
     return (gl_WorkGroupID.y * POSING_GROUPS + gl_WorkGroupID.x) * POSING_THREADS + gl_LocalInvocationIndex;
 }

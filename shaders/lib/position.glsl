@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shading positions are the same function of pixel and depth in both paths: an interpolated position and a
-// reconstructed one differ by up to 7e-3 of the radiance at a sharp highlight.
+// Both paths compute shading positions by the same function of pixel and depth. An interpolated and a
+// reconstructed position differ by up to 7e-3 of the radiance at a sharp highlight.
 #ifndef POSITION_GLSL
 #define POSITION_GLSL
 
@@ -13,7 +13,7 @@ float viewDepth(float z) {
     return d;
 }
 
-// Where the pixel's ray begins, at depth 0; world axes, camera as origin, m. `pixel` is the pixel's centre
+// Origin of the pixel's ray, at depth 0; world axes, camera as origin, m. `pixel` is the pixel's centre
 // (gl_FragCoord.xy).
 vec3 rayOrigin(vec2 pixel) {
     vec3 origin = vec3(0.0);
@@ -22,7 +22,7 @@ vec3 rayOrigin(vec2 pixel) {
     return origin;
 }
 
-// Likewise.
+// World axes, camera as origin, m.
 vec3 positionFromDepth(vec2 pixel, float z) {
     vec3 direction = view.direction_0, origin = rayOrigin(pixel);
     if (!on(feature_orthographic))

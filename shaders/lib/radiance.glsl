@@ -11,15 +11,14 @@ struct Radiance {
     vec3 specular;
     vec3 ambient;
     vec3 emission;
-    float sun_visibility;  // 0 to 1; 1 where no sun casts
-    float local_light;     // luminance of the irradiance of points and spots that cast, W/m^2,
-    float local_seen;      // and what is seen of it
-    vec3 transmittance;    // share of all this that haze lets through
-    vec3 haze;             // and what haze adds
-    vec3 environment;      // of diffuse and specular: the environment's part
+    float sun_visibility;  // 0 to 1; 1 without a shadow-casting directional light
+    float local_light;     // luminance of the irradiance of shadow-casting point and spot lights, W/m^2
+    float local_seen;      // the visible part of local_light
+    vec3 transmittance;    // fraction of all this that haze transmits
+    vec3 haze;             // light that haze adds
+    vec3 environment;      // the environment's part of diffuse and specular
 };
 
-// What a pixel starts from.
 Radiance noRadiance() {
     return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0),
                     vec3(0.0));
@@ -31,7 +30,7 @@ vec3 lit(Radiance radiance) {
     return flushed(sum);
 }
 
-// The mean over the points and spots that cast, weighted by their light; 1 where none does.
+// Mean over shadow-casting point and spot lights, weighted by their light; 1 without any.
 float localVisibility(Radiance radiance) {
     return radiance.local_light > 0.0 ? radiance.local_seen / radiance.local_light : 1.0;
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// From the depth that the scene's depth image holds, or that a fragment has after the viewport, to the
-// reversed depth that everything computes with: 1 at the near plane, 0 at the far end and where nothing was
-// drawn.
+// Converts the scene's stored depth, or a fragment's depth after the viewport, to the reversed depth that
+// all code uses: 1 at the near plane, 0 at the far end and in the background.
 #ifndef REVERSED_DEPTH_GLSL
 #define REVERSED_DEPTH_GLSL
 
 #include "shaders/lib/contract.glsl"
 
-// The viewport maps the far end to the first step above what is cleared, which is left to what nothing was
-// drawn to; of standard depth to 2^-22, because a rasteriser's own roundings near 1 must not reach 1. A
-// surface that is nearer to the far end than half a step is taken to be at a quarter of one: with no far
-// plane its distance would be infinite.
+// The viewport maps the far end to the first step above the clear value, which is reserved for the
+// background. For standard depth it is 2^-22, because a rasteriser's rounding near 1 must not reach 1. A
+// surface nearer to the far end than half a step is placed at a quarter of one: without a far plane its
+// distance would be infinite.
 float reversedDepth(float stored) {
     if (feature_depth_format == DEPTH_REVERSED) return stored;
     bool standard = feature_depth_format == DEPTH_STANDARD;

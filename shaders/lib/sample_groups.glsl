@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Samples of a pixel that deferred lighting shades as one, in the bits of a depth
-// (shared/contract/samples.h): sample i is in one of the groups that samples 0 to i begin, or nothing is
-// drawn there, which are i + 2 cases in as many bits as they take: 21 of 8 samples, the first the lowest.
-// Bits rather than digits: lavapipe divides integers lane by lane.
+// Sample groups of a pixel, which deferred lighting shades as one, in the bits of a depth
+// (shared/contract/samples.h). Sample i is in a group that one of samples 0 to i begins, or is empty.
+// These i + 2 cases take as few bits as possible: 21 for 8 samples, the first sample in the lowest. Bits
+// rather than digits: lavapipe divides integers lane by lane.
 #ifndef SAMPLE_GROUPS_GLSL
 #define SAMPLE_GROUPS_GLSL
 
 #include "shaders/lib/contract.glsl"
 
 struct SampleGroup {
-    int first;  // the sample that is shaded
-    uint mask;  // of all that are in the group
+    int first;  // index of the sample that is shaded
+    uint mask;  // all samples of the group
 };
 
-// Bits that the label of sample i takes.
+// Bits in the label of sample i.
 uint labelBits(uint i) { return uint(findMSB(i + 1u)) + 1u; }
 
-// How many groups the pixel has, which has one at least.
+// Number of groups of a pixel that has at least one.
 uint groupsOf(float stored) { return (floatBitsToUint(stored) >> GROUP_MANTISSA_BITS) - GROUP_EXPONENT; }
 
-// Group k of the pixel whose groups are stored so. The pixel has more than k of them.
+// Group k of a pixel from its stored groups; it must have more than k.
 SampleGroup sampleGroup(float stored, uint k) {
     uint code = floatBitsToUint(stored);
     SampleGroup group = SampleGroup(0, 0u);
@@ -36,7 +36,7 @@ SampleGroup sampleGroup(float stored, uint k) {
     return group;
 }
 
-// labels: of sample i the number of its group, or i + 1 where nothing is drawn. count: of groups.
+// labels: group index of each sample i; i + 1 if it is empty. count: number of groups.
 float storedGroups(uint labels[MAX_SAMPLES], uint count) {
     uint code = 0u, bits = 0u, i = 0u;
     do {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which samples of a pixel deferred lighting shades as one: sample_edges. A sample joins the first group that
-// has a sample that it is like.
+// Selects the samples of a pixel that deferred lighting shades as one (sample_edges). A sample joins the
+// first group that has a sample like it.
 #ifndef SAMPLE_PAIRS_GLSL
 #define SAMPLE_PAIRS_GLSL
 
@@ -8,12 +8,12 @@
 #include "shaders/lib/sample_groups.glsl"
 #include "shaders/lib/similar.glsl"
 
-// Pairs of samples are bits of a set: of sample i with each before it, from bit i (i - 1) / 2 on. Inner loops
-// have a constant count: a loop about one that has not stays a loop, and its arrays in memory, which took
-// three times as long on lavapipe.
+// A set of sample pairs is a bit mask: the pairs of sample i with earlier ones begin at bit i (i - 1) / 2.
+// Inner loops have a constant count. A loop around one with a variable count is not unrolled, and its
+// arrays stay in memory, which took three times as long on lavapipe.
 uint pair(uint i, uint j) { return 1u << (i * (i - 1u) / 2u + j); }
 
-// The pairs of which an attachment has different bits.
+// Pairs whose bits differ in an attachment.
 uint differingPairs(usampler2DMS attachment, ivec2 p) {
     uvec4 texels[MAX_SAMPLES];
     uint differ = 0u, i = 0u;
@@ -25,7 +25,7 @@ uint differingPairs(usampler2DMS attachment, ivec2 p) {
     return differ;
 }
 
-// The pairs that have different bits in any attachment that the frame has.
+// Pairs whose bits differ in any attachment of the frame.
 uint differingPairs(ivec2 p) {
     uint differ = differingPairs(gbuffer_albedo_samples, p) | differingPairs(gbuffer_normals_samples, p) |
                   differingPairs(gbuffer_params_samples, p) | differingPairs(gbuffer_shaded_samples, p);
@@ -36,7 +36,7 @@ uint differingPairs(ivec2 p) {
     return differ;
 }
 
-// Those of some pairs that are not similar either.
+// Pairs of a set that are not similar either.
 uint dissimilarPairs(uint pairs, ivec2 p) {
     GBufferTexel texels[MAX_SAMPLES];
     uint dissimilar = 0u, i = 0u;
@@ -47,7 +47,7 @@ uint dissimilarPairs(uint pairs, ivec2 p) {
     return pairs & dissimilar;
 }
 
-// Whether each triangle that is seen in the pixel covers it whole.
+// Whether every triangle visible in the pixel covers all of it.
 bool covered(ivec2 p) {
     bool whole = true;
     uint i = 0u;
@@ -58,7 +58,7 @@ bool covered(ivec2 p) {
     return whole;
 }
 
-// The pairs that are not shaded as one.
+// Pairs that are not shaded as one.
 uint pairsApart(ivec2 p) {
     if (feature_sample_edges == EDGES_ALL) return ~0u;
     uint differ = differingPairs(p);
@@ -67,7 +67,7 @@ uint pairsApart(ivec2 p) {
     return differ;
 }
 
-// The groups of a pixel as storedGroups() has them. count: how many there are.
+// Groups of a pixel in the format of storedGroups(). count: number of groups.
 float groupsAt(ivec2 p, out uint count) {
     uint apart = pairsApart(p);
     uint labels[MAX_SAMPLES], i = 0u;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where in its pixel a fragment is shaded that covers several samples: at the mean of their places, which
-// lies within its triangle. A triangle's coverage says so (gl_SampleMaskIn) whatever depth tests leave of it,
-// so that every pass that draws it shades at one place; lavapipe's centroid follows the samples that survive.
+// Location at which a fragment is shaded under MSAA: the mean of its covered sample locations, which lies
+// within its triangle. It comes from the triangle's coverage (gl_SampleMaskIn), whatever the depth test
+// leaves of it, so that every pass shades at the same location. lavapipe's centroid follows the samples
+// that survive.
 #ifndef SAMPLES_GLSL
 #define SAMPLES_GLSL
 
@@ -9,14 +10,14 @@
 
 bool multisampled() { return feature_samples > 1; }
 
-// Of sample i, from the pixel's upper left corner, pixels.
+// Location of sample i from the pixel's upper left corner, pixels.
 vec2 samplePlace(uint i) {
     uint low = feature_samples == 4 ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
     uint place = (i < 4 ? low : SAMPLE_PLACES_8_HIGH) >> (8 * (i & 3u));
     return vec2(place & 15u, place >> 4 & 15u) / 16.0;
 }
 
-// The mean place of the samples of a mask; the pixel's middle of none.
+// Mean location of the samples of a mask; the pixel's centre if it is empty.
 vec2 placeOf(uint mask) {
     vec2 sum = vec2(0.0);
     uint i = 0;
@@ -26,7 +27,7 @@ vec2 placeOf(uint mask) {
     return mask != 0 ? sum / float(bitCount(mask)) : vec2(0.5);
 }
 
-// The texel of GBUFFER_SHADED, of a fragment: the samples that its triangle covers, those that an alpha mask
+// Texel of GBUFFER_SHADED for a fragment: the samples that its triangle covers, those that an alpha mask
 // leaves of them, and its reversed depth.
 uvec2 shadedTexel(uint covered, uint left, float z) {
     return uvec2(floatBitsToUint(z), covered | left << MAX_SAMPLES);
@@ -35,9 +36,9 @@ float depthOfShaded(uvec2 texel) { return uintBitsToFloat(texel.x); }
 vec2 placeOfShaded(uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
 uint leftOfShaded(uvec2 texel) { return texel.y >> MAX_SAMPLES; }
 
-// The samples that a mask's alpha of 0 to 1 covers: as many as come next to it, so that what is covered is
-// off by half a sample at most. What a device makes of alphaToCoverageEnable is its own (lavapipe: ceil(4
-// alpha)), and it reads the first attachment, of which a G-buffer's alpha are packed bits.
+// Samples that a mask's alpha, 0 to 1, covers: the nearest count, so coverage is off by at most half a
+// sample. alphaToCoverageEnable depends on the device (lavapipe: ceil(4 alpha)) and reads the first
+// attachment, whose alpha is packed bits in a G-buffer.
 uint coverageOf(float alpha) {
     uint order = feature_samples == 4 ? COVERAGE_ORDER_4 : COVERAGE_ORDER_8;
     uint count = uint(clamp(alpha, 0.0, 1.0) * float(feature_samples) + 0.5), mask = 0u, i = 0u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One surface, one sum over lights, for every path.
+// Shades one surface by one sum over lights, for every path.
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
@@ -20,7 +20,7 @@
 #include "shaders/lib/shadow.glsl"
 #include "shaders/lib/surface.glsl"
 
-// What every light meets at a pixel.
+// Values of a pixel that every light uses.
 struct Shading {
     Surface surface;
     vec3 v;
@@ -62,8 +62,8 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
     addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
 }
 
-// Adds those of the packets [x, y) of one kind of light that cast, its first ones, with numbers below `end`;
-// leaves the packets that hold others.
+// Adds the shadow-casting lights of one type in packets [x, y): the first ones, with indices below `end`.
+// Leaves the packets that contain others.
 #define ADD_CASTERS(add, packets, end)                       \
     {                                                       \
         CasterWalk walk = casterWalk(packets, end);         \
@@ -75,8 +75,8 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         packets.x = walk.place / feature_list_width;        \
     }
 
-// Adds the packets [x, y) of one kind of light, without those that cast, with numbers below `end`, where this
-// kind does.
+// Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
+// those with indices below `end`.
 #define ADD_PACKETS(add, packets, casting, end)    \
     {                                             \
         uvec2 range = packets;                    \
@@ -93,8 +93,8 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         }                                         \
     }
 
-// Continues with the area lights of one shape, those with numbers below `end`. One loop for each shape,
-// because a loop body costs all the code in it, executed or not.
+// Continues with the area lights of one shape, with indices below `end`. One loop per shape, because a
+// loop body costs all the code in it, executed or not.
 #define ADD_AREA(add, end)                                                                              \
     while (walk.more && walk.number < end) {                                                            \
         add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, \
@@ -102,13 +102,13 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         step(walk);                                                                                     \
     }
 
-// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
-// lies before all of it: lit() alone applies it.
+// Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
+// lies in front of the sum and only lit() applies it.
 Radiance shade(Surface s, PixelLights lights) {
     Radiance radiance = noRadiance();
     bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
-    // First, while nothing else is made of the surface: the filter of a shadow map needs more registers than
-    // anything after it, of RDNA 2 80 instead of 128 (compare/bench/COMPILED.md).
+    // First, while few values are live: a shadow map's filter needs more registers than anything after it.
+    // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
     if (has_suns) radiance.sun_visibility = sunVisibility(s);
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
@@ -123,7 +123,7 @@ Radiance shade(Surface s, PixelLights lights) {
         radiance.local_light = specular.a;
     }
     if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
-        // The base's reflection of the draw's lights that are not shaded per pixel.
+        // The base reflects the draw's lights that are not shaded per pixel.
         vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }

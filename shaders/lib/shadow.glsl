@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of the sun a surface sees, by shared/contract/shadow.h.
+// Visibility of the directional light (shared/contract/shadow.h).
 #ifndef SHADOW_GLSL
 #define SHADOW_GLSL
 
@@ -16,15 +16,15 @@ Cascade cascadeAt(uint i) {
     return CASCADE_OF_TEXEL(a);
 }
 
-// The first cascade that serves a view depth, in m; feature_shadow_cascades: none does.
+// First cascade that covers a view depth, m; feature_shadow_cascades if none does.
 uint cascadeOf(ShadowLight light, float depth) {
     uint i = 0;
     for (uint k = 0; k < feature_shadow_cascades; ++k) i += depth > light.ends[k] ? 1 : 0;
     return i;
 }
 
-// The number of that cascade, or of the clipmap's level that is asked for, as a channel; -1 where none
-// serves.
+// Index of that cascade, or the requested level of the clipmap, as a channel; -1 if none covers the
+// position.
 float servingCascade(vec3 position) {
     if (!on(feature_shadows)) return -1.0;
     if (feature_shadows == SHADOWS_CLIPMAP) return float(levelAt(clipmap(), position));
@@ -33,37 +33,36 @@ float servingCascade(vec3 position) {
     return i < feature_shadow_cascades ? float(i) : -1.0;
 }
 
-// By how many levels that which serves is coarser than the clipmap's level that is asked for, as a channel;
-// -1 where there is no clipmap.
+// Resident level minus requested level of the clipmap, as a channel; -1 without a clipmap.
 float pageResidency(vec3 position) {
     if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
     return servingPage(shadowLight(), position).level - servingCascade(position);
 }
 
-// The surface as the light sees it, in a cascade: the coordinates of its texel, its depth there, and the
-// plane of its triangle, so that a plane that faces the light at a grazing angle does not shadow itself
-// wherever a filter reads. Nothing is derived from neighbouring pixels.
+// A surface as the light sees it in a cascade: its texel coordinates, its depth there, and the plane of
+// its triangle. With the plane, a surface at a grazing angle to the light does not shadow itself at any
+// texel of a filter. Nothing is derived from neighbouring pixels.
 //
-// A texel towards which the plane rises is compared with the plane, but only up to MOST_LIFT texels above the
-// surface: farther up the triangle may have ended, and what stands there would be taken for it. Where the
-// plane rises more, texels do not count, and they fade out before that: those that it falls towards are left,
-// and no texel beside the filter is read for them.
+// Texels towards which the plane rises are compared with the plane, up to MOST_LIFT texels above the
+// surface. Farther up the triangle may have ended, and another surface there would be mistaken for it.
+// Texels where the plane rises more do not count, and they fade out before that. Texels towards which it
+// falls remain, and no texel beside the filter is read for them.
 struct Receiver {
     vec2 texel;
     float depth;
     vec2 slope;     // of depth, per texel
-    float aside;    // by how much the plane's depth falls from moving the surface aside, where that is done
-    float most;     // depth of MOST_LIFT texels
-    float highest;  // depth above the surface at which a texel of the plane counts for nothing
-    float counts;   // per depth: how much of it counts for what it is lower than that
+    float aside;    // fall of the plane's depth if the surface was moved sideways
+    float most;     // largest rise of the plane that is compared, depth
+    float highest;  // rise of the plane at which a texel no longer counts, depth
+    float counts;   // weight of a texel per depth below `highest`
 };
 
 const float MOST_LIFT = 2.0;
-// Least cosine between geometric normal and light that slopes are made of: a plane that is steeper passes
-// through the whole scene within few texels.
+// Smallest cosine between geometric normal and light that slopes use: a steeper plane crosses the whole
+// scene within few texels.
 const float LEAST_SLOPE_COSINE = 1e-3;
 
-// `most`: of the plane above the surface, texels.
+// `most`: largest rise of the plane above the surface, texels.
 Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float most) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
     float cosine = max(dot(s.geometric_normal, light.to_light), LEAST_SLOPE_COSINE);
@@ -83,29 +82,30 @@ Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float most) {
     return r;
 }
 
-// 1 where nothing in the map's texel at `texel` (its centre) is nearer to the light than the receiver.
+// 1 if the map's texel at `texel` (its centre) has nothing nearer to the light than the receiver.
 float seesLight(Receiver r, float stored, vec2 texel) {
     float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
     return stored > r.depth + lift ? 0.0 : 1.0;
 }
 
-// How much of a texel counts, 0 to 1.
+// Weight of a texel, 0 to 1.
 float countOf(Receiver r, vec2 texel) {
     return clamp((r.highest - dot(r.slope, texel - r.texel)) * r.counts, 0.0, 1.0);
 }
 
-// A box of feature_shadow_kernel texels around the receiver: every texel counts by how much of it lies in the
-// box (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
+// Box filter of feature_shadow_kernel texels around the receiver, each weighted by its area in the box
+// (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
 // `shift`: from the receiver's texels to the layer's, whole.
 float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
     vec2 size = vec2(textureSize(map, 0).xy);
     vec2 low = r.texel - 0.5 * float(feature_shadow_kernel);
     vec2 first = floor(low), part = low - first;
-    // The box's area is added up in the same order as its lit part, so that all is 1 and nothing 0, exactly.
+    // The box's area is summed in the same order as its lit part, so that full light is exactly 1 and
+    // shadow 0.
     float lit = 0.0, area = 0.0;
     for (uint y = 0; y <= feature_shadow_kernel; y += 2) {
         for (uint x = 0; x <= feature_shadow_kernel; x += 2) {
-            vec2 corner = first + vec2(x, y);  // of two by two texels
+            vec2 corner = first + vec2(x, y);  // of 2 x 2 texels
             vec4 stored = textureGather(map, vec3((corner + shift + 1.0) / size, float(layer)));
             vec2 wx = vec2(x == 0u ? 1.0 - part.x : 1.0, x + 1u == feature_shadow_kernel ? part.x : 1.0);
             vec2 wy = vec2(y == 0u ? 1.0 - part.y : 1.0, y + 1u == feature_shadow_kernel ? part.y : 1.0);
@@ -128,7 +128,7 @@ float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
     return area > 0.0 ? lit / area : 1.0;
 }
 
-// One sample of what a blur has filtered.
+// One sample of blurred moments.
 float filteredMoments(Receiver r, uint layer, ShadowLight light) {
     float size = float(textureSize(shadow_map, 0).x);
     vec4 moments = textureLod(shadow_map, vec3(r.texel / size, float(layer)), 0.0);
@@ -152,8 +152,8 @@ float clipmapVisibility(Surface s, ShadowLight light) {
     return filtered(shadow_map, r, page.shift, 0);
 }
 
-// `faces`: whether the triangle is turned to the sun. Where none of a few pixels side by side is, nothing is
-// read for them: a loop that none enters is left out, while both sides of a branch are run.
+// `faces`: whether the triangle faces the light. If none of several adjacent pixels does, they read
+// nothing: a loop that no lane enters is skipped, while both sides of a branch run.
 float cascadedVisibility(Surface s, ShadowLight light, bool faces) {
     float depth = dot(s.position, light.forward);
     uint first = cascadeOf(light, depth);
@@ -171,7 +171,7 @@ float cascadedVisibility(Surface s, ShadowLight light, bool faces) {
     return visibility;
 }
 
-// 0 to 1, of the light that casts. 0 where the triangle is turned from it.
+// Visibility of the shadow-casting light, 0 to 1; 0 if the triangle faces away.
 float sunVisibility(Surface s) {
     if (!on(feature_shadows)) return 1.0;
     ShadowLight light = shadowLight();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The light that casts and the areas of its maps, as texels.
+// The shadow-casting directional light and the areas of its maps, as texels.
 #ifndef SHADOW_LIGHT_GLSL
 #define SHADOW_LIGHT_GLSL
 
@@ -14,7 +14,7 @@ ShadowLight shadowLight() {
     return SHADOW_LIGHT_OF_TEXELS(a, b, c, d, e, f, g, h);
 }
 
-// The number of the directional light that casts.
+// Index of the shadow-casting directional light.
 uint castingLight() {
     return floatBitsToUint(texelFetch(shadow_texels, 5).w);
 }

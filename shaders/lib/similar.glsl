@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Whether two samples of a pixel may be shaded as one although they are of different triangles: as on a fine
-// mesh, where each triangle covers a part of a pixel and its neighbours look the same. Normals are what a
-// lobe's width makes of them: a highlight of roughness r is r^2 wide.
+// Whether two samples of a pixel may be shaded as one although their triangles differ. On a fine mesh,
+// each triangle covers part of a pixel and looks like its neighbours. Normals are compared relative to the
+// lobe's width: a highlight of roughness r is r^2 wide.
 #ifndef SIMILAR_GLSL
 #define SIMILAR_GLSL
 
 #include "shaders/lib/gbuffer_read.glsl"
 
-// Largest differences, of colours, shares and roughness; of radiance as a share of the larger one: a quarter
-// of a level of 8 bits, as what is dark may be brightly lit.
+// Largest difference of colours, fractions and roughness; of radiance, relative to the larger one. A
+// quarter of an 8-bit level, because a dark surface may be brightly lit.
 const float SIMILAR_ATTRIBUTE = 0.25 / 255.0;
-// Sine of the angle between normals, as a share of the squared roughness.
+// Sine of the angle between normals, relative to the squared roughness.
 const float SIMILAR_NORMAL = 0.001;
-// Distance of either position from the plane of the other, as a share of the distance between them.
+// Distance of either position from the plane of the other, relative to the distance between them.
 const float SIMILAR_PLANE = 0.01;
-// Distance between the positions, as a multiple of what it is on a surface that faces the viewer: at grazing
-// angles a pixel spans much of a surface, and light on it changes.
+// Distance between the positions, relative to that on a surface facing the viewer. At grazing angles a
+// pixel spans much of a surface, and light on it changes.
 const float SIMILAR_SPAN = 1.5;
 
 bool within(vec3 a, vec3 b, float most) {
@@ -27,7 +27,7 @@ bool alikeRadiance(vec3 a, vec3 b) {
     return within(a, b, SIMILAR_ATTRIBUTE * max(max(a.x, max(a.y, a.z)), max(b.x, max(b.y, b.z))));
 }
 
-// a, b: of two samples of pixel p.
+// a, b: texels of two samples of pixel p.
 bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
     Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The environment of a direction as its lat-long picture has it, and its rotation.
+// Radiance of the environment's lat-long image in a direction, and its rotation.
 #ifndef SKY_GLSL
 #define SKY_GLSL
 
@@ -8,10 +8,10 @@
 layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT) uniform samplerBuffer environment_texels;
 layout(set = SET_FRAME, binding = BINDING_SKY) uniform sampler2D sky;
 
-// Cosine and sine of its turn about +Y, the factor on its radiance, and how many levels its maps have.
+// Cosine and sine of its rotation about +Y, its radiance factor, and its number of map levels.
 vec4 environmentTurn() { return texelFetch(environment_texels, 0); }
 
-// A direction in the environment's own axes.
+// World direction to the environment's axes.
 vec3 environmentFromWorld(vec3 d) {
     vec4 turn = environmentTurn();
     vec3 turned = vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
@@ -19,7 +19,7 @@ vec3 environmentFromWorld(vec3 d) {
 }
 float environmentFactor() { return environmentTurn().z; }
 
-// Columns wrap around; beyond a pole lies the row as far before it, half a turn further.
+// Columns wrap around. Rows beyond a pole are mirrored and shifted by half a turn.
 vec3 skyTexel(ivec2 p, ivec2 size) {
     if (p.y < 0 || p.y >= size.y) {
         p.y = clamp(p.y < 0 ? -1 - p.y : 2 * size.y - 1 - p.y, 0, size.y - 1);
@@ -30,7 +30,7 @@ vec3 skyTexel(ivec2 p, ivec2 size) {
     return texelFetch(sky, p, 0).rgb;
 }
 
-// W/(sr m^2); `d` unit, in the environment's axes. Bilinear between the pixels' centres.
+// W/(sr m^2); `d` unit, in the environment's axes. Bilinear between pixel centres.
 vec3 skyRadiance(vec3 d) {
     ivec2 size = textureSize(sky, 0);
     float across = lengthOf(d.xz), least = max(across, 1e-30);

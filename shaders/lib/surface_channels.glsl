@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a Surface from the channels of SURFACE_CHANNELS, float32 images of the picture's size.
+// Makes a Surface from the channels of SURFACE_CHANNELS, float32 images of the frame's size.
 #ifndef SURFACE_CHANNELS_GLSL
 #define SURFACE_CHANNELS_GLSL
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_transmission as a surface without thickness.
+// KHR_materials_transmission for a surface without thickness.
 #ifndef TRANSMISSION_GLSL
 #define TRANSMISSION_GLSL
 
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/position.glsl"
 
-// Of light from straight behind: what the specular layer does not reflect, and the base neither scatters nor
-// absorbs. Its colour is that of the base; one share stands for all components, that of the luminance.
+// Fraction of light from straight behind that the specular layer does not reflect and the base neither
+// scatters nor absorbs. Its colour is the base's; all components use the fraction of its luminance.
 float transmittedShare(Surface s) {
     Brdf b = makeBrdf(s, viewVector(s.position));
     vec3 base = reachingBase(b, schlickWeight(b.n_dot_v));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one way in which a vertex reaches the screen. Every pass that draws geometry goes through here, so
-// that depth is the same bits in all of them.
+// The only vertex transform. Every pass that draws geometry uses it, so that depth is bitwise identical in
+// all of them.
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 
@@ -10,7 +10,7 @@
 invariant gl_Position;
 
 layout(location = 0) in vec3 position;
-// Of the instance: struct Draw.
+// Per instance: struct Draw.
 layout(location = 5) in mat4 clip_from_object;
 
 vec4 clipFrom(vec3 position) {
@@ -18,7 +18,7 @@ vec4 clipFrom(vec3 position) {
     return clip;
 }
 
-// With feature_vertex_posing: the instance that is drawn, and the number of the vertex in it.
+// With feature_vertex_posing: the drawn instance, and the vertex's index in it.
 PosedInstance instanceOfDraw() { return PosedInstanceBlock(constants.posing).instance; }
 uint numberIn(PosedInstance i) { return uint(gl_VertexIndex) - i.first_vertex; }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The view and the light grid. lavapipe gathers every float of a uniform buffer for eight fragments one by
-// one, which takes some 27 instructions although all read the same value; a flat input takes one. So shaders
-// of a whole picture (FLAT_VIEW) get PACKED_VIEW passed through their vertex shader, while those of a scene's
-// triangles, where every flat input would cost 48 more bytes a triangle, fetch it as texels. Lanes are passed
-// as bits, so values stay exact.
+// The view and the light grid. lavapipe gathers every float of a uniform buffer one by one for eight
+// fragments, some 27 instructions although all read the same value; a flat input takes one. So full-screen
+// shaders (FLAT_VIEW) pass PACKED_VIEW through their vertex shader. Shaders of a scene's triangles fetch
+// it as texels, because every flat input costs 48 more bytes a triangle there. Components are passed as
+// bits, so values stay exact.
 #ifndef VIEW_GLSL
 #define VIEW_GLSL
 

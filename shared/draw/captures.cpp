@@ -46,7 +46,7 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
     for (const auto& [mode, place] : capture_places) {
         if (std::ranges::find(modes, mode) == modes.end()) continue;
         const gpu::uint bit = 1u << place.image;
-        // Images that go into one pass together: one, or at the first that light changes all of these.
+        // Number of images that must go into one pass: one, or all lit images at the first of them.
         const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
         const std::size_t together =
             place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, most) : 1;
