@@ -158,7 +158,7 @@ TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
                     off = drawnBy(path, renderer, without, sunChannels);
         EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data) << with.name;
         EXPECT_TRUE(std::ranges::any_of(with.notes, [](const std::string& note) {
-            return note.starts_with("environment: --env-sun on: no spot ");
+            return note.starts_with("environment: --env-sun on: no compact spot ");
         }));
     }
     without.env_rotation = 30;

@@ -103,7 +103,7 @@ TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     EXPECT_LE(prepared.shadow.sun.reach().back().reach, usual.shadow.sun.reach().back().reach);
     const auto& notes = frames[0].notes;
     EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
-        return note.find("over 8 steps of a texel") != std::string::npos;
+        return note.find("in 8 steps of a texel") != std::string::npos;
     }));
 }
 

@@ -168,12 +168,13 @@ TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
     const auto told = [&](const std::string& options) {
         return runTool(folder, "plan --size 16x16 cube.gltf " + options);
     };
-    EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: maps"), std::string::npos) << told("").out;
+    EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: prefiltered maps"), std::string::npos)
+        << told("").out;
     EXPECT_EQ(told("--env scene --ibl-intensity 2").code, 0);
     const Ran other = told("--env sky.exr");
     EXPECT_NE(other.out.find("EXT_lights_image_based: light 0: ignored because --env is given"),
               std::string::npos);
-    EXPECT_NE(other.out.find("sky.exr: maps"), std::string::npos) << other.out;
+    EXPECT_NE(other.out.find("sky.exr: prefiltered maps"), std::string::npos) << other.out;
     EXPECT_TRUE(runTool(folder, "plan builtin:furnace --env scene")
                     .failedOver("--env scene: builtin:furnace has no"));
 }

@@ -170,7 +170,7 @@ TEST(ManyScenes, MergeNamesWhatItMust) {
 
     EXPECT_TRUE(merged("1 2 3 nowhere").failedOver("nowhere: is not the report of a shard"));
     EXPECT_TRUE(runTool(folder, "merge nowhere -o out").failedOver("nowhere: is not the report of a shard"));
-    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of shards are missing"));
+    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of the shards are missing"));
     EXPECT_EQ(before, timeless(folder / "2")) << "no shard is changed";
 }
 

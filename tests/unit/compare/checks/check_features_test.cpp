@@ -63,11 +63,11 @@ TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
     m.base_color_texture = transformed(0.5, -0.25, 0, 1, 1);
     EXPECT_EQ(told(), "Base colour: offset 0.5 -0.25" + tail);
     m.base_color_texture = transformed(0, 0, 30, 1, 1);
-    EXPECT_EQ(told(), "Base colour: turned 30\u00b0" + tail);
+    EXPECT_EQ(told(), "Base colour: rotated 30\u00b0" + tail);
     m.base_color_texture = transformed(0.5, 0, -30, 2, 3);
-    EXPECT_EQ(told(), "Base colour: offset 0.5 0, turned -30\u00b0, scaled 2 \u00d7 3" + tail);
+    EXPECT_EQ(told(), "Base colour: offset 0.5 0, rotated -30\u00b0, scaled 2 \u00d7 3" + tail);
     m.base_color_texture = transformed(0, 0, 0, -1, 1);
-    EXPECT_EQ(told(), "Base colour: turned 180\u00b0, scaled 1 \u00d7 -1" + tail) << "which is the same";
+    EXPECT_EQ(told(), "Base colour: rotated 180\u00b0, scaled 1 \u00d7 -1" + tail) << "which is the same";
     m.base_color_texture = m.normal_texture = transformed(0, 0, 0, 2, 2);
     m.emissive_texture = transformed(1, 0, 0, 1, 1);
     m.emissive = glm::vec3(1);

@@ -139,7 +139,7 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
     for (const char* words : {"albedo", "=a", "albedo=", "albedo=a,,b"})
         EXPECT_EQ(faultOf([&] {
                       channelsOf(file({layer("", {"R"})}), {words});
-                  }).find(std::string("--map ") + words + ": is NAME=CHANNEL"),
+                  }).find(std::string("--map ") + words + ": give NAME=CHANNEL,"),
                   0u);
 }
 
@@ -207,8 +207,9 @@ TEST(Layers, GreyIsAColour) {
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
     PictureFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
     EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
-    EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
-              "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test d.Y");
+    EXPECT_EQ(
+        faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
+        "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test has d.Y");
 }
 
 TEST(Layers, WhatIsNotInBothIsAnError) {
@@ -220,9 +221,9 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     EXPECT_EQ(faultOf([&] { matchChannels(a(), c(), {}); }),
               "the images share no layer: the reference has lit, the test has ao; --map can match them");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"normals"}); }),
-              "--channels normals: not in both; both have lit");
+              "--channels normals: not in both images; both have lit");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"lti"}); }),
-              "--channels lti: not in both; did you mean lit?");
+              "--channels lti: not in both images; did you mean lit?");
 }
 
 TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {

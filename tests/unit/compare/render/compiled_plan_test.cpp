@@ -76,7 +76,7 @@ TEST(CompiledPlan, SpillsAreWarningsAndWhatDoesNotCompileAnError) {
 
 TEST(CompiledPlan, AFeatureIsWhatItAdds) {
     EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
-              "+38 VGPRs, occupancy 16 to 10, +200 cycles");
+              "+38 VGPRs, occupancy 16 -> 10, +200 cycles");
     EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
               "-8 VGPRs");
 }

@@ -32,7 +32,8 @@ TEST(PlanLines, NameShadowsAndHaze) {
     Settings lamps;
     EXPECT_FALSE(plannedLine("shadows", "builtin:spots", lamps).modelled);
     lamps.shadow_lights = 2;
-    EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why, "2 points or spots cast: --shadows pcf");
+    EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why,
+              "2 point or spot lights cast shadows: --shadows pcf");
     lamps.shadow_lights = 0;
     lamps.shadows = Shadows::off;
     EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why, "--shadows off: no map, no pass");

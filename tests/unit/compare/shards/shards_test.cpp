@@ -54,7 +54,7 @@ TEST(Shards, ARegularArrayOfSlurmSaysItself) {
     EXPECT_EQ(shardWords("slurm", task(10, 4, 16, 3)), "3/5") << "4, 7, 10, 13, 16";
     EXPECT_EQ(shardWords("slurm", task(7, 7, 7, 1)), "1/1");
     EXPECT_NE(shardWords("slurm").find("SLURM_ARRAY_TASK_ID is not set"), std::string::npos);
-    EXPECT_NE(shardWords("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is no number: x"),
+    EXPECT_NE(shardWords("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is not a number: x"),
               std::string::npos);
 }
 

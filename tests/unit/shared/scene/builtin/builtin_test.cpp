@@ -151,7 +151,8 @@ TEST(Builtin, NamesAreUniqueAndMistakesListWhatThereIs) {
     }
     EXPECT_NE(builtinFault("spheres?light=4").find("lights=N"), std::string::npos);
     EXPECT_NE(builtinFault("array?object=4").find("objects=N, triangles=N"), std::string::npos);
-    EXPECT_NE(builtinFault("array?objects=1&materials=x").find("no number of materials"), std::string::npos);
+    EXPECT_NE(builtinFault("array?objects=1&materials=x").find("'x' is not a number of materials"),
+              std::string::npos);
 }
 
 TEST(Builtin, AnArrayHasAsManyAsItIsTold) {

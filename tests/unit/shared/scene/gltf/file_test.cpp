@@ -53,7 +53,7 @@ TEST(GltfLoading, WrongNumbersAreRefusedByName) {
              f.primitive()["indices"] = f.accessor<float>({0, 1, 2}, FLOAT, "SCALAR", 1);
          }},
         {"mesh 0, primitive 0: mode is 9, not from 0 to 6", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
-        {"at most",
+        {"4000000000 vertices without a bufferView; the limit is 16777216",
          [](GltfFile& f) {
              f.json["accessors"][0].erase("bufferView");
              f.json["accessors"][0]["count"] = 4000000000u;

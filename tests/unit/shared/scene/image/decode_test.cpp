@@ -374,7 +374,7 @@ TEST(ImageDecode, EndlessScansAreRefused) {
         return many;
     };
     expectColor(withScans(100), 77, 77, 77);
-    EXPECT_EQ(failure(withScans(5000)), "does not decode: it has 4097 scans or more");
+    EXPECT_EQ(failure(withScans(5000)), "does not decode: it has at least 4097 scans");
 }
 
 TEST(ImageDecode, ArithmeticCodingIsNamed) {
