@@ -3,6 +3,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
 #include "tests/tool/run.h"
+#include "tests/tool/sweep.h"
 
 #include <nlohmann/json.hpp>
 
