@@ -278,7 +278,8 @@ TEST(DiffCommand, ARuleOfAFileDecides) {
     EXPECT_EQ(ran.code, 1);
     EXPECT_NE(ran.out.find("(t.json, rule 1: less)"), std::string::npos) << ran.out;
     folder.write("t.json", "{}");
-    EXPECT_TRUE(runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no rules"));
+    EXPECT_TRUE(
+        runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no array \"rules\""));
 }
 
 TEST(DiffCommand, SomePixelsMayFail) {
