@@ -275,7 +275,7 @@ bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::st
     const std::string command = "render builtin:triangle --path reference --size 32x18 --force -o r.exr";
     const Ran first = runTool(folder, command);
     EXPECT_EQ(first.code, 0);
-    EXPECT_EQ(first.err.find("kept of"), first.err.npos) << first.err;
+    EXPECT_EQ(first.err.find("kept from"), first.err.npos) << first.err;
     fs::rename(folder / "r.exr", folder / "sound.exr");
 
     Running other(folder, words);
