@@ -97,7 +97,7 @@ TEST(Completion, TheOtherShellsTakeTheirs) {
             EXPECT_EQ(checked.code, 0) << checked.err;
         }
     }
-    EXPECT_TRUE(runTool(folder, "--completion tcsh").failedOver("is one of bash|zsh|fish"));
+    EXPECT_TRUE(runTool(folder, "--completion tcsh").failedOver("takes one of bash|zsh|fish"));
 }
 
 // The installed files, made once for all tests here.
