@@ -6,7 +6,7 @@
 #extension GL_EXT_demote_to_helper_invocation : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "shaders/lib/arithmetic.glsl"
+#include "shaders/lib/math/arithmetic.glsl"
 #include "shared/contract/area_light.h"
 #include "shared/contract/bindings.h"
 #include "shared/contract/clipmap.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Error of each step from an environment to reflected radiance, in double: integrals over all directions
 // of the image, with the reference's BRDF, compared with the maps and the table as
-// shaders/lib/environment.glsl reads them.
+// shaders/lib/environment/environment.glsl reads them.
 #pragma once
 
 #include "compare/reference/ambient.h"
@@ -138,7 +138,7 @@ private:
 
 // ---- values that the shaders read ------------------------------------------------------------------
 
-// As levelRadiance() and specularLevel() of shaders/lib/environment.glsl.
+// As levelRadiance() and specularLevel() of shaders/lib/environment/environment.glsl.
 inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, const glm::dvec3& direction) {
     const double first = std::log2(double{gpu::ENVIRONMENT_FIRST_ALPHA}),
                  least = 2 * std::log2(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}), octaves = std::log2(alpha);
@@ -152,7 +152,7 @@ inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, co
     return fine + (coarse - fine) * (level - lower);
 }
 
-// As specularAlbedo() of shaders/lib/ambient.glsl, where F = 1.
+// As specularAlbedo() of shaders/lib/shading/ambient.glsl, where F = 1.
 inline double tabledAlbedo(double alpha, double n_dot_v) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();

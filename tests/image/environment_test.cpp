@@ -172,7 +172,7 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
     }
 }
 
-// Sampled specular of shaders/lib/environment.glsl for a white metal in z = 0, in double. Each sample
+// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each sample
 // reads the level whose texels match its solid angle.
 double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dvec3& v, int count,
                     double bias) {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/shading/brdf.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90 -> diffuse, specular radiance for 1 W/m^2

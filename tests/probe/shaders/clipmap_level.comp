@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/clipmap.glsl"
+#include "shaders/lib/shadows/clipmap.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // position, extent of level 0, number of levels with a window -> level

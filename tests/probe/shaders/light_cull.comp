@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_cull.glsl"
+#include "shaders/lib/lights/light_cull.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_rect.glsl"
+#include "shaders/lib/lights/light_rect.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // sphere's centre and radius, the slab's two depths, the grid's centre, pixel size, tile side and tile

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_cull.glsl"
-#include "shaders/lib/light_rect.glsl"
+#include "shaders/lib/lights/light_cull.glsl"
+#include "shaders/lib/lights/light_rect.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // inputs of light_rect.comp, and a row (13) -> its columns (2)

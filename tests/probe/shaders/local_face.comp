@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/local_face.glsl"
+#include "shaders/lib/shadows/local_face.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // position relative to the light, geometric normal; of the light: x, y, z, depth scale and offset, bias;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // depths of two parts of a filter and of the receiver (1 towards the light), the first part's fraction;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/multiscatter.glsl"
+#include "shaders/lib/shading/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90, specularAlbedo() -> diffuse, specular

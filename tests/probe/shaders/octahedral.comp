@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/octahedral.glsl"
+#include "shaders/lib/surface/octahedral.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // unit vector, bits -> decoded vector

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // four stored moments, the receiver's depth; exponent, negative exponent, nearest depth, bleed, minimum

@@ -229,7 +229,7 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     for (const char* header :
          {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h",
           "shared/light/lights.h", "shared/material/materials.h", "shared/draw/draws.h",
-          "shared/vulkan/device.h", "shaders/lib/brdf.glsl", "compare/render/renderer.h",
+          "shared/vulkan/device.h", "shaders/lib/shading/brdf.glsl", "compare/render/renderer.h",
           "../metrics/channel.h", "../../shared/contract/view.h"})
         EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
     EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);
@@ -278,7 +278,7 @@ TEST(Architecture, APlantedFaultOfTheDocumentationIsFound) {
         {"shared/text/README.md", "[the code](json.h) and [the top](../../README.md)\n"},
         {"shared/text/json.h", ""},
         {"shaders/README.md", ""},
-        {"shaders/lib/brdf.glsl", ""}};
+        {"shaders/lib/shading/brdf.glsl", ""}};
     EXPECT_EQ(joined(documentationFaults(sound)), "");
     Files files = sound;
     files["README.md"] = std::string(151, '\n');

@@ -299,7 +299,7 @@ Faults channelsWithoutShader(const std::string& shader) {
 }
 
 TEST(Conventions, EveryChannelHasALineInTheShader) {
-    const std::string shader = sources().at("shaders/lib/debug.glsl");
+    const std::string shader = sources().at("shaders/lib/surface/debug.glsl");
     EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
     EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
               Faults{"roughness"});

@@ -37,16 +37,16 @@ std::vector<Without> withouts() {
     return {
         {"haze",
          gpu::FEATURE_haze,
-         {{"shaders/lib/radiance.glsl",
+         {{"shaders/lib/shading/radiance.glsl",
            "    if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;\n"},
-          {"shaders/lib/shade.glsl", "#include \"shaders/lib/haze.glsl\"\n"},
-          {"shaders/lib/shade.glsl",
+          {"shaders/lib/shading/shade.glsl", "#include \"shaders/lib/environment/haze.glsl\"\n"},
+          {"shaders/lib/shading/shade.glsl",
            "    if (on(feature_haze)) {\n"
            "        Hazed hazed = hazeTo(s.position);\n"
            "        radiance.transmittance = hazed.transmittance;\n"
            "        radiance.haze = hazed.scattered;\n"
            "    }\n"},
-          {"shaders/lib/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
+          {"shaders/lib/blending/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
           {"shaders/pass/background.frag", "haze.glsl\"\n", "position.glsl\"\n"},
           {"shaders/pass/background.frag",
            "    if (on(feature_haze)) {\n"

@@ -42,7 +42,7 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         {"tangent_normal", "shown alone"},
         {"transmission", "blended draws alone, which both paths share"},
         {"object_irradiance", "--assign per_object, which deferred does not have"}};
-    const std::set<std::string> fields = fieldsOf(shader("surface.glsl"));
+    const std::set<std::string> fields = fieldsOf(shader("surface/surface.glsl"));
     EXPECT_GE(fields.size(), 20u);
     for (const std::string& field : fields) {
         if (unread.contains(field)) continue;
@@ -56,9 +56,11 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         EXPECT_TRUE(fields.contains(field)) << field << " is gone: strike it here";
         if (reason != "shown alone" && reason != "shown as geometric_normal") continue;
         for (const char* name :
-             {"shade.glsl", "brdf.glsl", "multiscatter.glsl", "environment.glsl", "ambient.glsl",
-              "shadow.glsl", "pcss.glsl", "local_shadow.glsl", "ltc.glsl", "area.glsl", "area_point.glsl",
-              "lights.glsl", "object_lights.glsl", "haze.glsl", "radiance.glsl"})
+             {"shading/shade.glsl", "shading/brdf.glsl", "shading/multiscatter.glsl",
+              "environment/environment.glsl", "shading/ambient.glsl", "shadows/shadow.glsl",
+              "shadows/pcss.glsl", "shadows/local_shadow.glsl", "lights/ltc.glsl", "lights/area.glsl",
+              "lights/area_point.glsl", "lights/lights.glsl", "lights/object_lights.glsl",
+              "environment/haze.glsl", "shading/radiance.glsl"})
             EXPECT_FALSE(std::regex_search(shader(name), std::regex("\\bs\\." + field + "\\b")))
                 << name << " reads " << field;
     }
@@ -69,7 +71,7 @@ TEST(SurfaceFields, TheEncodingChangesNothingButTheSurface) {
     for (const auto& [file, text] : sources())
         if (file.starts_with("shaders/") && text.find("feature_encoded_surface") != std::string::npos)
             readers.insert(file);
-    EXPECT_EQ(readers, std::set<std::string>{"shaders/lib/forward.glsl"});
+    EXPECT_EQ(readers, std::set<std::string>{"shaders/lib/surface/forward.glsl"});
 }
 
 }  // namespace
