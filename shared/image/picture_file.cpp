@@ -77,16 +77,16 @@ PictureSize sizeOfJpeg(const JpegSize& size, EightBits eight) {
             eight == EightBits::kept ? 4 + components : std::int64_t{sizeof(float)} * components + 4};
 }
 
-// Reads the pixel aspect of JFIF 1.02, and the ICC profile (ICC.1:2022, B.4), which may be split into
-// several segments.
+// Reads the pixel aspect of JFIF: width / height is vertical over horizontal density, for all units (ITU-T
+// T.871, 10.1). Reads the ICC profile (ICC.1:2022, B.4), which may be split into several segments.
 FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
     using namespace std::string_view_literals;
     constexpr std::string_view jfif = "JFIF\0"sv, icc = "ICC_PROFILE\0"sv;
     FileNotes notes;
     std::string profile;
     visitJpeg(bytes, [&](const Chunk& segment) {
-        if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 10, 2) > 0)
-            noteAspect(static_cast<double>(bigEndian(segment.data, 8, 2)) / bigEndian(segment.data, 10, 2),
+        if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 8, 2) > 0)
+            noteAspect(static_cast<double>(bigEndian(segment.data, 10, 2)) / bigEndian(segment.data, 8, 2),
                        notes);
         constexpr std::size_t numbers = 2;  // sequence number and count
         if (segment.name == "\xe2" && segment.data.starts_with(icc) &&

@@ -385,6 +385,29 @@ TEST(ImageDecode, ArithmeticCodingIsNamed) {
 
 // ---- as a picture ------------------------------------------------------------------------------------
 
+// Width / height of a pixel is Y over X density, whether these are dots per unknown unit, inch or cm.
+TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
+    const auto notes = [](unsigned units, unsigned x, unsigned y) {
+        Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+        EXPECT_EQ(std::string(file.begin() + 6, file.begin() + 10), "JFIF");
+        file.at(13) = static_cast<unsigned char>(units);
+        file.at(14) = static_cast<unsigned char>(x >> 8);
+        file.at(15) = static_cast<unsigned char>(x & 255);
+        file.at(16) = static_cast<unsigned char>(y >> 8);
+        file.at(17) = static_cast<unsigned char>(y & 255);
+        return readPicture(std::as_bytes(std::span(file)), "a.jpg").notes.not_applied;
+    };
+    using Notes = std::vector<std::string>;
+    for (const unsigned units : {0u, 1u, 2u}) {
+        EXPECT_EQ(notes(units, 300, 600), Notes{"its pixels are not square (aspect 2) but are shown square"});
+        EXPECT_EQ(notes(units, 600, 150),
+                  Notes{"its pixels are not square (aspect 0.25) but are shown square"});
+        EXPECT_EQ(notes(units, 72, 72), Notes{});
+        EXPECT_EQ(notes(units, 0, 72), Notes{}) << "no density";
+        EXPECT_EQ(notes(units, 72, 0), Notes{}) << "no density";
+    }
+}
+
 // One reader: diff compares the bytes that a texture has.
 TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
     for (const bool grey : {false, true}) {
@@ -414,7 +437,7 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
     const std::vector<std::string> notes =
         readPicture(std::as_bytes(std::span(told)), "a.jpg").notes.not_applied;
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_EQ(notes[0], "its pixels are not square (aspect 2) but are shown square");
+    EXPECT_EQ(notes[0], "its pixels are not square (aspect 0.5) but are shown square");
     EXPECT_TRUE(notes[1].starts_with("its colour profile (3 bytes, ")) << notes[1];
     const auto pictureFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
         return faultOf([&] { readPicture(std::as_bytes(bytes), "a.jpg", {}, most); });
