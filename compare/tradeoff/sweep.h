@@ -50,7 +50,7 @@ Settings truthFor(const Settings& given, const std::vector<Settings>& rows);
 // Skips with one reason: values per option, or combinations, as text.
 struct SkipGroup {
     std::string reason;
-    std::vector<std::string> tried;  // "assign tiled|clustered"
+    std::vector<std::string> tried;  // "msaa-edges all|similar"
 };
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 

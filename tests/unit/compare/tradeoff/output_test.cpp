@@ -49,7 +49,8 @@ Tradeoff several() {
     for (TradeoffRow& made : tradeoff.rows) made.settings.camera = "0";
     tradeoff.given.camera = "0";
     tradeoff.rows[1].warnings = {"one, \"two\""};
-    tradeoff.skips = {{{{"path", "deferred"}, {"msaa", "4"}}, "--msaa 4 is not built yet; use 1"}};
+    tradeoff.skips = {{{{"path", "deferred"}, {"msaa-edges", "all"}},
+                       "--msaa-edges all has no effect without --msaa 4; use exact"}};
     return tradeoff;
 }
 

@@ -200,17 +200,24 @@ TEST(TradeoffSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
 }
 
 TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
+    const auto refused = [](const std::string& path, const std::string& option, const std::string& value) {
+        Settings settings;
+        settings.set("path", path);
+        settings.set(option, value);
+        return SweepSkip{{{"path", path}, {option, value}}, settings.problem().value()};
+    };
     const std::vector<SweepSkip> skips{
-        {{{"path", "deferred"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
-        {{{"path", "forward_plus"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
-        {{{"path", "deferred"}, {"assign", "clustered"}}, "--assign clustered is not built yet; use every"},
-        {{{"path", "deferred"}, {"msaa", "4"}}, "--msaa 4 is not built yet; use 1"},
+        refused("deferred", "msaa-edges", "all"),
+        refused("forward_plus", "msaa-edges", "all"),
+        refused("deferred", "msaa-edges", "similar"),
+        refused("deferred", "msaa-shading", "sample"),
         {{{"path", "deferred"}, {"prepass", "on"}}, "deferred has no depth pre-pass"},
         {{{"path", "deferred"}, {"msaa", "4"}, {"size", "9x9"}}, "together too large"}};
+    EXPECT_EQ(skips[0].reason, "--msaa-edges all has no effect without --msaa 4; use exact");
     const std::vector<SkipGroup> groups = groupsOf(skips);
     ASSERT_EQ(groups.size(), 3u);
-    EXPECT_EQ(groups[0].reason, "is not built yet");
-    EXPECT_EQ(groups[0].tried, (std::vector<std::string>{"assign tiled|clustered", "msaa 4"}));
+    EXPECT_EQ(groups[0].reason, "has no effect without --msaa 4");
+    EXPECT_EQ(groups[0].tried, (std::vector<std::string>{"msaa-edges all|similar", "msaa-shading sample"}));
     EXPECT_EQ(groups[1].tried, std::vector<std::string>{"prepass on"});
     EXPECT_EQ(groups[2].tried, std::vector<std::string>{"deferred, msaa 4, size 9x9"});
 }
