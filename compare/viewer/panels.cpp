@@ -368,14 +368,14 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     if (ImGui::SmallButton("copy as diptych compare --pixel"))
         state.requests.copy =
             fmt::format("{} --pixel {},{}", compareCommand(state), state.pixel->x, state.pixel->y);
-    const bool here = contents.story && contents.story->pixel == *state.pixel &&
-                      contents.story->subject == ofBothPaths(state.subject);
+    const bool here = contents.breakdown && contents.breakdown->pixel == *state.pixel &&
+                      contents.breakdown->subject == ofBothPaths(state.subject);
     if (!here) wrapped("drawing: each light alone in both paths, and the reference", &faint);
-    if (!contents.story) return;
-    ImGui::BeginChild("story", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    if (!contents.breakdown) return;
+    ImGui::BeginChild("breakdown", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushFont(evenFont());
     if (!here) ImGui::PushStyleColor(ImGuiCol_Text, faint);
-    ImGui::TextUnformatted(contents.story->words.c_str());
+    ImGui::TextUnformatted(contents.breakdown->words.c_str());
     if (!here) ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::EndChild();

@@ -174,13 +174,14 @@ private:
         Contents next = contents_;
         next.shown = drawing_.shown();
         next.judged = drawing_.judged();
-        next.story = drawing_.story();
+        next.breakdown = drawing_.breakdown();
         next.facts = drawing_.facts();
         next.status = drawing_.status();
         next.idle = drawing_.idle();
         const bool pictures = next.shown != contents_.shown;
-        const bool news = pictures || next.judged != contents_.judged || next.story != contents_.story ||
-                          next.facts != contents_.facts || next.status.doing != contents_.status.doing ||
+        const bool news = pictures || next.judged != contents_.judged ||
+                          next.breakdown != contents_.breakdown || next.facts != contents_.facts ||
+                          next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);

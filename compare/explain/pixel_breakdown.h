@@ -86,7 +86,7 @@ struct PixelLightFacts {
     std::array<bool, 2> listed{false, false};
 };
 
-struct PixelStory {
+struct PixelBreakdown {
     std::string scene, camera;
     int x = 0, y = 0;
     Size size;
@@ -123,6 +123,6 @@ std::span<const int> pixelSteps();
 
 // Draws the view by both paths, the pixel by the reference, and each light alone that `lightsDrawnAlone`
 // tells. `views` are the renderer's. Throws std::runtime_error, one line, as Renderer does.
-PixelStory pixelStory(Renderer& renderer, SceneViews& views, const PixelQuestion& question);
+PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuestion& question);
 
 }  // namespace diptych

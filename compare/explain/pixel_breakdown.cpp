@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/pixel_story.h"
+#include "compare/explain/pixel_breakdown.h"
 
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
@@ -97,9 +97,9 @@ Coverage pixelAlone(Coverage coverage, const PixelQuestion& question) {
     return coverage;
 }
 
-class Teller {
+class BreakdownBuilder {
 public:
-    Teller(Renderer& renderer, SceneViews& views, const PixelQuestion& question)
+    BreakdownBuilder(Renderer& renderer, SceneViews& views, const PixelQuestion& question)
         : renderer_(renderer),
           question_(question),
           scene_(views.scene()),
@@ -118,22 +118,22 @@ public:
         lit_floor_ = floorOf(debugMode(numberOf(gpu::DEBUG_lit)));
     }
 
-    PixelStory tell() {
-        story_.scene = frames_[0].scene;
-        story_.camera = frames_[0].camera.name;
-        story_.x = question_.x;
-        story_.y = question_.y;
-        story_.size = question_.baseline.size;
-        story_.settings = {question_.baseline, question_.test};
-        story_.mode = question_.reference.reference_mode;
-        story_.names = {frames_[0].name, frames_[1].name};
+    PixelBreakdown build() {
+        breakdown_.scene = frames_[0].scene;
+        breakdown_.camera = frames_[0].camera.name;
+        breakdown_.x = question_.x;
+        breakdown_.y = question_.y;
+        breakdown_.size = question_.baseline.size;
+        breakdown_.settings = {question_.baseline, question_.test};
+        breakdown_.mode = question_.reference.reference_mode;
+        breakdown_.names = {frames_[0].name, frames_[1].name};
         findSurface();
         const std::array<Rgb3, 3> blended = blendedOver();
-        story_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
+        breakdown_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
         for (const int mode : stepOrder) takeStep(debugMode(mode));
         takeFacts();
-        if (story_.shown) takeTerms();
-        return std::move(story_);
+        if (breakdown_.shown) takeTerms();
+        return std::move(breakdown_);
     }
 
 private:
@@ -158,13 +158,13 @@ private:
             const int id =
                 static_cast<int>(valueOf(frame, debugMode(numberOf(gpu::DEBUG_material_id))).at(0));
             if (id < 0) continue;
-            story_.shown = true;
-            story_.material = id;
+            breakdown_.shown = true;
+            breakdown_.material = id;
             if (static_cast<std::size_t>(id) < scene_.materials.size())
-                story_.material_name = oneLine(scene_.materials[static_cast<std::size_t>(id)].name);
+                breakdown_.material_name = oneLine(scene_.materials[static_cast<std::size_t>(id)].name);
             const PixelValue place = valueOf(frame, debugMode(numberOf(gpu::DEBUG_position)));
             const glm::dvec3 eye = view_.view.eye();
-            story_.position = {eye.x + place.at(0), eye.y + place.at(1), eye.z + place.at(2)};
+            breakdown_.position = {eye.x + place.at(0), eye.y + place.at(1), eye.z + place.at(2)};
             return;
         }
     }
@@ -201,7 +201,7 @@ private:
             step.tolerance.because = notMadeBecause(frames_.at(images[0] ? 1 : 0).settings, mode);
             if (step.tolerance.because.empty())
                 step.tolerance.because = std::string(nameOf(lacking)) + " does not have it";
-            story_.steps.push_back(std::move(step));
+            breakdown_.steps.push_back(std::move(step));
             return;
         }
         const PixelError error(mode.metric, mode.kind, *images[0], covered_);
@@ -211,7 +211,7 @@ private:
         step.explained = encodingExplains(mode, pair_, pixel_);
         const bool judged = ruleFor(question_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
         step.beyond = !(step.difference <= step.tolerance.max) || (judged && step.explained == false);
-        story_.steps.push_back(std::move(step));
+        breakdown_.steps.push_back(std::move(step));
     }
 
     void takeFacts() {
@@ -221,21 +221,21 @@ private:
                 : castingLights(view_.lights, question_.baseline.shadow_lights);
         for (std::size_t i = 0; i < view_.lights.size(); ++i) {
             const Light& light = view_.lights[i];
-            const glm::dvec3 place(story_.position[0], story_.position[1], story_.position[2]);
-            story_.lights.push_back({.name = oneLine(light.name),
-                                     .kind = nameOf(light.kind),
-                                     .distance = light.kind == LightKind::directional
-                                                     ? std::numeric_limits<double>::infinity()
-                                                     : glm::distance(light.position, place),
-                                     .range = double{light.range},
-                                     .casts = std::ranges::find(casters, i) != casters.end()});
+            const glm::dvec3 place(breakdown_.position[0], breakdown_.position[1], breakdown_.position[2]);
+            breakdown_.lights.push_back({.name = oneLine(light.name),
+                                         .kind = nameOf(light.kind),
+                                         .distance = light.kind == LightKind::directional
+                                                         ? std::numeric_limits<double>::infinity()
+                                                         : glm::distance(light.position, place),
+                                         .range = double{light.range},
+                                         .casts = std::ranges::find(casters, i) != casters.end()});
         }
     }
 
     // Whether the reference has light of it here, or a path may evaluate it.
     bool mayMatter(std::size_t light) const {
-        return sentBy(light) > 0 || !story_.lists_known[0] || !story_.lists_known[1] ||
-               story_.lights[light].listed[0] || story_.lights[light].listed[1];
+        return sentBy(light) > 0 || !breakdown_.lists_known[0] || !breakdown_.lists_known[1] ||
+               breakdown_.lights[light].listed[0] || breakdown_.lights[light].listed[1];
     }
     // By the reference, the largest component; 0 where it sees background.
     double sentBy(std::size_t light) const {
@@ -248,7 +248,7 @@ private:
         std::vector<std::size_t> order(view_.lights.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         const auto key = [&](std::size_t i) {
-            return std::tuple(-sentBy(i), !mayMatter(i), story_.lights[i].distance);
+            return std::tuple(-sentBy(i), !mayMatter(i), breakdown_.lights[i].distance);
         };
         std::ranges::stable_sort(order, {}, key);
         return order;
@@ -268,8 +268,8 @@ private:
         const double rounding =
             pair_.cpu ? 0 : gpuUlps * 0x1p-23 * std::max(largest(values[0]), largest(values[1]));
         term.differs = judged && !(largest(apart) <= rounding);
-        story_.terms.push_back(std::move(term));
-        return story_.terms.back();
+        breakdown_.terms.push_back(std::move(term));
+        return breakdown_.terms.back();
     }
 
     void takeLists(std::array<LightTerms, 2>& alone) {
@@ -280,8 +280,8 @@ private:
             const double count = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count))).at(0);
             // What was read must be what the pixel says that it evaluated.
             if (!list || static_cast<double>(list->size()) != count) continue;
-            story_.lists_known.at(side) = true;
-            for (const std::size_t light : *list) story_.lights[light].listed.at(side) = true;
+            breakdown_.lists_known.at(side) = true;
+            for (const std::size_t light : *list) breakdown_.lights[light].listed.at(side) = true;
         }
     }
 
@@ -306,18 +306,18 @@ private:
             add(kind, std::move(lights), values, truth, uncertainty);
         };
         const std::vector<std::size_t> order = byImportance();
-        story_.drawn_alone = std::min(static_cast<std::size_t>(std::ranges::count_if(
-                                          order, [&](std::size_t i) { return mayMatter(i); })),
-                                      lightsDrawnAlone);
-        for (std::size_t i = 0; i < story_.drawn_alone; ++i) {
+        breakdown_.drawn_alone = std::min(static_cast<std::size_t>(std::ranges::count_if(
+                                              order, [&](std::size_t i) { return mayMatter(i); })),
+                                          lightsDrawnAlone);
+        for (std::size_t i = 0; i < breakdown_.drawn_alone; ++i) {
             question_.progress.at(
-                0.65 + 0.35 * static_cast<double>(i) / static_cast<double>(story_.drawn_alone),
+                0.65 + 0.35 * static_cast<double>(i) / static_cast<double>(breakdown_.drawn_alone),
                 "render one light");
             take(PixelTerm::Kind::light, {order[i]});
         }
-        if (story_.drawn_alone < order.size()) {
-            std::vector<std::size_t> others(order.begin() + static_cast<std::ptrdiff_t>(story_.drawn_alone),
-                                            order.end());
+        if (breakdown_.drawn_alone < order.size()) {
+            std::vector<std::size_t> others(
+                order.begin() + static_cast<std::ptrdiff_t>(breakdown_.drawn_alone), order.end());
             std::ranges::sort(others);
             take(PixelTerm::Kind::other_lights, std::move(others));
         }
@@ -406,7 +406,7 @@ private:
     void takeSum() {
         std::array<Rgb3, 3> sums{};
         std::array<double, 3> sizes{};  // of the summands
-        for (const PixelTerm& term : story_.terms)
+        for (const PixelTerm& term : breakdown_.terms)
             for (std::size_t side = 0; side < 3; ++side) {
                 const Rgb3 value = side < 2 ? term.values.at(side) : term.reference.value_or(Rgb3{});
                 if (term.kind == PixelTerm::Kind::transmittance) {
@@ -426,9 +426,9 @@ private:
         // than all summands together.
         for (std::size_t side = 0; side < 2; ++side) {
             const PixelValue lights = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count)));
-            story_.residual_rounding.at(side) = (lights.at(0) + 8) * 0x1p-23 * sizes.at(side);
+            breakdown_.residual_rounding.at(side) = (lights.at(0) + 8) * 0x1p-23 * sizes.at(side);
         }
-        story_.residual_rounding[2] = std::max(2 * reference_.uncertainty, 1e-9 * sizes[2]);
+        breakdown_.residual_rounding[2] = std::max(2 * reference_.uncertainty, 1e-9 * sizes[2]);
     }
 
     Renderer& renderer_;
@@ -441,7 +441,7 @@ private:
     const std::size_t pixel_;
     reference::PixelLight reference_;
     double lit_floor_ = 0;
-    PixelStory story_;
+    PixelBreakdown breakdown_;
 };
 
 }  // namespace
@@ -460,7 +460,7 @@ std::span<const int> pixelSteps() {
     return stepOrder;
 }
 
-PixelStory::First PixelStory::first() const {
+PixelBreakdown::First PixelBreakdown::first() const {
     for (const PixelStep& step : steps)
         if (step.differs && !isAfterTerms(step.mode->number)) return {&step, nullptr};
     for (const PixelTerm& term : terms)
@@ -470,12 +470,12 @@ PixelStory::First PixelStory::first() const {
     return {};
 }
 
-std::size_t PixelStory::differing() const {
+std::size_t PixelBreakdown::differing() const {
     return static_cast<std::size_t>(std::ranges::count_if(steps, &PixelStep::differs));
 }
 
-PixelStory pixelStory(Renderer& renderer, SceneViews& views, const PixelQuestion& question) {
-    return Teller(renderer, views, question).tell();
+PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuestion& question) {
+    return BreakdownBuilder(renderer, views, question).build();
 }
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a pixel's story says of steps and terms, without drawing.
+// What a pixel's breakdown says of steps and terms, without drawing.
 #include "compare/explain/pixel_words.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -25,19 +25,19 @@ PixelStep stepOf(gpu::uint mode, const PixelValue& a, const PixelValue& b, doubl
     return step;
 }
 
-PixelStory storyOf(std::vector<PixelStep> steps) {
-    PixelStory story;
-    story.names = {"deferred", "forward_plus"};
-    story.size = {4, 4};
-    story.shown = true;
-    story.steps = std::move(steps);
+PixelBreakdown breakdownOf(std::vector<PixelStep> steps) {
+    PixelBreakdown breakdown;
+    breakdown.names = {"deferred", "forward_plus"};
+    breakdown.size = {4, 4};
+    breakdown.shown = true;
+    breakdown.steps = std::move(steps);
     for (const PixelTerm::Kind kind : {PixelTerm::Kind::sum, PixelTerm::Kind::lit, PixelTerm::Kind::residual})
-        story.terms.push_back({.kind = kind, .reference = std::array{0.0, 0.0, 0.0}});
-    return story;
+        breakdown.terms.push_back({.kind = kind, .reference = std::array{0.0, 0.0, 0.0}});
+    return breakdown;
 }
 
 // A channel that is no step would be left out without a word.
-TEST(PixelStory, EveryChannelIsAStepOnce) {
+TEST(PixelBreakdown, EveryChannelIsAStepOnce) {
     std::vector<int> steps(pixelSteps().begin(), pixelSteps().end()), all;
     std::ranges::sort(steps);
     for (const DebugMode& mode : debugModes()) all.push_back(mode.number);
@@ -47,47 +47,47 @@ TEST(PixelStory, EveryChannelIsAStepOnce) {
     EXPECT_TRUE(std::ranges::is_partitioned(pixelSteps(), [](int mode) { return !isAfterTerms(mode); }));
 }
 
-TEST(PixelStory, NamesTheFirstStepThatDiffers) {
-    PixelStory story =
-        storyOf({stepOf(gpu::DEBUG_depth, {1}, {1}, 0), stepOf(gpu::DEBUG_roughness, {0.3}, {0.30012}, 0.002),
-                 stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
+TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
+    PixelBreakdown breakdown = breakdownOf({stepOf(gpu::DEBUG_depth, {1}, {1}, 0),
+                                            stepOf(gpu::DEBUG_roughness, {0.3}, {0.30012}, 0.002),
+                                            stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
     EXPECT_EQ(
-        firstDifference(story),
+        firstDifference(breakdown),
         "the first step that differs by more than rounding: roughness (0.30012 against 0.3, 0.00012 in its "
         "metric, absolute, tolerance 0.002: half a step)");
-    std::string words = inWords(story);
+    std::string words = inWords(breakdown);
     EXPECT_NE(words.find("2 channels differ: roughness, lit\n"), std::string::npos) << words;
     EXPECT_NE(words.find("FAIL: at this pixel beyond tolerance: lit\n"), std::string::npos) << words;
     // A difference that is rounding is none.
-    story.steps[1].differs = story.steps[2].differs = false;
-    story.steps[2].beyond = false;
-    EXPECT_EQ(firstDifference(story), "no step differs by more than rounding");
-    words = inWords(story);
+    breakdown.steps[1].differs = breakdown.steps[2].differs = false;
+    breakdown.steps[2].beyond = false;
+    EXPECT_EQ(firstDifference(breakdown), "no step differs by more than rounding");
+    words = inWords(breakdown);
     EXPECT_NE(words.find("pass: at this pixel all 3 shared channels"), std::string::npos) << words;
-    EXPECT_EQ(toJson(story)["first_difference"], nullptr);
+    EXPECT_EQ(toJson(breakdown)["first_difference"], nullptr);
 }
 
 // Light that differs while the surface is the same is a step before those that it makes.
-TEST(PixelStory, ATermComesBeforeTheLightItMakes) {
-    PixelStory story = storyOf(
+TEST(PixelBreakdown, ATermComesBeforeTheLightItMakes) {
+    PixelBreakdown breakdown = breakdownOf(
         {stepOf(gpu::DEBUG_depth, {1}, {1}, 0), stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
-    story.lights.push_back({.name = "lamp", .kind = "point"});
+    breakdown.lights.push_back({.name = "lamp", .kind = "point"});
     PixelTerm lamp{.lights = {0}};
     lamp.values = {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 1.5}};
     lamp.difference = 0.5;
     lamp.differs = true;
-    story.terms.insert(story.terms.begin(), lamp);
+    breakdown.terms.insert(breakdown.terms.begin(), lamp);
     EXPECT_EQ(
-        firstDifference(story),
+        firstDifference(breakdown),
         "the first step that differs by more than rounding: light 0, point \"lamp\" (1 1 1.5 against 1 1 1 "
         "W/(sr m^2), relative difference 0.5; the surfaces are the same)");
-    EXPECT_EQ(toJson(story)["first_difference"], "light 0");
+    EXPECT_EQ(toJson(breakdown)["first_difference"], "light 0");
 }
 
-TEST(PixelStory, ShowsAsManyDigitsAsADifferenceTakes) {
-    const PixelStory story = storyOf({stepOf(gpu::DEBUG_metallic, {0.25}, {0.25000003}, 1)});
-    EXPECT_NE(firstDifference(story).find("0.25000003 against 0.25,"), std::string::npos)
-        << firstDifference(story);
+TEST(PixelBreakdown, ShowsAsManyDigitsAsADifferenceTakes) {
+    const PixelBreakdown breakdown = breakdownOf({stepOf(gpu::DEBUG_metallic, {0.25}, {0.25000003}, 1)});
+    EXPECT_NE(firstDifference(breakdown).find("0.25000003 against 0.25,"), std::string::npos)
+        << firstDifference(breakdown);
 }
 
 }  // namespace
