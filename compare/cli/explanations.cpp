@@ -69,7 +69,7 @@ const std::vector<std::vector<SurfaceChange>> otherSurfaces{
 
 // Renders the view of `plain` with the accepted changes; empty if there are none. A change is accepted if
 // it brings lit closer to the other renderer by at least half of its effect, the criterion of
-// unsaid_settings.h.
+// undeclared_settings.h.
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
     const auto lit = [](const Frame& frame) -> const Image& {

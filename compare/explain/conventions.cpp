@@ -20,7 +20,7 @@ constexpr std::array knownConventions{
     Convention{"multiscatter", "energy", "multiple scattering between microfacets, as a gain of the lobe"},
     Convention{"multiscatter", "fdez", "multiple scattering between microfacets, as a separate lobe"},
 };
-// The same threshold as for other undeclared Settings (unsaid_settings.cpp).
+// The same threshold as for other undeclared Settings (undeclared_settings.cpp).
 constexpr double worthHaving = 0.5;
 
 bool hasTwice(const std::vector<Convention>& some) {

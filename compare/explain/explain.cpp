@@ -7,7 +7,7 @@
 #include "compare/explain/light_shares.h"
 #include "compare/explain/shapley.h"
 #include "compare/explain/swaps.h"
-#include "compare/explain/unsaid_settings.h"
+#include "compare/explain/undeclared_settings.h"
 #include "compare/metrics/flip.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -238,9 +238,9 @@ Explanation explain(Device& device, Renderer& renderer, const Scene& scene, cons
     found.reproduction = {sides.reproduction(0), sides.reproduction(1)};
     if (found.distance > 0) {
         sides.findExposure();
-        const std::vector<UnsaidSetting> unsaid = unsaidSettings(sides, lighting);
-        if (!unsaid.empty()) sides.believe(unsaid.back().settings, lighting);
-        Swaps swaps(sides, lighting, scene, unsaid);
+        const std::vector<UndeclaredSetting> undeclared = undeclaredSettings(sides, lighting);
+        if (!undeclared.empty()) sides.believe(undeclared.back().settings, lighting);
+        Swaps swaps(sides, lighting, scene, undeclared);
         found.inert = swaps.inert();
         LightShares lights(sides, lighting, swaps);
         rank(swapCauses(swaps, a, progress, found), swaps, scene, sides, lights, found);

@@ -20,18 +20,18 @@ namespace diptych {
 namespace {
 
 std::vector<Swap> swappedSettings(const Settings& baseline, const Settings& test,
-                                  std::span<const UnsaidSetting> unsaid) {
+                                  std::span<const UndeclaredSetting> undeclared) {
     const std::span<const std::string_view> in_channels = settingsInChannels();
     std::vector<Swap> settings;
     for (const Field& field : settingFields()) {
         const std::string_view option = field.option;
         if (std::ranges::count(in_channels, option) > 0 || baseline.valueOf(option) == test.valueOf(option))
             continue;
-        const auto found = std::ranges::find(unsaid, option, &UnsaidSetting::option);
+        const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
         settings.push_back({Swap::Kind::setting, 0, std::string(option),
-                            found != unsaid.end() ? found->shows
-                                                  : fmt::format("{} instead of {}", test.valueOf(option),
-                                                                baseline.valueOf(option))});
+                            found != undeclared.end() ? found->shows
+                                                      : fmt::format("{} instead of {}", test.valueOf(option),
+                                                                    baseline.valueOf(option))});
     }
     return settings;
 }
@@ -39,7 +39,7 @@ std::vector<Swap> swappedSettings(const Settings& baseline, const Settings& test
 }  // namespace
 
 Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
-             std::span<const UnsaidSetting> unsaid)
+             std::span<const UndeclaredSetting> undeclared)
     : sides_(sides), lighting_(lighting) {
     findChannels();
     const std::string rest = sides.restName();
@@ -51,7 +51,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
         causes_.push_back({Swap::Kind::exposure, 0, "exposure",
                            fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
     // Last, so that subsets with equal Settings are consecutive: each change needs a frame.
-    std::ranges::move(swappedSettings(sides.settings(0), sides.settings(1), unsaid),
+    std::ranges::move(swappedSettings(sides.settings(0), sides.settings(1), undeclared),
                       std::back_inserter(causes_));
     if (causes_.size() > static_cast<std::size_t>(mostCauses))
         throw std::runtime_error(

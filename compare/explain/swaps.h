@@ -6,7 +6,7 @@
 #include "compare/explain/explained_sides.h"
 #include "compare/explain/lighting_stages.h"
 #include "compare/explain/shapley.h"
-#include "compare/explain/unsaid_settings.h"
+#include "compare/explain/undeclared_settings.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
@@ -33,10 +33,10 @@ struct Swap {
 // The constructor arguments must outlive it.
 class Swaps {
 public:
-    // `unsaid`: undeclared Settings of the test. Throws std::runtime_error, one line, if there are more
+    // `undeclared`: undeclared Settings of the test. Throws std::runtime_error, one line, if there are more
     // than mostCauses causes.
     Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
-          std::span<const UnsaidSetting> unsaid);
+          std::span<const UndeclaredSetting> undeclared);
 
     const std::vector<Swap>& causes() const { return causes_; }
     // Channels that differ and change no pixel, alone or after all others: not causes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/unsaid_settings.h"
+#include "compare/explain/undeclared_settings.h"
 
 #include "compare/explain/conventions.h"
 #include "compare/explain/exposure.h"
@@ -29,12 +29,12 @@ constexpr double believedRest = 0.5;
 constexpr int mostBelieved = 3;
 constexpr double leastBrighter = 0.01;
 
-class UnsaidSearch {
+class UndeclaredSearch {
 public:
-    UnsaidSearch(const ExplainedSides& sides, ChannelLighting& lighting)
+    UndeclaredSearch(const ExplainedSides& sides, ChannelLighting& lighting)
         : sides_(sides), lighting_(lighting), said_(sides.settings(1)) {}
 
-    std::vector<UnsaidSetting> find() {
+    std::vector<UndeclaredSetting> find() {
         for (std::size_t side = 0; side < 2; ++side)
             beyond_.at(side) = beyond(comparable(sides_.settings(side), side), side);
         if (sameBits(beyond_[0], beyond_[1])) return {};
@@ -42,9 +42,9 @@ public:
         double left = meanOf(errorsOf(beyond_[1], beyond_[0]));
         for (int believed = 0; believed < mostBelieved && left > 0; ++believed) {
             double least = left;
-            std::optional<UnsaidSetting> best;
+            std::optional<UndeclaredSetting> best;
             const Image said = comparable(said_, 1);
-            for (UnsaidSetting& tried : triedSettings()) {
+            for (UndeclaredSetting& tried : triedSettings()) {
                 const Image ours = comparable(tried.settings, 1);
                 // A true change of ambient light also affects the haze.
                 if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
@@ -77,10 +77,10 @@ private:
         beyond_[1] = beyond(comparable(said_, 1), 1);
     }
 
-    std::vector<UnsaidSetting> triedSettings() {
-        std::vector<UnsaidSetting> all;
+    std::vector<UndeclaredSetting> triedSettings() {
+        std::vector<UndeclaredSetting> all;
         const auto tryIt = [&](std::string_view option, std::string shows, bool guessed, const auto& change) {
-            if (std::ranges::count(found_, option, &UnsaidSetting::option) > 0) return;
+            if (std::ranges::count(found_, option, &UndeclaredSetting::option) > 0) return;
             all.push_back({option, said_, std::move(shows), guessed});
             change(all.back().settings);
         };
@@ -196,14 +196,14 @@ private:
     ChannelLighting& lighting_;
     Settings said_;                // the test's, with the accepted ones
     std::array<Image, 2> beyond_;  // beyond() under each side's Settings
-    std::vector<UnsaidSetting> found_;
+    std::vector<UndeclaredSetting> found_;
 };
 
 }  // namespace
 
-std::vector<UnsaidSetting> unsaidSettings(const ExplainedSides& sides, ChannelLighting& lighting) {
+std::vector<UndeclaredSetting> undeclaredSettings(const ExplainedSides& sides, ChannelLighting& lighting) {
     if (!sides.restName().empty() || !sides.restsDiffer()) return {};
-    return UnsaidSearch(sides, lighting).find();
+    return UndeclaredSearch(sides, lighting).find();
 }
 
 }  // namespace diptych

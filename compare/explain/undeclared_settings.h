@@ -14,7 +14,7 @@
 namespace diptych {
 
 // A Setting that the test may use without declaring it.
-struct UnsaidSetting {
+struct UndeclaredSetting {
     std::string_view option;
     Settings settings;  // the test's with this one and all accepted before it
     std::string shows;
@@ -22,6 +22,6 @@ struct UnsaidSetting {
 };
 
 // The accepted Settings, in the order in which they are found; empty if the residual's source is known.
-std::vector<UnsaidSetting> unsaidSettings(const ExplainedSides& sides, ChannelLighting& lighting);
+std::vector<UndeclaredSetting> undeclaredSettings(const ExplainedSides& sides, ChannelLighting& lighting);
 
 }  // namespace diptych
