@@ -4,7 +4,7 @@
 #include "compare/explain/conventions.h"
 #include "compare/explain/exposure.h"
 #include "compare/explain/frame_images.h"
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -49,11 +49,11 @@ public:
                 // A true change of ambient light also affects the haze.
                 if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
                 const double changed = meanOf(errorsOf(ours, said));
-                const double rest = meanOf(errorsOf(beyond(ours, 1), beyond_[0]));
-                if (!(rest < least) || !(left - rest > believedRest * changed) ||
-                    (tried.guessed && !(rest < believedRest * left)))
+                const double residual = meanOf(errorsOf(beyond(ours, 1), beyond_[0]));
+                if (!(residual < least) || !(left - residual > believedRest * changed) ||
+                    (tried.guessed && !(residual < believedRest * left)))
                     continue;
-                least = rest;
+                least = residual;
                 best = std::move(tried);
             }
             if (!best) break;
@@ -202,7 +202,7 @@ private:
 }  // namespace
 
 std::vector<UndeclaredSetting> undeclaredSettings(const ExplainedSides& sides, ChannelLighting& lighting) {
-    if (!sides.restName().empty() || !sides.restsDiffer()) return {};
+    if (!sides.residualName().empty() || !sides.residualsDiffer()) return {};
     return UndeclaredSearch(sides, lighting).find();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explanations of differences whose causes are known, because they were planted.
 #include "compare/explain/explain.h"
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "compare/picture/picture.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/image/planted_faults.h"
 
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 
@@ -498,8 +498,7 @@ bool PlantedView::covered(std::size_t pixel) const {
 
 // lit and its terms of the Frame's channels.
 void PlantedView::shadeInto(Frame& frame, const Settings& drawn) {
-    for (std::size_t c = 0; c < surfaceChannels().size(); ++c)
-        images_.set(0, c, frame);
+    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) images_.set(0, c, frame);
     std::optional<ChannelShading> other;
     if (!shading_)
         shading_.emplace(renderer.shadeChannels(settings, images_));

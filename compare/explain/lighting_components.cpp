@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 
 #include "shared/contract/debug_mode.h"
 
@@ -146,19 +146,19 @@ Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
     return sum;
 }
 
-LightingStages::LightingStages(const Frame& baseline, const Frame& test, const Image& lit,
-                               const std::array<LitSurfaces, 2>& own) {
+LightingComponents::LightingComponents(const Frame& baseline, const Frame& test, const Image& lit,
+                                       const std::array<LitSurfaces, 2>& own) {
     const auto blank = [&] { return Image(lit.width, lit.height, 3); };
     const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
         ours{termsOf(own[0].terms), termsOf(own[1].terms)};
     // The residual of each term, and of lit. The latter is lit minus the sum of a side's terms, minus the
     // same for our lighting: the background and blended surfaces.
-    std::array<std::array<Image, 6>, 2> rest;
+    std::array<std::array<Image, 6>, 2> residual;
     const std::vector<std::uint8_t> blended = blendedIn(own);
     for (std::size_t side = 0; side < 2; ++side) {
-        for (Image& image : rest.at(side)) image = blank();
+        for (Image& image : residual.at(side)) image = blank();
         std::array<float*, 6> out{};
-        for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = rest.at(side).at(t).data.data();
+        for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = residual.at(side).at(t).data.data();
         const Image& seen = side == 0 ? *channelIn(baseline, gpu::DEBUG_lit) : lit;
         forEach(seen.data.size(), [&](std::size_t i) {
             const auto theirs = termsAt(files.at(side), i), mine = termsAt(ours.at(side), i);
@@ -178,9 +178,8 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
     for (std::size_t t = 0; t < change.size(); ++t) {
         change.at(t) = blank();
         float* const out = change.at(t).data.data();
-        const float *const a = std::as_const(rest[0].at(t)).data.data(), *const b =
-                                                                             std::as_const(rest[1].at(t))
-                                                                                 .data.data();
+        const float *const a = std::as_const(residual[0].at(t)).data.data(),
+                           *const b = std::as_const(residual[1].at(t)).data.data();
         forEach(change.at(t).data.size(), [&](std::size_t i) { out[i] = a[i] - b[i]; });
     }
     const auto add = [&](std::string name, std::string shows, std::array<Image, 6> adds) {
@@ -189,11 +188,11 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
             if (!image.empty() && isNothing(image)) image = Image();
             nothing = nothing && image.empty();
         }
-        if (!nothing) stages_.push_back({std::move(name), std::move(shows), std::move(adds)});
+        if (!nothing) components_.push_back({std::move(name), std::move(shows), std::move(adds)});
     };
-    // Applies to the last added stage.
+    // Applies to the last added component.
     const auto isOfLights = [&](const std::string& name, LightChange how) {
-        if (!stages_.empty() && stages_.back().name == name) stages_.back().lights = how;
+        if (!components_.empty() && components_.back().name == name) components_.back().lights = how;
     };
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
@@ -236,19 +235,19 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
     air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
     add("haze in the air", "transmittance and scattered light of the haze", std::move(air));
     std::array<Image, 6> behind, over, emitted, order;
-    for (std::array<Image, 6>* const stage : {&behind, &over, &emitted, &order})
-        stage->at(wholeTerm) = blank();
+    for (std::array<Image, 6>* const component : {&behind, &over, &emitted, &order})
+        component->at(wholeTerm) = blank();
     const std::array<const Image*, 2> ids{channelIn(baseline, gpu::DEBUG_material_id),
                                           channelIn(test, gpu::DEBUG_material_id)};
     const std::vector<std::uint8_t> emits = changesWithEmission(change.at(wholeTerm), blended, own, files);
     for (std::size_t i = 0; i < lit.data.size(); ++i) {
         const bool surface =
             ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
-        std::array<Image, 6>& stage = !surface                          ? behind
-                                      : blended[i / 3] != 0             ? over
-                                      : !emits.empty() && emits[i] != 0 ? emitted
-                                                                        : order;
-        stage.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
+        std::array<Image, 6>& component = !surface                          ? behind
+                                          : blended[i / 3] != 0             ? over
+                                          : !emits.empty() && emits[i] != 0 ? emitted
+                                                                            : order;
+        component.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
     }
     add("background", "pixels without a surface and without blending", std::move(behind));
     add("transparency", "fragments blended over surfaces and background", std::move(over));
@@ -256,27 +255,27 @@ LightingStages::LightingStages(const Frame& baseline, const Frame& test, const I
         std::move(emitted));
     add("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
         std::move(order));
-    rest_ = std::move(rest[1]);
+    residual_ = std::move(residual[1]);
 }
 
-Image LightingStages::directLight(const Stage& stage, const LightChannels& of) {
-    if (stage.adds.at(diffuseTerm).empty()) return of.specular;
-    return stage.adds.at(specularTerm).empty() ? of.diffuse : sumOfLobes(of);
+Image LightingComponents::directLight(const Component& component, const LightChannels& of) {
+    if (component.adds.at(diffuseTerm).empty()) return of.specular;
+    return component.adds.at(specularTerm).empty() ? of.diffuse : sumOfLobes(of);
 }
 
-LightChannels LightingStages::change(const Stage& stage) {
-    return {stage.adds.at(diffuseTerm), stage.adds.at(specularTerm)};
+LightChannels LightingComponents::change(const Component& component) {
+    return {component.adds.at(diffuseTerm), component.adds.at(specularTerm)};
 }
 
-Image LightingStages::lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const {
+Image LightingComponents::lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const {
     Image lit(surfaces.lit.width, surfaces.lit.height, 3);
     const Terms terms = termsOf(surfaces.terms);
     std::array<std::vector<const float*>, 6> added;
     for (std::size_t t = 0; t < added.size(); ++t) {
-        added.at(t).push_back(rest_.at(t).data.data());
-        for (std::size_t s = 0; s < stages_.size(); ++s)
-            if (taken.at(s) && !stages_[s].adds.at(t).empty())
-                added.at(t).push_back(stages_[s].adds.at(t).data.data());
+        added.at(t).push_back(residual_.at(t).data.data());
+        for (std::size_t s = 0; s < components_.size(); ++s)
+            if (taken.at(s) && !components_[s].adds.at(t).empty())
+                added.at(t).push_back(components_[s].adds.at(t).data.data());
     }
     float* const out = lit.data.data();
     forEach(lit.data.size(), [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/swaps.h"
+#include "compare/explain/ablation.h"
 
 #include "compare/explain/frame_images.h"
 #include "shared/contract/debug_mode.h"
@@ -19,16 +19,16 @@ namespace diptych {
 
 namespace {
 
-std::vector<Swap> swappedSettings(const Settings& baseline, const Settings& test,
-                                  std::span<const UndeclaredSetting> undeclared) {
+std::vector<AblationCause> ablatedSettings(const Settings& baseline, const Settings& test,
+                                           std::span<const UndeclaredSetting> undeclared) {
     const std::span<const std::string_view> in_channels = settingsInChannels();
-    std::vector<Swap> settings;
+    std::vector<AblationCause> settings;
     for (const Field& field : settingFields()) {
         const std::string_view option = field.option;
         if (std::ranges::count(in_channels, option) > 0 || baseline.valueOf(option) == test.valueOf(option))
             continue;
         const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
-        settings.push_back({Swap::Kind::setting, 0, std::string(option),
+        settings.push_back({AblationCause::Kind::setting, 0, std::string(option),
                             found != undeclared.end() ? found->shows
                                                       : fmt::format("{} instead of {}", test.valueOf(option),
                                                                     baseline.valueOf(option))});
@@ -38,20 +38,20 @@ std::vector<Swap> swappedSettings(const Settings& baseline, const Settings& test
 
 }  // namespace
 
-Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
-             std::span<const UndeclaredSetting> undeclared)
+Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
+                   std::span<const UndeclaredSetting> undeclared)
     : sides_(sides), lighting_(lighting) {
     findChannels();
-    const std::string rest = sides.restName();
-    if (!rest.empty() && sides.restsDiffer())
-        causes_.push_back({Swap::Kind::rest, 0, rest,
+    const std::string residual = sides.residualName();
+    if (!residual.empty() && sides.residualsDiffer())
+        causes_.push_back({AblationCause::Kind::residual, 0, residual,
                            "the part of lit that lighting a side's own channels does not reproduce"});
-    if (rest.empty() && sides.restsDiffer() && sides.haveTerms()) findStages(scene);
+    if (residual.empty() && sides.residualsDiffer() && sides.haveTerms()) findComponents(scene);
     if (sides.exposure() != 1)
-        causes_.push_back({Swap::Kind::exposure, 0, "exposure",
+        causes_.push_back({AblationCause::Kind::exposure, 0, "exposure",
                            fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
     // Last, so that subsets with equal Settings are consecutive: each change needs a frame.
-    std::ranges::move(swappedSettings(sides.settings(0), sides.settings(1), undeclared),
+    std::ranges::move(ablatedSettings(sides.settings(0), sides.settings(1), undeclared),
                       std::back_inserter(causes_));
     if (causes_.size() > static_cast<std::size_t>(mostCauses))
         throw std::runtime_error(
@@ -60,7 +60,7 @@ Swaps::Swaps(const ExplainedSides& sides, ChannelLighting& lighting, const Scene
 }
 
 // Describes roughness widened by specular anti-aliasing, and normals changed by skinning.
-std::string Swaps::shownBy(const DebugMode& mode) const {
+std::string Ablation::shownBy(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
     if (widened && mode.name == "roughness")
         return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
@@ -71,28 +71,28 @@ std::string Swaps::shownBy(const DebugMode& mode) const {
     return std::string(mode.shows);
 }
 
-void Swaps::findChannels() {
+void Ablation::findChannels() {
     // Channels that change no pixel, alone or after all others.
-    std::vector<std::size_t> inert = lighting_.differing();
+    std::vector<std::size_t> without_effect = lighting_.differing();
     for (const std::size_t side : {1, 0}) {
         const Settings& settings = sides_.settings(side);
         const std::uint32_t all = allChannelsOf(side);
         const Image whole = lighting_.lit(settings, all);
-        std::erase_if(inert, [&](std::size_t channel) {
+        std::erase_if(without_effect, [&](std::size_t channel) {
             return !sameBits(whole, lighting_.lit(settings, all ^ std::uint32_t{1} << channel));
         });
     }
     for (const std::size_t c : lighting_.differing()) {
         const DebugMode& mode = debugMode(surfaceChannels()[c]);
-        if (std::ranges::count(inert, c) > 0)
-            inert_.emplace_back(mode.name);
+        if (std::ranges::count(without_effect, c) > 0)
+            without_effect_.emplace_back(mode.name);
         else
-            causes_.push_back({Swap::Kind::channel, c, std::string(mode.name), shownBy(mode)});
+            causes_.push_back({AblationCause::Kind::channel, c, std::string(mode.name), shownBy(mode)});
     }
 }
 
 // Finds the lighting components of the residual, if both sides have terms.
-void Swaps::findStages(const Scene& scene) {
+void Ablation::findComponents(const Scene& scene) {
     std::array<LitSurfaces, 2> own;
     for (std::size_t side = 0; side < 2; ++side)
         own.at(side) = lighting_.surfaces(sides_.settings(side), allChannelsOf(side));
@@ -107,36 +107,37 @@ void Swaps::findStages(const Scene& scene) {
         bare.transparency = Transparency::off;
         own.at(side).unblended = lighting_.lit(bare, allChannelsOf(side));
     }
-    stages_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
-    for (std::size_t i = 0; i < stages_->stages().size(); ++i)
-        causes_.push_back({Swap::Kind::stage, i, stages_->stages()[i].name, stages_->stages()[i].shows});
+    components_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
+    for (std::size_t i = 0; i < components_->components().size(); ++i)
+        causes_.push_back({AblationCause::Kind::component, i, components_->components()[i].name,
+                           components_->components()[i].shows});
 }
 
-const LightingStages::Stage* Swaps::stageOf(const Swap& cause) const {
-    return cause.kind == Swap::Kind::stage ? &stages_->stages()[cause.place] : nullptr;
+const LightingComponents::Component* Ablation::componentOf(const AblationCause& cause) const {
+    return cause.kind == AblationCause::Kind::component ? &components_->components()[cause.index] : nullptr;
 }
 
-Image Swaps::lit(Subset subset) {
+Image Ablation::lit(Subset subset) {
     if (subset == 0) return channelOf(sides_.frame(1), gpu::DEBUG_lit);
     std::uint32_t channels = allChannelsOf(1);
-    std::vector<bool> stages(stages_ ? stages_->stages().size() : 0);
-    std::size_t rest = 1;
+    std::vector<bool> components(components_ ? components_->components().size() : 0);
+    std::size_t residual = 1;
     Settings settings = sides_.settings(1);
     float exposure = sides_.exposure();
     for (std::size_t i = 0; i < causes_.size(); ++i) {
         if ((subset >> i & 1) == 0) continue;
-        const Swap& cause = causes_[i];
-        if (cause.kind == Swap::Kind::channel) channels &= ~(std::uint32_t{1} << cause.place);
-        if (cause.kind == Swap::Kind::rest) rest = 0;
-        if (cause.kind == Swap::Kind::stage) stages[cause.place] = true;
-        if (cause.kind == Swap::Kind::setting)
+        const AblationCause& cause = causes_[i];
+        if (cause.kind == AblationCause::Kind::channel) channels &= ~(std::uint32_t{1} << cause.index);
+        if (cause.kind == AblationCause::Kind::residual) residual = 0;
+        if (cause.kind == AblationCause::Kind::component) components[cause.index] = true;
+        if (cause.kind == AblationCause::Kind::setting)
             settings.set(cause.name, sides_.settings(0).valueOf(cause.name));
-        if (cause.kind == Swap::Kind::exposure) exposure = 1;
+        if (cause.kind == AblationCause::Kind::exposure) exposure = 1;
     }
-    Image lit = stages_ ? stages_->lit(lighting_.surfaces(settings, channels), stages)
-                        : lighting_.lit(settings, channels);
-    if (!stages_) {
-        const Image& added = sides_.rest(rest);
+    Image lit = components_ ? components_->lit(lighting_.surfaces(settings, channels), components)
+                            : lighting_.lit(settings, channels);
+    if (!components_) {
+        const Image& added = sides_.residual(residual);
         for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
     }
     if (exposure != 1)

@@ -26,8 +26,8 @@ Image sumOfTerms(const Frame& frame);
 // The same for our terms, with the surfaces' emission.
 Image sumOfTerms(const ChannelTerms& terms, const Image& emission);
 
-// Our lighting of surfaces: lit; its terms before blending; emission; and, if stages are searched for, lit
-// without blended surfaces.
+// Our lighting of surfaces: lit; its terms before blending; emission; and, if components are searched for,
+// lit without blended surfaces.
 struct LitSurfaces {
     Image lit;
     ChannelTerms terms;
@@ -37,31 +37,32 @@ struct LitSurfaces {
 
 // The components in which two Frames differ beyond their channels and Settings. Taking a component from
 // the baseline changes its terms to the baseline's.
-class LightingStages {
+class LightingComponents {
 public:
     // `lit`: the test's, without exposure. `own`: each side's channels relit under its own Settings,
     // baseline and test.
-    LightingStages(const Frame& baseline, const Frame& test, const Image& lit,
-                   const std::array<LitSurfaces, 2>& own);
+    LightingComponents(const Frame& baseline, const Frame& test, const Image& lit,
+                       const std::array<LitSurfaces, 2>& own);
 
-    struct Stage {
+    struct Component {
         std::string name, shows;  // "direct diffuse"
         // Change of each term, and of lit, when taken from the baseline: W x H x 3; empty: none.
         std::array<Image, 6> adds;
         std::optional<LightChange> lights{};  // for direct light: how lights may have changed
     };
-    // Change of direct light by a stage; and the part of direct light in the stage's lobes, W x H x 3.
-    static LightChannels change(const Stage& stage);
-    static Image directLight(const Stage& stage, const LightChannels& of);
-    const std::vector<Stage>& stages() const { return stages_; }
+    // Change of direct light by a component; and the part of direct light in the component's lobes, W x H
+    // x 3.
+    static LightChannels change(const Component& component);
+    static Image directLight(const Component& component, const LightChannels& of);
+    const std::vector<Component>& components() const { return components_; }
 
-    // lit of the surfaces plus the test's residual, with some stages from the baseline. `taken`: one entry
-    // per stage.
+    // lit of the surfaces plus the test's residual, with some components from the baseline. `taken`: one
+    // entry per component.
     Image lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const;
 
 private:
-    std::array<Image, 6> rest_;  // of the test: of each term, and of lit
-    std::vector<Stage> stages_;
+    std::array<Image, 6> residual_;  // of the test: of each term, and of lit
+    std::vector<Component> components_;
 };
 
 }  // namespace diptych
