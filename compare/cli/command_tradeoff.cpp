@@ -11,9 +11,9 @@
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/run/version.h"
-#include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/measure.h"
+#include "compare/tradeoff/sensitivity.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/contract/debug_mode.h"
@@ -121,7 +121,7 @@ public:
         stage.at(loading, "upload");
         SceneViews views(scene);
         if (options_.grid.empty())
-            sweep_ = rowsThatAreFelt(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
+            sweep_ = sensitiveRows(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
         tradeoff_.skips = sweep_.skips;
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);

@@ -119,15 +119,15 @@ AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progre
         const std::vector<double>& weights = subsets[s].weight;
         const Image ablated = ablation.lit(subset);
         const std::vector<double> errors = errorsOf(ablated, lit);
-        const double error = meanOf(errors), felt = hdrFlip(lit, ablated).mean;
+        const double error = meanOf(errors), flip = hdrFlip(lit, ablated).mean;
         values[subset] = -error;
-        if (subset == 0) found.flip = felt;
+        if (subset == 0) found.flip = flip;
         if (subset == all) {
             found.unexplained = error;
             found.unexplained_map = imageOf(errors, lit);
-            found.flip_unexplained = felt;
+            found.flip_unexplained = flip;
         }
-        for (std::size_t i = 0; i < results.flip.size(); ++i) results.flip[i] -= weights[i] * felt;
+        for (std::size_t i = 0; i < results.flip.size(); ++i) results.flip[i] -= weights[i] * flip;
         tbb::parallel_for(std::size_t{0}, results.maps.size(), [&](std::size_t i) {
             const double weight = weights[i];
             for (std::size_t p = 0; p < errors.size(); ++p) results.maps[i][p] -= weight * errors[p];
@@ -195,9 +195,9 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
                              [&](std::size_t a, std::size_t b) { return shares.share[a] > shares.share[b]; });
     // Removes Settings without effect.
     std::erase_if(order, [&](std::size_t i) {
-        const bool felt = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
-        if (!felt) found.without_effect.push_back(ablation.causes()[i].title());
-        return !felt;
+        const bool has_effect = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
+        if (!has_effect) found.without_effect.push_back(ablation.causes()[i].title());
+        return !has_effect;
     });
     for (const std::size_t i : order)
         found.causes.push_back(sharedCause(ablation.causes()[i], results, i, scene, sides, lights));

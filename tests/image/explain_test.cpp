@@ -140,7 +140,7 @@ std::vector<std::string> names(const Explanation& e) {
 
 // Whether lit has changed enough for anything to be explained: a scene without metal cannot feel a fault of
 // it.
-bool isFelt(const Explanation& e) {
+bool hasEffect(const Explanation& e) {
     return e.distance > 0;
 }
 
@@ -149,13 +149,13 @@ class ExplainOf : public testing::TestWithParam<const char*> {};
 // Each fault alone is the only cause, explains all, and shares add up.
 TEST_P(ExplainOf, NamesEachPlantedFault) {
     Planted planted(GetParam(), {96, 54});
-    int felt = 0;
+    int effective = 0;
     for (const Fault& fault : faults()) {
         SCOPED_TRACE(fault.channel + ", " + fault.means);
         const Explanation e =
             explain(device(), planted.renderer, planted.scene, planted.right, planted.with({fault}));
-        if (!isFelt(e)) continue;
-        ++felt;
+        if (!hasEffect(e)) continue;
+        ++effective;
         ASSERT_FALSE(e.causes.empty());
         EXPECT_EQ(e.causes.front().name, fault.channel);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
@@ -173,7 +173,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         for (const MaterialShare& one : e.causes[0].materials) ofMaterials += one.share;
         EXPECT_NEAR(ofMaterials, e.distance, 1e-6 * e.distance);
     }
-    EXPECT_GE(felt, 4);
+    EXPECT_GE(effective, 4);
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
@@ -181,7 +181,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
 TEST_P(ExplainOf, NamesBothOfTwoFaults) {
     Planted planted(GetParam(), {96, 54});
     const std::vector<Fault> all = faults();
-    int felt = 0;
+    int effective = 0;
     for (const auto& [first, second] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}, {0, 3}, {3, 8}}) {
         SCOPED_TRACE(all[first].channel + " and " + all[second].channel);
         const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right,
@@ -189,12 +189,12 @@ TEST_P(ExplainOf, NamesBothOfTwoFaults) {
         const std::vector<std::string> found = names(e);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         if (found.size() < 2) continue;  // the scene cannot feel one of them
-        ++felt;
+        ++effective;
         EXPECT_EQ(found.size(), 2u);
         EXPECT_TRUE(std::ranges::count(found, all[first].channel) == 1 &&
                     std::ranges::count(found, all[second].channel) == 1);
     }
-    EXPECT_GE(felt, 2);
+    EXPECT_GE(effective, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExplainOf,

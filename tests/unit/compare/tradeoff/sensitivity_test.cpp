@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sweep leaves out what the scene cannot feel, and says why.
-#include "compare/tradeoff/felt.h"
+#include "compare/tradeoff/sensitivity.h"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ Light lightOf(LightKind kind, float range = std::numeric_limits<float>::infinity
     return light;
 }
 
-SweepRows feltBy(const std::vector<Light>& lights) {
-    return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), lights);
+SweepRows sensitiveTo(const std::vector<Light>& lights) {
+    return sensitiveRows(makeSweepRows({}, usualGrids({})), lights);
 }
 
 // Values of a Setting among the rows.
@@ -41,8 +41,8 @@ std::string reasonOf(const SweepRows& sweep, const std::string& option, const st
     return {};
 }
 
-TEST(TradeoffFelt, ASunAloneFeelsNoListsAndNoAreaLights) {
-    const SweepRows sweep = feltBy({lightOf(LightKind::directional)});
+TEST(TradeoffSensitivity, ASunAloneFeelsNoListsAndNoAreaLights) {
+    const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});
     EXPECT_EQ(valuesOf(sweep, "assign"), (std::set<std::string>{"clustered", "per_object"}));
     EXPECT_EQ(valuesOf(sweep, "light-cutoff").size(), 1u);
     EXPECT_EQ(valuesOf(sweep, "area-lights").size(), 1u);
@@ -53,37 +53,38 @@ TEST(TradeoffFelt, ASunAloneFeelsNoListsAndNoAreaLights) {
     EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angular size: pcss equals pcf");
 }
 
-TEST(TradeoffFelt, ASunWithADiscFeelsPcss) {
-    EXPECT_TRUE(valuesOf(feltBy({lightOf(LightKind::directional, 1, 0.01f)}), "shadows").contains("pcss"));
+TEST(TradeoffSensitivity, ASunWithADiscFeelsPcss) {
+    EXPECT_TRUE(
+        valuesOf(sensitiveTo({lightOf(LightKind::directional, 1, 0.01f)}), "shadows").contains("pcss"));
 }
 
-TEST(TradeoffFelt, TheCutoffIsFeltByALightWithoutARange) {
-    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff").size(), 1u);
-    EXPECT_EQ(reasonOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff"),
+TEST(TradeoffSensitivity, TheCutoffIsFeltByALightWithoutARange) {
+    EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::point, 3)}), "light-cutoff").size(), 1u);
+    EXPECT_EQ(reasonOf(sensitiveTo({lightOf(LightKind::point, 3)}), "light-cutoff"),
               "every light has its own range");
-    EXPECT_GT(
-        valuesOf(feltBy({lightOf(LightKind::point, 3), lightOf(LightKind::spot)}), "light-cutoff").size(),
-        1u);
+    EXPECT_GT(valuesOf(sensitiveTo({lightOf(LightKind::point, 3), lightOf(LightKind::spot)}), "light-cutoff")
+                  .size(),
+              1u);
 }
 
-TEST(TradeoffFelt, AreaLightsAreVariedWhereThereIsOne) {
-    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::point)}), "area-lights").size(), 1u);
-    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
+TEST(TradeoffSensitivity, AreaLightsAreVariedWhereThereIsOne) {
+    EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::point)}), "area-lights").size(), 1u);
+    EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
 }
 
 // Points cast as soon as --shadow-lights asks for some.
-TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
-    const SweepRows none = feltBy({lightOf(LightKind::rect)});
+TEST(TradeoffSensitivity, ShadowsAreVariedWhereSomethingCasts) {
+    const SweepRows none = sensitiveTo({lightOf(LightKind::rect)});
     EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
     EXPECT_EQ(valuesOf(none, "shadow-size").size(), 1u);
     EXPECT_EQ(valuesOf(none, "evsm-exponent").size(), 1u);
     EXPECT_EQ(reasonOf(none, "shadow-size"),
               "no light casts shadows: no sun, and no point or spot light selected by --shadow-lights");
-    EXPECT_GT(valuesOf(feltBy({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
+    EXPECT_GT(valuesOf(sensitiveTo({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
 // A square of one material under an environment: half of it black and a sun, or the same from everywhere.
-SweepRows feltUnder(const Material& material, bool even) {
+SweepRows sensitiveUnder(const Material& material, bool even) {
     Scene scene;
     scene.materials = {material};
     scene.meshes.resize(1);
@@ -94,15 +95,15 @@ SweepRows feltUnder(const Material& material, bool even) {
     Settings given;
     given.env = "sky.exr";
     given.multiscatter = Multiscatter::energy;
-    return rowsThatAreFelt(makeSweepRows(given, usualGrids(given)), {}, &scene);
+    return sensitiveRows(makeSweepRows(given, usualGrids(given)), {}, &scene);
 }
 
-TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
+TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     Material mixed, metal, matte;
     mixed.metallic = 0.5f;
     metal.metallic = 1;
     matte.metallic = matte.specular = 0;
-    const SweepRows all = feltUnder(mixed, false);
+    const SweepRows all = sensitiveUnder(mixed, false);
     EXPECT_EQ(valuesOf(all, "ibl-diffuse"), (std::set<std::string>{"sh", "sh-windowed", "map"}));
     EXPECT_EQ(valuesOf(all, "ibl-intensity"), (std::set<std::string>{"0", "1"})) << "without its light";
     for (const char* option : {"ibl", "specular-albedo", "multiscatter"})
@@ -118,79 +119,79 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
                             (ibl == Ibl::sampled && bias != 0))
                     << nameOf(ibl) << " " << samples << " " << bias;
     EXPECT_EQ(reasonOf(all, "textures"), "no material reads a texture");
-    EXPECT_EQ(reasonOf(feltUnder(mixed, true), "ibl-diffuse"),
+    EXPECT_EQ(reasonOf(sensitiveUnder(mixed, true), "ibl-diffuse"),
               "no spherical-harmonics irradiance is negative: sh-windowed equals sh");
-    const SweepRows of_matte = feltUnder(matte, false);
+    const SweepRows of_matte = sensitiveUnder(matte, false);
     for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"}) {
         EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;
         EXPECT_EQ(reasonOf(of_matte, option), "no surface is specular") << option;
     }
     EXPECT_EQ(valuesOf(of_matte, "ibl-diffuse").size(), 3u);
     // But for rows in which light between facets is irradiance.
-    const SweepRows of_metal = feltUnder(metal, false);
+    const SweepRows of_metal = sensitiveUnder(metal, false);
     for (const Settings& row : of_metal.rows)
         EXPECT_TRUE(row.ibl_diffuse == IblDiffuse::sh || row.multiscatter == Multiscatter::fdez);
     metal.metallic_roughness_texture.texture = 0;
-    EXPECT_EQ(valuesOf(feltUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
+    EXPECT_EQ(valuesOf(sensitiveUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
 }
 
-TEST(TradeoffFelt, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
+TEST(TradeoffSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     Scene scene;
     scene.meshes.resize(1);
     scene.meshes[0].primitives.resize(1);
     scene.materials.resize(1);
     Primitive& primitive = scene.meshes[0].primitives[0];
     primitive.material = 0;
-    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), {}, &scene); };
-    EXPECT_EQ(valuesOf(felt(), "skinning"), std::set<std::string>{"compute"});
-    EXPECT_EQ(reasonOf(felt(), "skinning", "vertex"), "no vertex is skinned or morphed");
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    EXPECT_EQ(valuesOf(sensitive(), "skinning"), std::set<std::string>{"compute"});
+    EXPECT_EQ(reasonOf(sensitive(), "skinning", "vertex"), "no vertex is skinned or morphed");
     primitive.targets.resize(1);
-    EXPECT_EQ(valuesOf(felt(), "skinning"), (std::set<std::string>{"compute", "vertex"}));
+    EXPECT_EQ(valuesOf(sensitive(), "skinning"), (std::set<std::string>{"compute", "vertex"}));
     primitive.targets.clear();
     primitive.joint_sets.resize(1);
-    EXPECT_EQ(valuesOf(felt(), "skinning").size(), 2u);
+    EXPECT_EQ(valuesOf(sensitive(), "skinning").size(), 2u);
 }
 
-TEST(TradeoffFelt, TransparencyIsVariedWhereSomethingIsBlended) {
+TEST(TradeoffSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
     Scene scene;
     scene.meshes.resize(1);
     scene.meshes[0].primitives.resize(1);
     scene.materials.resize(1);
     scene.meshes[0].primitives[0].material = 0;
     Material& material = scene.materials[0];
-    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), {}, &scene); };
-    EXPECT_EQ(valuesOf(felt(), "transparency"), std::set<std::string>{"sorted"});
-    EXPECT_EQ(valuesOf(felt(), "transparency-layers").size(), 1u);
-    EXPECT_EQ(reasonOf(felt(), "transparency", "weighted"),
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    EXPECT_EQ(valuesOf(sensitive(), "transparency"), std::set<std::string>{"sorted"});
+    EXPECT_EQ(valuesOf(sensitive(), "transparency-layers").size(), 1u);
+    EXPECT_EQ(reasonOf(sensitive(), "transparency", "weighted"),
               "no material has alphaMode BLEND or transmits light");
     material.alpha_mode = AlphaMode::blend;
     material.unlit = true;
-    EXPECT_GT(valuesOf(felt(), "transparency").size(), 3u);
-    EXPECT_GT(valuesOf(felt(), "transparency-layers").size(), 1u);
+    EXPECT_GT(valuesOf(sensitive(), "transparency").size(), 3u);
+    EXPECT_GT(valuesOf(sensitive(), "transparency-layers").size(), 1u);
     material = {};
     material.transmission = 0.5f;
-    EXPECT_GT(valuesOf(felt(), "transparency").size(), 3u);
+    EXPECT_GT(valuesOf(sensitive(), "transparency").size(), 3u);
 }
 
-TEST(TradeoffFelt, HazeIsMarchedThroughWhereThereIsSome) {
+TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
     Settings given;
     given.haze = true;
-    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows(given, usualGrids(given)), {}); };
-    EXPECT_EQ(valuesOf(felt(), "haze-march-steps"), (std::set<std::string>{"0", "8", "32"}));
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows(given, usualGrids(given)), {}); };
+    EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), (std::set<std::string>{"0", "8", "32"}));
     given.haze_density = 0;
-    EXPECT_EQ(valuesOf(felt(), "haze-march-steps"), std::set<std::string>{"0"});
-    EXPECT_EQ(reasonOf(felt(), "haze-march-steps"), "there is no haze");
+    EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), std::set<std::string>{"0"});
+    EXPECT_EQ(reasonOf(sensitive(), "haze-march-steps"), "there is no haze");
     given.haze_density = 1;
     given.haze_rayleigh = {};
-    EXPECT_EQ(valuesOf(felt(), "haze-march-steps").size(), 3u) << "aerosols alone";
+    EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps").size(), 3u) << "aerosols alone";
     given.haze_mie = {};
-    EXPECT_EQ(valuesOf(felt(), "haze-march-steps").size(), 1u);
+    EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps").size(), 1u);
 }
 
 // Whatever is left out, each skip names its path, and no two rows are one picture.
-TEST(TradeoffFelt, NothingIsDrawnTwiceNorLostInSilence) {
+TEST(TradeoffSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, usualGrids({}));
-    const SweepRows sweep = feltBy({lightOf(LightKind::directional)});
+    const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});
     EXPECT_LT(sweep.rows.size(), all.rows.size());
     EXPECT_EQ(sweep.rows.front(), Settings()) << "the given Settings stay first";
     for (const Settings& row : all.rows) {

@@ -12,7 +12,6 @@ namespace diptych::tradeoff {
 // Removes rows that differ from an earlier row only in Settings to which the scene is not sensitive. Their
 // values become skips with reasons. `lights`: the scene's own and added ones. `scene`: source of
 // materials, environment and meshes; nullptr: assume any.
-SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights,
-                          const Scene* scene = nullptr);
+SweepRows sensitiveRows(const SweepRows& sweep, std::span<const Light> lights, const Scene* scene = nullptr);
 
 }  // namespace diptych::tradeoff

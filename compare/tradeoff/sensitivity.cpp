@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/felt.h"
+#include "compare/tradeoff/sensitivity.h"
 
 #include "shared/environment/harmonics.h"
 #include "shared/scene/lights/casters.h"
@@ -53,9 +53,10 @@ Reflectors reflectorsOf(const Scene* scene) {
 }
 
 // Resets Settings that do not affect the image and records why. Rows with equal images become equal.
-class Unfelt {
+class InsensitiveReset {
 public:
-    Unfelt(Settings row, std::span<const Light> lights, const Reflectors& surfaces) : row_(std::move(row)) {
+    InsensitiveReset(Settings row, std::span<const Light> lights, const Reflectors& surfaces)
+        : row_(std::move(row)) {
         const auto any = [&](const auto& of) { return std::ranges::any_of(lights, of); };
         if (!any(hasPlace)) {
             constexpr std::string_view why = "no light has a position: every light reaches every pixel";
@@ -139,20 +140,20 @@ private:
 
 }  // namespace
 
-SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights, const Scene* scene) {
+SweepRows sensitiveRows(const SweepRows& sweep, std::span<const Light> lights, const Scene* scene) {
     const Reflectors surfaces = reflectorsOf(scene);
     SweepRows result{{}, sweep.skips};
     std::vector<Settings> drawn;  // result.rows with insensitive Settings reset
     for (const Settings& row : sweep.rows) {
-        const Unfelt unfelt(row, lights, surfaces);
-        const auto same = std::ranges::find(drawn, unfelt.row());
+        const InsensitiveReset reset(row, lights, surfaces);
+        const auto same = std::ranges::find(drawn, reset.row());
         if (same == drawn.end()) {
-            drawn.push_back(unfelt.row());
+            drawn.push_back(reset.row());
             result.rows.push_back(row);
             continue;
         }
         const Settings& earlier = result.rows[static_cast<std::size_t>(same - drawn.begin())];
-        for (const auto& [option, why] : unfelt.reasons()) {
+        for (const auto& [option, why] : reset.reasons()) {
             const std::string value = row.valueOf(option);
             if (value == earlier.valueOf(option)) continue;
             const SweepSkip skip{{{"path", std::string(nameOf(row.path))}, {std::string(option), value}},
