@@ -4,7 +4,7 @@
 // linear interpolation and extrapolation of the time differences.
 #pragma once
 
-#include "compare/choose/told_apart.h"
+#include "compare/choose/ranking.h"
 
 #include <array>
 #include <cstddef>

@@ -86,7 +86,7 @@ std::string candidateTable(const ChoiceReport& report) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
         const Candidate& candidate = report.choice.candidates[i];
-        return std::tuple(i != report.choice.chosen, !candidate.standing, !candidate.judged,
+        return std::tuple(i != report.choice.chosen, !candidate.race_time, !candidate.judged,
                           candidate.log_ms);
     });
     std::string out =

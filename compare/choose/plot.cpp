@@ -33,7 +33,7 @@ public:
     std::string svg(PlotPlace place) const {
         std::string out = axes_.axes(report_.figure + " against the reference") + limits() + frontLine();
         const bool file = place == PlotPlace::file;
-        for (const bool raced : {false, true})  // contenders on top
+        for (const bool raced : {false, true})  // finalists on top
             for (const std::size_t i : drawn_)
                 if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
         out += names() + legend();
@@ -44,11 +44,11 @@ public:
     }
 
 private:
-    // Confidence interval of a contender's time, ms; a missing end is 0.
+    // Confidence interval of a finalist's time, ms; a missing end is 0.
     std::pair<double, double> intervalOf(const Candidate& candidate) const {
-        const double best = candidate.ms() / candidate.standing->ratio;
+        const double best = candidate.ms() / candidate.race_time->ratio;
         const auto known = [&](double ratio) { return std::isfinite(ratio) ? best * ratio : 0.0; };
-        return {known(candidate.standing->low), known(candidate.standing->high)};
+        return {known(candidate.race_time->low), known(candidate.race_time->high)};
     }
     static std::vector<std::size_t> drawn(const Choice& choice) {
         std::vector<std::size_t> all;
@@ -61,7 +61,7 @@ private:
         for (const std::size_t i : drawn_) {
             const Candidate& candidate = choice_.candidates[i];
             all.push_back(candidate.ms());
-            if (!candidate.standing) continue;
+            if (!candidate.race_time) continue;
             const auto [low, high] = intervalOf(candidate);
             all.insert(all.end(), {low, high});
         }
@@ -125,7 +125,7 @@ private:
             raced ? " best" : "", i + 1,
             file ? "" : fmt::format(" tabindex=\"0\" role=\"img\" aria-label=\"{}\"", markup(words)),
             markup(words));
-        if (candidate.standing) {
+        if (candidate.race_time) {
             const auto [low, up] = intervalOf(candidate);
             if (low > 0 && up > low)
                 out += fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",

@@ -22,9 +22,10 @@ std::string percent(double ratio) {
     return fmt::format("{:.1f} %", 100 * (ratio - 1));
 }
 
-std::string standingOf(const ChoiceReport& report, std::size_t i) {
-    const Standing& standing = *report.choice.candidates[i].standing;
-    return fmt::format("{}: {}", report.words[i], longerInWords(standing.ratio, standing.low, standing.high));
+std::string finalistWords(const ChoiceReport& report, std::size_t i) {
+    const FinalistTime& race_time = *report.choice.candidates[i].race_time;
+    return fmt::format("{}: {}", report.words[i],
+                       longerInWords(race_time.ratio, race_time.low, race_time.high));
 }
 
 std::vector<std::string> missesInWords(const ChoiceReport& report) {
@@ -123,11 +124,11 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
     json["first_camera_error"] = Json();  // schema 1 key, unused
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
-    if (candidate.standing)
-        json["race"] = {{"ratio", candidate.standing->ratio},
-                        {"low", candidate.standing->low},
-                        {"high", candidate.standing->high},
-                        {"rounds", candidate.standing->rounds}};
+    if (candidate.race_time)
+        json["race"] = {{"ratio", candidate.race_time->ratio},
+                        {"low", candidate.race_time->low},
+                        {"high", candidate.race_time->high},
+                        {"rounds", candidate.race_time->rounds}};
     return json;
 }
 
@@ -168,12 +169,12 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     if (!choice.chosen) return missesInWords(report);
     std::vector<std::string> lines{whyInWords(report)};
     if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
-        lines.push_back("runner-up: " + standingOf(report, *choice.runner_up));
+        lines.push_back("runner-up: " + finalistWords(report, *choice.runner_up));
     for (const std::size_t i : choice.ties)
-        lines.push_back("not measurably slower: " + standingOf(report, i));
-    if (choice.sure)
+        lines.push_back("not measurably slower: " + finalistWords(report, i));
+    if (choice.significant)
         lines.push_back(fmt::format("significant: every other finalist is slower, at {:.0f} % confidence",
-                                    100 * toldApartConfidence));
+                                    100 * rankingConfidence));
     addUnseen(report, lines);
     return lines;
 }
@@ -236,7 +237,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["runner_up"] = place(choice.runner_up);
     json["nearest"] = place(choice.nearest);
     json["ties"] = std::move(ties);
-    json["sure"] = choice.sure;
+    json["sure"] = choice.significant;
     json["why"] = whyInWords(report);
     if (report.deciders) json["deciders"] = toJson(*report.deciders);
     json["unseen_cameras"] = std::move(unseen);

@@ -3,13 +3,13 @@
 
 #include "compare/choose/table.h"
 #include "compare/cli/commands.h"
-#include "compare/cli/scene_lab.h"
+#include "compare/cli/scene_evaluator.h"
 #include "compare/cli/scene_variations.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
 #include "compare/run/command_text.h"
-#include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
+#include "compare/tradeoff/sensitivity.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
 
@@ -49,7 +49,7 @@ std::vector<Settings> candidatesFor(const Options& options, const Device& device
     const Settings& given = options.settings;
     tradeoff::SweepRows sweep = tradeoff::makeSweepRows(
         given, options.grid.empty() ? tradeoff::usualGrids(given) : tradeoff::readGrids(options.grid, given));
-    if (options.grid.empty()) sweep = tradeoff::rowsThatAreFelt(sweep, view.lights, &scene);
+    if (options.grid.empty()) sweep = tradeoff::sensitiveRows(sweep, view.lights, &scene);
     sweep = tradeoff::withoutRefused(std::move(sweep), given,
                                      [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
@@ -100,7 +100,7 @@ struct SceneChooser::Held {
     Scene scene;
     SceneViews views;
     Renderer renderer;
-    std::optional<SceneLab> lab{};
+    std::optional<SceneEvaluator> evaluator{};
 };
 
 SceneChooser::SceneChooser(const Options& options)
@@ -122,7 +122,7 @@ SceneChooser::Held& SceneChooser::hold(const std::string& scene, const Stage& pr
     held_.reset();
     held_ = std::make_unique<Held>(scene, loadShown(scene, options_.settings, progress), device_, pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        held_->lab.emplace(held_->renderer, references->second, figure_, renderOptions(options_));
+        held_->evaluator.emplace(held_->renderer, references->second, figure_, renderOptions(options_));
     return *held_;
 }
 
@@ -158,7 +158,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
     tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
-    held.lab.emplace(held.renderer, references, figure_, renderOptions(options_));
+    held.evaluator.emplace(held.renderer, references, figure_, renderOptions(options_));
 
     SearchOptions search;
     search.budget = report.budget;
@@ -175,7 +175,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     };
     const Stage searching = stage.part(0.2, 0.95);
     search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
-    report.choice = choose::search(tableOf(candidates), *held.lab, search);
+    report.choice = choose::search(tableOf(candidates), *held.evaluator, search);
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
@@ -183,7 +183,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
-    held.lab->release();  // frees memory for other evaluators
+    held.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
         for (const std::string& camera : unseenCameras(held.scene, cameras))
             report.unseen.push_back(fromUnseen(held, truth, report, camera));
@@ -237,9 +237,9 @@ UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const C
     drawing.progress = {};
     const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
         held.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
-    SceneLab lab(held.renderer, references, figure_, drawing);
+    SceneEvaluator evaluator(held.renderer, references, figure_, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
-    const double error = lab.judge(chosen.settings).error;
+    const double error = evaluator.judge(chosen.settings).error;
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
     return {page::cameraTitle(references.frames.front()), error, error <= most};
 }
@@ -256,10 +256,10 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     CommonOptions common;
     common.budget = reports.front().budget;
     common.progress = [&](double done, std::string_view what) { stage.at(done, std::string(what)); };
-    const std::function<Lab&(std::size_t)> labOf = [&](std::size_t scene) -> Lab& {
-        return *hold(reports[scene].scene, Stage()).lab;
+    const std::function<Evaluator&(std::size_t)> evaluatorOf = [&](std::size_t scene) -> Evaluator& {
+        return *hold(reports[scene].scene, Stage()).evaluator;
     };
-    all.choice = choose::chooseForAll(own, labOf, common);
+    all.choice = choose::chooseForAll(own, evaluatorOf, common);
     Settings given = options_.settings;
     given.camera.clear();
     for (CommonCandidate& candidate : all.choice.candidates) {

@@ -18,11 +18,11 @@ namespace diptych::cli {
 
 // Evaluates one scene over all cameras of the reference frames. Errors cover all pixels together, times
 // are the mean, memory is the maximum; passes are of the first camera.
-class SceneLab final : public choose::Lab {
+class SceneEvaluator final : public choose::Evaluator {
 public:
     // `figure`: index in tradeoff::errorFigures. The renderer and the references must outlive the object.
-    SceneLab(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
-             const RenderOptions& options)
+    SceneEvaluator(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
+                   const RenderOptions& options)
         : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
 
     choose::Judged judge(const Settings& settings) override;

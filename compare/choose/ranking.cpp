@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/choose/told_apart.h"
+#include "compare/choose/ranking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ Difference differenceOf(std::span<const double> a, std::span<const double> b) {
     double squares = 0;
     for (const double each : differences) squares += (each - mean) * (each - mean);
     const auto n = static_cast<double>(differences.size());
-    const double t = studentT(1 - toldApartConfidence, static_cast<int>(differences.size()) - 1);
+    const double t = studentT(1 - rankingConfidence, static_cast<int>(differences.size()) - 1);
     return {mean, t * std::sqrt(squares / (n - 1) / n)};
 }
 
@@ -55,12 +55,12 @@ double studentT(double probability, int freedom) {
     return high;
 }
 
-Standings tellApart(std::size_t contenders, const DrawInOrder& draw, int least, int most) {
-    Standings result;
-    result.standings.resize(contenders);
-    std::vector<std::size_t> running(contenders);
+Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, int most) {
+    Ranking result;
+    result.finalists.resize(finalists);
+    std::vector<std::size_t> running(finalists);
     std::iota(running.begin(), running.end(), std::size_t{0});
-    std::vector<std::vector<double>> rounds(contenders);  // log of the geometric mean of both draws
+    std::vector<std::vector<double>> rounds(finalists);  // log of the geometric mean of both draws
     int done = 0;
     while (done < most) {
         std::vector<std::size_t> order;
@@ -72,7 +72,7 @@ Standings tellApart(std::size_t contenders, const DrawInOrder& draw, int least, 
         const std::vector<double> times = draw(order);
         result.draws += times.size();
         for (std::size_t at = 0; done < until; ++done) {
-            std::vector<double> sums(contenders, 0.0);
+            std::vector<double> sums(finalists, 0.0);
             for (std::size_t k = 0; k < 2 * running.size(); ++k, ++at)
                 sums[order[at]] += 0.5 * std::log(std::max(times[at], 1e-9));
             for (const std::size_t i : running) rounds[i].push_back(sums[i]);
@@ -89,17 +89,17 @@ Standings tellApart(std::size_t contenders, const DrawInOrder& draw, int least, 
         });
         if (equal) break;
     }
-    result.sure = true;
-    for (std::size_t i = 0; i < contenders; ++i) {
-        Standing& standing = result.standings[i];
-        standing.rounds = static_cast<int>(rounds[i].size());
-        standing.ms = std::exp(meanOf(rounds[i]));
+    result.significant = true;
+    for (std::size_t i = 0; i < finalists; ++i) {
+        FinalistTime& race_time = result.finalists[i];
+        race_time.rounds = static_cast<int>(rounds[i].size());
+        race_time.ms = std::exp(meanOf(rounds[i]));
         if (i == result.winner) continue;
         const auto [mean, half] = differenceOf(rounds[i], rounds[result.winner]);
-        standing.ratio = std::exp(mean);
-        standing.low = std::exp(mean - half);
-        standing.high = std::exp(mean + half);
-        result.sure = result.sure && standing.isSlower();
+        race_time.ratio = std::exp(mean);
+        race_time.low = std::exp(mean - half);
+        race_time.high = std::exp(mean + half);
+        result.significant = result.significant && race_time.isSlower();
     }
     return result;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_lab.h"
+#include "compare/cli/scene_evaluator.h"
 
 #include "compare/reference/key.h"
 
@@ -25,11 +25,11 @@ std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::R
 
 }  // namespace
 
-bool SceneLab::isOfReferenceSize(const Settings& settings) const {
+bool SceneEvaluator::isOfReferenceSize(const Settings& settings) const {
     return settings.size == references_.frames.front().settings.size;
 }
 
-tradeoff::FrameErrors SceneLab::errorsOf(std::size_t camera, const Image& lit) {
+tradeoff::FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
     const std::pair picture(camera, key.value());
@@ -39,7 +39,7 @@ tradeoff::FrameErrors SceneLab::errorsOf(std::size_t camera, const Image& lit) {
     return errors;
 }
 
-choose::Judged SceneLab::judge(const Settings& settings) {
+choose::Judged SceneEvaluator::judge(const Settings& settings) {
     // An image of another size is upsampled by its channels, which requires a capture.
     if (!isOfReferenceSize(settings)) return judgeCaptured(settings);
     tradeoff::ErrorsOfCameras errors;
@@ -56,7 +56,7 @@ choose::Judged SceneLab::judge(const Settings& settings) {
     return judged;
 }
 
-choose::Judged SceneLab::judgeCaptured(const Settings& settings) {
+choose::Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
     RenderOptions drawing = options_;
     drawing.runs = 0;
     drawing.progress = {};
@@ -64,7 +64,7 @@ choose::Judged SceneLab::judgeCaptured(const Settings& settings) {
     return {row.errors.at(figure_), tradeoff::memoryOf(row)};
 }
 
-void SceneLab::prepare(std::span<const Settings> seen) {
+void SceneEvaluator::prepare(std::span<const Settings> seen) {
     const auto isThere = [&](const Settings& settings) {
         return std::ranges::find(drawn_, settings, &Drawn::settings) != drawn_.end();
     };
@@ -81,11 +81,11 @@ void SceneLab::prepare(std::span<const Settings> seen) {
     }
 }
 
-SceneLab::Drawn& SceneLab::prepared(const Settings& seen) {
+SceneEvaluator::Drawn& SceneEvaluator::prepared(const Settings& seen) {
     return *std::ranges::find(drawn_, seen, &Drawn::settings);
 }
 
-PreparedFrames& SceneLab::drawn(const Settings& seen) {
+PreparedFrames& SceneEvaluator::drawn(const Settings& seen) {
     Drawn& each = prepared(seen);
     if (!each.is_drawn) each.frames.draw(0);
     each.is_drawn = true;
@@ -94,14 +94,15 @@ PreparedFrames& SceneLab::drawn(const Settings& seen) {
 
 // The first frame may differ from the next: a driver may compile the pipeline, and a clipmap renders pages
 // that later frames reuse. Renders it in these cases only.
-SceneLab::Drawn& SceneLab::readyForTimes(const Settings& seen) {
+SceneEvaluator::Drawn& SceneEvaluator::readyForTimes(const Settings& seen) {
     Drawn& each = prepared(seen);
     if (each.made_pipelines || seen.shadows == Shadows::clipmap) drawn(seen);
     each.is_drawn = true;
     return each;
 }
 
-std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {
+std::vector<double> SceneEvaluator::time(std::span<const Settings> frames,
+                                         std::span<const std::size_t> order) {
     std::vector<Settings> seen;
     for (const Settings& settings : frames)
         for (Settings& each : fromEachCamera(settings, references_)) seen.push_back(std::move(each));
@@ -118,7 +119,7 @@ std::vector<double> SceneLab::time(std::span<const Settings> frames, std::span<c
     return times;
 }
 
-std::vector<PassTime> SceneLab::profile(const Settings& settings) {
+std::vector<PassTime> SceneEvaluator::profile(const Settings& settings) {
     const Settings seen = fromEachCamera(settings, references_).front();
     prepare(std::span(&seen, 1));
     PreparedFrames& of = readyForTimes(seen).frames;

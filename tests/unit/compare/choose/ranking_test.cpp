@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contenders whose times are known, told apart under noise and drift.
-#include "compare/choose/told_apart.h"
+#include "compare/choose/ranking.h"
 
 #include <gtest/gtest.h>
 
@@ -31,12 +31,12 @@ private:
     double frames_ = 0;
 };
 
-Standings raced(const std::vector<double>& ms, double deviation, double drift, std::uint64_t seed) {
+Ranking raced(const std::vector<double>& ms, double deviation, double drift, std::uint64_t seed) {
     SlowingDevice device(ms, deviation, drift, seed);
-    return tellApart(ms.size(), [&](std::span<const std::size_t> order) { return device(order); });
+    return rankByTime(ms.size(), [&](std::span<const std::size_t> order) { return device(order); });
 }
 
-TEST(ChooseToldApart, StudentsQuantilesAreThoseOfTheTables) {
+TEST(ChooseRanking, StudentsQuantilesAreThoseOfTheTables) {
     EXPECT_NEAR(studentT(0.05, 1), 12.706, 1e-3);
     EXPECT_NEAR(studentT(0.05, 2), 4.303, 1e-3);
     EXPECT_NEAR(studentT(0.01, 5), 4.032, 1e-3);
@@ -45,12 +45,12 @@ TEST(ChooseToldApart, StudentsQuantilesAreThoseOfTheTables) {
 }
 
 // 400 pairs of copies: one is told faster in few of them, and no winner by the order of the draws.
-TEST(ChooseToldApart, TwoCopiesAreATie) {
+TEST(ChooseRanking, TwoCopiesAreATie) {
     for (const double drift : {0.0, 0.01}) {
         std::size_t winners = 0, first = 0;
         for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-            const Standings result = raced({10, 10}, 0.1, drift, seed);
-            winners += result.sure;
+            const Ranking result = raced({10, 10}, 0.1, drift, seed);
+            winners += result.significant;
             first += result.winner == 0;
         }
         EXPECT_LE(winners, 400 * 0.05) << drift;
@@ -59,32 +59,32 @@ TEST(ChooseToldApart, TwoCopiesAreATie) {
 }
 
 // Without noise a drift alone makes no difference: each order is drawn back.
-TEST(ChooseToldApart, ADriftIsNoDifference) {
-    const Standings result = raced({10, 10, 10}, 0, 0.02, 3);
-    for (const Standing& standing : result.standings) EXPECT_NEAR(standing.ratio, 1, 2e-3);
+TEST(ChooseRanking, ADriftIsNoDifference) {
+    const Ranking result = raced({10, 10, 10}, 0, 0.02, 3);
+    for (const FinalistTime& race_time : result.finalists) EXPECT_NEAR(race_time.ratio, 1, 2e-3);
 }
 
-TEST(ChooseToldApart, EveryDrawIsCounted) {
+TEST(ChooseRanking, EveryDrawIsCounted) {
     std::size_t drawn = 0;
     const auto draw = [&](std::span<const std::size_t> order) {
         drawn += order.size();
         return std::vector<double>(order.size(), 10.0);
     };
-    EXPECT_EQ(tellApart(3, draw).draws, drawn);
+    EXPECT_EQ(rankByTime(3, draw).draws, drawn);
     EXPECT_GT(drawn, 0u);
 }
 
-TEST(ChooseToldApart, TheFastestWinsAndIsSure) {
-    std::size_t right = 0, sure = 0;
+TEST(ChooseRanking, TheFastestWinsAndIsSure) {
+    std::size_t right = 0, significant = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        const Standings result = raced({12, 10, 13, 11.5, 20}, 0.05, 0.002, seed);
+        const Ranking result = raced({12, 10, 13, 11.5, 20}, 0.05, 0.002, seed);
         right += result.winner == 1;
-        sure += result.sure;
-        EXPECT_LE(result.standings[4].rounds, result.standings[1].rounds)
+        significant += result.significant;
+        EXPECT_LE(result.finalists[4].rounds, result.finalists[1].rounds)
             << "the slowest does not run to the end";
     }
     EXPECT_GE(right, 196u);
-    EXPECT_GE(sure, 180u);
+    EXPECT_GE(significant, 180u);
 }
 
 }  // namespace
