@@ -272,10 +272,10 @@ private:
         double squares = 0;
         for (const double ratio : ratios) squares += (ratio - middle) * (ratio - middle);
         const auto n = static_cast<double>(ratios.size());
-        const double half = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
-                                              : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
-                                                    std::sqrt(squares / (n - 1) / n);
-        return {std::exp(middle), std::exp(middle - half), std::exp(middle + half)};
+        const double half_width = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
+                                                    : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
+                                                          std::sqrt(squares / (n - 1) / n);
+        return {std::exp(middle), std::exp(middle - half_width), std::exp(middle + half_width)};
     }
 
     void forgetRace() {

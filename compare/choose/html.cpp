@@ -114,8 +114,8 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
         choicePlot(report, PlotPlace::page) +
         "<p class=\"soft small\">A bar is the 99 % confidence interval of a candidate's time divided by the "
         "fastest one's. The line is the smallest error that is possible within a time.</p></div></div>\n";
-    if (report.deciders) {
-        const std::vector<std::string> lines = inWords(*report.deciders);
+    if (report.sensitivities) {
+        const std::vector<std::string> lines = inWords(*report.sensitivities);
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",
                            markup(lines.front()), listOf({lines.begin() + 1, lines.end()}));
     }

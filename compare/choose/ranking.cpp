@@ -29,7 +29,7 @@ double meanOf(std::span<const double> values) {
 
 // Mean and half-width of the confidence interval of a - b, over the rounds of both.
 struct Difference {
-    double mean = 0, half = 0;
+    double mean = 0, half_width = 0;
 };
 Difference differenceOf(std::span<const double> a, std::span<const double> b) {
     std::vector<double> differences(std::min(a.size(), b.size()));
@@ -82,9 +82,9 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
         bool equal = true;
         std::erase_if(running, [&](std::size_t i) {
             if (i == result.winner) return false;
-            const auto [mean, half] = differenceOf(rounds[i], rounds[result.winner]);
-            const bool slower = mean - half > 0;
-            equal = equal && (slower || mean + half < std::log(equalTimes));
+            const auto [mean, half_width] = differenceOf(rounds[i], rounds[result.winner]);
+            const bool slower = mean - half_width > 0;
+            equal = equal && (slower || mean + half_width < std::log(equalTimes));
             return slower;
         });
         if (equal) break;
@@ -95,10 +95,10 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
         race_time.rounds = static_cast<int>(rounds[i].size());
         race_time.ms = std::exp(meanOf(rounds[i]));
         if (i == result.winner) continue;
-        const auto [mean, half] = differenceOf(rounds[i], rounds[result.winner]);
+        const auto [mean, half_width] = differenceOf(rounds[i], rounds[result.winner]);
         race_time.ratio = std::exp(mean);
-        race_time.low = std::exp(mean - half);
-        race_time.high = std::exp(mean + half);
+        race_time.low = std::exp(mean - half_width);
+        race_time.high = std::exp(mean + half_width);
         result.significant = result.significant && race_time.isSlower();
     }
     return result;

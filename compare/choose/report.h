@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/choose/common.h"
-#include "compare/choose/deciders.h"
 #include "compare/choose/search.h"
+#include "compare/choose/sensitivity.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>
@@ -24,11 +24,11 @@ struct UnseenCamera {
 };
 
 // --explain-choice: scene properties that decide between the paths.
-struct DecidersReport {
+struct SensitivityReport {
     std::string chosen, other;            // descriptions of both paths' Settings
     std::string chosen_path, other_path;  // names
     bool other_fits = true;               // whether the other path is within the budget
-    Deciders deciders;
+    Sensitivities sensitivities;
 };
 
 struct ChoiceReport {
@@ -43,7 +43,7 @@ struct ChoiceReport {
     std::vector<std::string> words, commands;
     std::vector<UnseenCamera> unseen;  // other cameras of the scene
     std::vector<std::string> notes{};
-    std::optional<DecidersReport> deciders{};
+    std::optional<SensitivityReport> sensitivities{};
     double seconds = 0;
 };
 
@@ -79,8 +79,8 @@ const char* fateInWords(Fate fate);
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);
 std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);
 // A line on both Settings, then the three most relevant properties, indented by two spaces.
-std::vector<std::string> inWords(const DecidersReport& report);
-nlohmann::ordered_json toJson(const DecidersReport& report);
+std::vector<std::string> inWords(const SensitivityReport& report);
+nlohmann::ordered_json toJson(const SensitivityReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);
 // The report of one scene, or { "scenes": [...], "all": {...} } with the joint choice as "settings".
 nlohmann::ordered_json toJson(const Choices& choices);

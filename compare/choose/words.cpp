@@ -201,8 +201,8 @@ std::string inWords(const ChoiceReport& report) {
     if (const auto shown = choice.chosen ? choice.chosen : choice.nearest)
         text += fmt::format("    {}\n", figuresInWords(report, *shown));
     for (const std::string& line : reasonsInWords(report)) text += "  " + line + "\n";
-    if (report.deciders)
-        for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
+    if (report.sensitivities)
+        for (const std::string& line : inWords(*report.sensitivities)) text += "  " + line + "\n";
     text += fmt::format("  {}: {}\n  {} compared, {} timed, {:.1f} s\n",
                         counted(choice.candidates.size(), "candidate"), fatesInWords(choice),
                         counted(choice.judged, "picture"), counted(choice.timings, "frame"), report.seconds);
@@ -239,7 +239,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["ties"] = std::move(ties);
     json["sure"] = choice.significant;
     json["why"] = whyInWords(report);
-    if (report.deciders) json["deciders"] = toJson(*report.deciders);
+    if (report.sensitivities) json["deciders"] = toJson(*report.sensitivities);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
     json["estimated"] = 0;  // schema 1 key, unused: every image is judged from all cameras

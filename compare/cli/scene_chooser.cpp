@@ -188,15 +188,15 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
         for (const std::string& camera : unseenCameras(held.scene, cameras))
             report.unseen.push_back(fromUnseen(held, truth, report, camera));
     if (options_.choose.explain && report.choice.chosen)
-        report.deciders = decidersOf(held, report, stage.part(0.95, 1));
+        report.sensitivities = sensitivityOf(held, report, stage.part(0.95, 1));
     checkValidation(device_);
     report.seconds = secondsSince(start);
     progress_.wipe();
     return report;
 }
 
-std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
-                                                       const Stage& progress) {
+std::optional<SensitivityReport> SceneChooser::sensitivityOf(Held& held, const ChoiceReport& report,
+                                                             const Stage& progress) {
     const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
@@ -221,14 +221,15 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
                     each.set(field.option, options_.settings.valueOf(field.option));
     const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
     constexpr int rounds = 5;
-    return DecidersReport{
-        report.words[*choice.chosen],
-        report.words[*other],
-        std::string(nameOf(chosen_path)),
-        std::string(nameOf(compared[1].path)),
-        fits,
-        findDeciders(drawAsIs(varied), propertiesOf(varied), rounds,
-                     [&](double done, std::string_view what) { progress.at(done, std::string(what)); })};
+    return SensitivityReport{report.words[*choice.chosen],
+                             report.words[*other],
+                             std::string(nameOf(chosen_path)),
+                             std::string(nameOf(compared[1].path)),
+                             fits,
+                             analyzeSensitivity(drawAsIs(varied), propertiesOf(varied), rounds,
+                                                [&](double done, std::string_view what) {
+                                                    progress.at(done, std::string(what));
+                                                })};
 }
 
 UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,

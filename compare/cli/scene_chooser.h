@@ -33,8 +33,8 @@ private:
     Held& hold(const std::string& scene, const Stage& progress);
     choose::UnseenCamera fromUnseen(Held& held, const Settings& truth, const choose::ChoiceReport& report,
                                     const std::string& camera);
-    std::optional<choose::DecidersReport> decidersOf(Held& held, const choose::ChoiceReport& report,
-                                                     const Stage& progress);
+    std::optional<choose::SensitivityReport> sensitivityOf(Held& held, const choose::ChoiceReport& report,
+                                                           const Stage& progress);
 
     const Options& options_;
     const std::size_t figure_;

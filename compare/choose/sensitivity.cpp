@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/choose/deciders.h"
+#include "compare/choose/sensitivity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,11 +32,11 @@ TimedValue timedValue(const Variation& variation, int rounds) {
     double squares = 0;
     for (const double difference : differences)
         squares += (difference - result.difference) * (difference - result.difference);
-    result.half = studentT(doubted, rounds - 1) * std::sqrt(squares / (n - 1) / n);
+    result.half_width = studentT(doubted, rounds - 1) * std::sqrt(squares / (n - 1) / n);
     return result;
 }
 
-// Linear interpolation between measured values, and extrapolation beyond: the difference and its half
+// Linear interpolation between measured values, and extrapolation beyond: the difference and its half-width
 // interval.
 struct Lines {
     std::span<const TimedValue> times;
@@ -45,11 +45,12 @@ struct Lines {
         while (k + 1 < times.size() && value > times[k].value) ++k;
         const TimedValue &a = times[k - 1], &b = times[k];
         const double u = (value - a.value) / (b.value - a.value);
-        return {a.difference + u * (b.difference - a.difference), std::hypot((1 - u) * a.half, u * b.half)};
+        return {a.difference + u * (b.difference - a.difference),
+                std::hypot((1 - u) * a.half_width, u * b.half_width)};
     }
     bool isOpen(double value) const {
-        const auto [difference, half] = at(value);
-        return std::abs(difference) <= half;
+        const auto [difference, half_width] = at(value);
+        return std::abs(difference) <= half_width;
     }
 };
 
@@ -66,11 +67,11 @@ double farOff(double a, double b) {
 
 }  // namespace
 
-std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double value, double least,
-                                   double most) {
+std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double least,
+                                          double most) {
     if (times.size() < 2) return {};
     const Lines lines{times};
-    std::optional<Crossing> nearest;
+    std::optional<BreakEvenPoint> nearest;
     for (int step = 0; step < rangeSteps; ++step) {
         double low = stepped(least, most, step), high = stepped(least, most, step + 1);
         const double before = lines.at(low).first, after = lines.at(high).first;
@@ -79,78 +80,81 @@ std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double val
             const double middle = 0.5 * (low + high);
             ((lines.at(middle).first < 0) == (before < 0) ? low : high) = middle;
         }
-        Crossing crossing{.value = high, .low = high, .high = high};
+        BreakEvenPoint break_even{.value = high, .low = high, .high = high};
         if (nearest && farOff(high, value) >= farOff(nearest->value, value)) continue;
-        crossing.extrapolated = high < times.front().value || high > times.back().value;
-        crossing.other_above = after < 0;
+        break_even.extrapolated = high < times.front().value || high > times.back().value;
+        break_even.other_above = after < 0;
         // Widen to the steps at which the lines are significant again.
         int down = step, up = step + 1;
         while (down > 0 && lines.isOpen(stepped(least, most, down))) --down;
         while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
-        crossing.low = stepped(least, most, down);
-        crossing.high = stepped(least, most, up);
+        break_even.low = stepped(least, most, down);
+        break_even.high = stepped(least, most, up);
         if (down == 0 || up == rangeSteps) continue;
-        nearest = crossing;
+        nearest = break_even;
     }
     return nearest;
 }
 
-Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
-                      const std::function<void(double, std::string_view)>& progress) {
-    Deciders deciders;
+Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
+                                 const std::function<void(double, std::string_view)>& progress) {
+    Sensitivities sensitivities;
     std::size_t all = 1, done = 0;
     for (const Property& property : properties) all += property.others.size();
     const auto measure = [&](const Variation& variation) {
-        deciders.frames += 4 * static_cast<std::size_t>(rounds);
+        sensitivities.frames += 4 * static_cast<std::size_t>(rounds);
         return timedValue(variation, rounds);
     };
     const auto say = [&](std::string_view what) {
         if (progress) progress(static_cast<double>(done++) / static_cast<double>(all), what);
     };
     say("sensitivity");
-    deciders.as_is = measure({0, asIs});
+    sensitivities.as_is = measure({0, asIs});
     for (Property& property : properties) {
-        Decider decider;
-        decider.times.push_back(deciders.as_is);
-        decider.times.back().value = property.value;
+        PropertySensitivity sensitivity;
+        sensitivity.times.push_back(sensitivities.as_is);
+        sensitivity.times.back().value = property.value;
         for (const auto& make : property.others) {
             say(property.name);
             // A variation may exceed the device's limits, for example twice the size. Keep the choice.
             try {
-                decider.times.push_back(measure(make()));
+                sensitivity.times.push_back(measure(make()));
             } catch (const std::runtime_error& error) {
                 property.not_varied = error.what();
             }
         }
-        if (decider.times.size() > 1) property.not_varied.clear();
-        std::ranges::sort(decider.times, {}, &TimedValue::value);
+        if (sensitivity.times.size() > 1) property.not_varied.clear();
+        std::ranges::sort(sensitivity.times, {}, &TimedValue::value);
         // Equal values define no line; they occur if a variation changes nothing.
-        const auto same = std::ranges::unique(decider.times, {}, &TimedValue::value);
-        decider.times.erase(same.begin(), same.end());
+        const auto same = std::ranges::unique(sensitivity.times, {}, &TimedValue::value);
+        sensitivity.times.erase(same.begin(), same.end());
         if (property.few_values) {
-            for (const TimedValue& at : decider.times)
-                if (at.value != property.value && at.isTold() && at.difference < 0)
-                    decider.turns_at = at.value;
-        } else if (decider.times.size() > 1) {
-            decider.crossing = crossingOf(decider.times, property.value, property.least, property.most);
-            const Lines lines{decider.times};
-            for (int step = 0; step <= rangeSteps && !decider.crossing; ++step) {
+            for (const TimedValue& at : sensitivity.times)
+                if (at.value != property.value && at.isSignificant() && at.difference < 0)
+                    sensitivity.reversed_at = at.value;
+        } else if (sensitivity.times.size() > 1) {
+            sensitivity.break_even =
+                breakEvenOf(sensitivity.times, property.value, property.least, property.most);
+            const Lines lines{sensitivity.times};
+            for (int step = 0; step <= rangeSteps && !sensitivity.break_even; ++step) {
                 const double value = stepped(property.least, property.most, step);
                 if (!lines.isOpen(value)) continue;
-                if (!decider.open) decider.open = {value, value};
-                decider.open->second = value;
+                if (!sensitivity.open) sensitivity.open = {value, value};
+                sensitivity.open->second = value;
             }
         }
-        decider.property = std::move(property);
-        deciders.properties.push_back(std::move(decider));
+        sensitivity.property = std::move(property);
+        sensitivities.properties.push_back(std::move(sensitivity));
     }
-    const auto rank = [](const Decider& decider) {
-        const double at = decider.crossing ? decider.crossing->value : decider.turns_at.value_or(0);
-        return std::tuple(!decider.isTurned(), decider.crossing && decider.crossing->extrapolated,
-                          decider.isTurned() ? farOff(at, decider.property.value) : 0.0);
+    const auto rank = [](const PropertySensitivity& sensitivity) {
+        const double at =
+            sensitivity.break_even ? sensitivity.break_even->value : sensitivity.reversed_at.value_or(0);
+        return std::tuple(!sensitivity.isReversed(),
+                          sensitivity.break_even && sensitivity.break_even->extrapolated,
+                          sensitivity.isReversed() ? farOff(at, sensitivity.property.value) : 0.0);
     };
-    std::ranges::stable_sort(deciders.properties, {}, rank);
-    return deciders;
+    std::ranges::stable_sort(sensitivities.properties, {}, rank);
+    return sensitivities;
 }
 
 }  // namespace diptych::choose

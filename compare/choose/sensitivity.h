@@ -44,44 +44,45 @@ struct TimedValue {
     double value = 0;
     std::array<double, 2> ms{};  // means; chosen, other path
     // Extra time of the other path, ms, with the half-width of its 95 % interval.
-    double difference = 0, half = 0;
-    bool isTold() const { return difference > half || -difference > half; }
+    double difference = 0, half_width = 0;
+    bool isSignificant() const { return difference > half_width || -difference > half_width; }
 };
 
 // A break-even point: both paths take the same time.
-struct Crossing {
+struct BreakEvenPoint {
     double value = 0;
     double low = 0, high = 0;   // 95 % interval, within the searched range
     bool extrapolated = false;  // outside the measured values
     bool other_above = false;   // the other path is faster above the point; else below
 };
 
-struct Decider {
+struct PropertySensitivity {
     Property property;
     std::vector<TimedValue> times;  // ascending values
-    std::optional<Crossing> crossing;
-    // Without a crossing: least and greatest value where the faster path is uncertain, if any.
+    std::optional<BreakEvenPoint> break_even;
+    // Without a break-even point: least and greatest value where the faster path is uncertain, if any.
     std::optional<std::pair<double, double>> open{};
     // With few values: one at which the other path is significantly faster.
-    std::optional<double> turns_at;
-    bool isTurned() const { return crossing || turns_at; }
+    std::optional<double> reversed_at;
+    bool isReversed() const { return break_even || reversed_at; }
 };
 
-struct Deciders {
-    TimedValue as_is;                 // original scene; `value` is unused
-    std::vector<Decider> properties;  // break-even points first, nearest first
-    std::size_t frames = 0;           // timed, per camera
+struct Sensitivities {
+    TimedValue as_is;                             // original scene; `value` is unused
+    std::vector<PropertySensitivity> properties;  // break-even points first, nearest first
+    std::size_t frames = 0;                       // timed, per camera
 };
 
 // Times `rounds` x 4 frames per variation, interleaving both paths, also for the original scene. `rounds`:
 // at least 2. `progress`: see SearchOptions.
-Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
-                      const std::function<void(double, std::string_view)>& progress = {});
+Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
+                                 const std::function<void(double, std::string_view)>& progress = {});
 
 // The break-even point nearest to `value`, between `least` and `most`. `times`: ascending values. Empty if
 // its interval reaches an end of that range. Between two measured values, the half-widths are weighted
-// like the values and added as independent errors; the interval of the crossing is then Fieller's (1954).
-std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double value, double least,
-                                   double most);
+// like the values and added as independent errors; the interval of the break-even point is then Fieller's
+// (1954).
+std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double least,
+                                          double most);
 
 }  // namespace diptych::choose

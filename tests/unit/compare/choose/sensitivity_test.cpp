@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Crossings of times whose law is known, under noise; and the variations of a scene.
-#include "compare/choose/deciders.h"
+#include "compare/choose/sensitivity.h"
 #include "compare/cli/scene_variations.h"
 #include "shared/scene/load.h"
 
@@ -29,14 +29,14 @@ Variation lawful(const Law (&laws)[2], double value, double deviation, std::mt19
             }};
 }
 
-Deciders decided(const Law (&laws)[2], double value, const std::vector<double>& others, double deviation,
-                 std::uint64_t seed, double least = 1, double most = 100) {
+Sensitivities decided(const Law (&laws)[2], double value, const std::vector<double>& others, double deviation,
+                      std::uint64_t seed, double least = 1, double most = 100) {
     std::mt19937_64 random(seed);
     Property property{
         .name = "load", .unit = "things", .how = "more", .value = value, .least = least, .most = most};
     for (const double other : others)
         property.others.push_back([&, other] { return lawful(laws, other, deviation, random); });
-    return findDeciders(lawful(laws, value, deviation, random).draw, {property}, 5);
+    return analyzeSensitivity(lawful(laws, value, deviation, random).draw, {property}, 5);
 }
 
 // How often the truth lies in the interval, which says 95 of 100.
@@ -45,32 +45,32 @@ void expectHolds(const Law (&laws)[2], double value, const std::vector<double>& 
     int found = 0, held = 0;
     double widest = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        const Deciders deciders = decided(laws, value, others, 0.01, seed);
-        EXPECT_EQ(deciders.frames, 20 * (1 + others.size()));
-        const auto& crossing = deciders.properties.front().crossing;
-        if (!crossing) continue;
+        const Sensitivities sensitivities = decided(laws, value, others, 0.01, seed);
+        EXPECT_EQ(sensitivities.frames, 20 * (1 + others.size()));
+        const auto& break_even = sensitivities.properties.front().break_even;
+        if (!break_even) continue;
         ++found;
-        held += crossing->low <= truth && truth <= crossing->high;
-        widest = std::max(widest, crossing->high / crossing->low);
-        EXPECT_EQ(crossing->extrapolated, extrapolated);
-        EXPECT_TRUE(crossing->other_above);
+        held += break_even->low <= truth && truth <= break_even->high;
+        widest = std::max(widest, break_even->high / break_even->low);
+        EXPECT_EQ(break_even->extrapolated, extrapolated);
+        EXPECT_TRUE(break_even->other_above);
     }
     EXPECT_GE(found, 198);
     EXPECT_GE(held, 0.9 * found) << "200 throws of 0.95 give fewer than 0.91 once in a hundred times";
     EXPECT_LE(widest, 4) << "an interval that says nothing would hold everything";
 }
 
-TEST(ChooseDeciders, ACrossingBetweenMeasurementsIsInItsInterval) {
+TEST(ChooseSensitivity, ACrossingBetweenMeasurementsIsInItsInterval) {
     const Law laws[2] = {{2, 1}, {10, 0.5}};  // as long at 16
     expectHolds(laws, 8, {4, 32}, 16, false);
 }
 
-TEST(ChooseDeciders, ACrossingBeyondTheMeasurementsIsInItsInterval) {
+TEST(ChooseSensitivity, ACrossingBeyondTheMeasurementsIsInItsInterval) {
     const Law laws[2] = {{2, 1}, {14, 0.5}};  // as long at 24
     expectHolds(laws, 8, {4, 16}, 24, true);
 }
 
-TEST(ChooseDeciders, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
+TEST(ChooseSensitivity, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
     const Law laws[2] = {{2, 1}, {10, 0.5}};  // as long at 16
     std::mt19937_64 random(1);
     const auto fails = []() -> Variation { throw std::runtime_error("too large for this device"); };
@@ -79,47 +79,49 @@ TEST(ChooseDeciders, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
     Property kept = lost;
     kept.name = "kept";
     kept.others.push_back([&] { return lawful(laws, 32, 0.001, random); });
-    const Deciders deciders = findDeciders(lawful(laws, 8, 0.001, random).draw, {lost, kept}, 5);
-    for (const Decider& decider : deciders.properties) {
-        const bool is_kept = decider.property.name == "kept";
-        EXPECT_EQ(decider.property.not_varied, is_kept ? "" : "too large for this device");
-        EXPECT_EQ(decider.crossing.has_value(), is_kept);
+    const Sensitivities sensitivities =
+        analyzeSensitivity(lawful(laws, 8, 0.001, random).draw, {lost, kept}, 5);
+    for (const PropertySensitivity& sensitivity : sensitivities.properties) {
+        const bool is_kept = sensitivity.property.name == "kept";
+        EXPECT_EQ(sensitivity.property.not_varied, is_kept ? "" : "too large for this device");
+        EXPECT_EQ(sensitivity.break_even.has_value(), is_kept);
     }
 }
 
-TEST(ChooseDeciders, WhereNoValueTurnsItNoneIsSaid) {
+TEST(ChooseSensitivity, WhereNoValueTurnsItNoneIsSaid) {
     const Law laws[2] = {{2, 1}, {4, 1}};
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const Deciders deciders = decided(laws, 8, {4, 16}, 0.005, seed, 1, 32);
-        EXPECT_FALSE(deciders.properties.front().isTurned());
+        const Sensitivities sensitivities = decided(laws, 8, {4, 16}, 0.005, seed, 1, 32);
+        EXPECT_FALSE(sensitivities.properties.front().isReversed());
     }
-    const Deciders still = decided(laws, 8, {4, 16}, 0, 1);
+    const Sensitivities still = decided(laws, 8, {4, 16}, 0, 1);
     EXPECT_FALSE(still.properties.front().open);
 }
 
-// Lines that are parallel cross somewhere by noise: that is left open, and not told as a crossing.
-TEST(ChooseDeciders, ACrossingThatNoiseMakesIsLeftOpen) {
+// Lines that are parallel cross somewhere by noise: that is left open, and not reported as a break-even
+// point.
+TEST(ChooseSensitivity, ACrossingThatNoiseMakesIsLeftOpen) {
     const Law laws[2] = {{2, 1}, {2.2, 1}};
     int turned = 0, open = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        const Deciders deciders = decided(laws, 8, {4, 16}, 0.02, seed);
-        turned += deciders.properties.front().isTurned();
-        open += deciders.properties.front().open.has_value();
+        const Sensitivities sensitivities = decided(laws, 8, {4, 16}, 0.02, seed);
+        turned += sensitivities.properties.front().isReversed();
+        open += sensitivities.properties.front().open.has_value();
     }
     EXPECT_LE(turned, 20);
     EXPECT_GE(open, 180);
 }
 
-TEST(ChooseDeciders, TheOtherPathWinsBelow) {
+TEST(ChooseSensitivity, TheOtherPathWinsBelow) {
     const Law laws[2] = {{10, 0.5}, {2, 1}};
-    const Deciders deciders = decided(laws, 32, {8}, 0, 1);
-    ASSERT_TRUE(deciders.properties.front().crossing);
-    EXPECT_NEAR(deciders.properties.front().crossing->value, 16, 1e-6);
-    EXPECT_FALSE(deciders.properties.front().crossing->other_above);
+    const Sensitivities sensitivities = decided(laws, 32, {8}, 0, 1);
+    ASSERT_TRUE(sensitivities.properties.front().break_even);
+    EXPECT_NEAR(sensitivities.properties.front().break_even->value, 16, 1e-6);
+    EXPECT_FALSE(sensitivities.properties.front().break_even->other_above);
 }
 
 // Of a property of few values nothing is drawn between them.
-TEST(ChooseDeciders, FewValuesAreToldAsMeasured) {
+TEST(ChooseSensitivity, FewValuesAreToldAsMeasured) {
     std::mt19937_64 random(1);
     const Law laws[2] = {{2, 1}, {4, 0.25}};
     Property samples{
@@ -128,10 +130,11 @@ TEST(ChooseDeciders, FewValuesAreToldAsMeasured) {
     Property nothing = samples;
     nothing.others.clear();
     nothing.not_varied = "not here";
-    const Deciders deciders = findDeciders(lawful(laws, 1, 0.01, random).draw, {nothing, samples}, 5);
-    EXPECT_EQ(deciders.properties[0].turns_at, 4) << "what turns the choice comes first";
-    EXPECT_FALSE(deciders.properties[0].crossing);
-    EXPECT_FALSE(deciders.properties[1].isTurned());
+    const Sensitivities sensitivities =
+        analyzeSensitivity(lawful(laws, 1, 0.01, random).draw, {nothing, samples}, 5);
+    EXPECT_EQ(sensitivities.properties[0].reversed_at, 4) << "what turns the choice comes first";
+    EXPECT_FALSE(sensitivities.properties[0].break_even);
+    EXPECT_FALSE(sensitivities.properties[1].isReversed());
 }
 
 }  // namespace
