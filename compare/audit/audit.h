@@ -28,18 +28,18 @@ extern const std::array<Criterion, criterionCount> criteria;
 inline constexpr std::size_t requiredCriterion = 1;  // by which --require is judged
 inline constexpr std::size_t visibleCriterion = 2, numberCriterion = 3;
 
-bool holds(const Criterion& criterion, const Outcome& outcome);
+bool passes(const Criterion& criterion, const Outcome& outcome);
 
 // How far one way a criterion holds, from the usual magnitude on.
-struct Reach {
+struct BreakingPoint {
     double last = 0;   // the last magnitude tried at which it holds
     double first = 0;  // the first at which it does not; without meaning where there is none
     bool broken = false;
 };
 // Where it does not hold at the usual magnitude already there is none.
-struct Hold {
+struct ValidRange {
     bool usual = false;
-    Reach up, down;
+    BreakingPoint up, down;
 };
 
 // Where a series breaks, in the smallest scene that shows it.
@@ -57,7 +57,7 @@ struct QuantityAudit {
     std::vector<std::string> left_out;  // ChosenSeries::left_out
     std::vector<Step> steps;            // ascending
     // By criterion and series.
-    std::array<std::vector<Hold>, criterionCount> holds;
+    std::array<std::vector<ValidRange>, criterionCount> valid_ranges;
     // By criterion (the two of errors) and series.
     std::array<std::vector<Predicted>, 2> predicted;
     std::vector<Failure> failures;
@@ -65,11 +65,11 @@ struct QuantityAudit {
 
 // Whether a measured reach and a predicted one agree: within a factor of 2, or both beyond what was tried.
 // `tried`: the last magnitude that was.
-bool agrees(const Reach& reach, double predicted, bool up, double tried);
+bool agrees(const BreakingPoint& point, double predicted, bool up, double tried);
 
 // The holds of steps that have been measured.
-std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& steps, std::size_t series,
-                                                      double usual);
+std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
+                                                                  std::size_t series, double usual);
 
 // A magnitude between two steps at which to measure next, so that a reach is known to a factor of 1.25;
 // nothing where all are, or where so many steps have been added as pay.
@@ -88,7 +88,7 @@ struct Requirement {
     bool met = false;
     std::string because{};  // "deferred: the error is below 1e-2 up to 3e5"
 };
-Requirement judge(const QuantityAudit& audit, double magnitude);
+Requirement evaluate(const QuantityAudit& audit, double magnitude);
 
 struct Audit : Audited {
     std::vector<QuantityAudit> quantities;

@@ -41,10 +41,10 @@ std::string tableOf(const Audit& audit) {
             out += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}{2}</td>", of.quantity->name,
                                swatchOf(of.series[s]), markup(of.series[s].words()));
             for (std::size_t c = 0; c < criterionCount; ++c) {
-                const Hold& hold = of.holds[c][s];
-                const bool whole = hold.usual && !hold.up.broken && !hold.down.broken;
+                const ValidRange& range = of.valid_ranges[c][s];
+                const bool whole = range.usual && !range.up.broken && !range.down.broken;
                 out += fmt::format("<td{}>{}</td>", whole ? "" : " class=\"broken\"",
-                                   markup(rangeInWords(hold)));
+                                   markup(rangeInWords(range)));
             }
             std::optional<bool> agree;
             for (std::size_t c = 0; c < of.predicted.size(); ++c) {

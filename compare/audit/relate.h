@@ -4,7 +4,7 @@
 
 #include "compare/audit/measure.h"
 #include "compare/audit/relation.h"
-#include "compare/audit/relation_judge.h"
+#include "compare/audit/relation_result.h"
 #include "shared/frame/frame.h"
 
 #include <cstdint>
@@ -18,23 +18,23 @@
 namespace diptych::audit {
 
 // One renderer's two pictures.
-struct SeriesHeld {
+struct SeriesResult {
     Series series;      // the reference's, too: of mode scene, in double
     std::string lacks;  // why the relation says nothing of it; empty where it does
-    Held held;
-    Grant grant;
+    FrameResult comparison;
+    RelationTolerance tolerance;
     std::optional<Frame> given{}, changed{};  // of what is broken: with lit, mapped back
 };
 
 // Whose fault a broken relation is, by what the reference in double precision says of it.
 enum class Blame { none, ours_likely, driver_or_ours, relation };
 
-struct RelationHeld {
+struct RelationResult {
     const Relation* relation = nullptr;
     std::string lacks;  // why it says nothing of this scene; empty where it does
-    std::vector<SeriesHeld> series;
+    std::vector<SeriesResult> series;
 
-    bool holds() const;  // of the paths; the reference only tells whose fault it is
+    bool passes() const;  // of the paths; the reference only tells whose fault it is
     Blame blame(bool cpu) const;
 };
 
@@ -49,7 +49,7 @@ public:
                      std::shared_ptr<PipelineSet> pipelines = nullptr);
 
     // `spoil`: a fault that is planted in the changed case, for tests of this room; without one as it is.
-    RelationHeld measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
+    RelationResult measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
     // Of the series, in words.
     const std::vector<std::string>& leftOut() const { return chosen_.left_out; }
 
@@ -67,7 +67,8 @@ private:
     // of its lit; and the sum of both cases, as the base shows them.
     Frame packedLight(const Case& of);
     Image packedLight(const Related& related);
-    Grant grantOf(const Relation& relation, const Related& related, const Settings& settings) const;
+    RelationTolerance toleranceOf(const Relation& relation, const Related& related,
+                                  const Settings& settings) const;
 
     Device& device_;
     const Subject& subject_;

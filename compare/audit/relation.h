@@ -31,18 +31,18 @@ struct Related {
     bool own_base = false;  // the base is another one than the given case
 };
 
-// How alike the pictures must be; RelationMeasurer::grantOf derives what each allows.
-enum class Alike {
+// How alike the pictures must be; RelationMeasurer::toleranceOf derives what each allows.
+enum class Equality {
     bits,     // the same arithmetic of the same numbers: bit for bit
     sums,     // the same terms, added in another order
     rounding  // places that are the same but for rounding
 };
-std::string_view nameOf(Alike alike);  // "bits"
+std::string_view nameOf(Equality equality);  // "bits"
 
 struct Relation {
     std::string_view name;     // "lights_permuted"
     std::string_view changes;  // "the order of the lights is reversed"
-    Alike alike = Alike::bits;
+    Equality equality = Equality::bits;
     std::string_view because;  // why the picture stays so much alike
     // Why it says nothing of this scene with its Settings; empty where it does.
     std::string (*lacks)(const Subject&) = nullptr;

@@ -16,25 +16,25 @@ namespace diptych::audit {
 inline constexpr const char* relationsManifest = "relations.json";
 
 struct RelationAudit : Audited {
-    std::vector<RelationHeld> relations;
+    std::vector<RelationResult> relations;
 
-    bool holds() const;
+    bool passes() const;
 };
 
 // "holds", "broken", "does not apply".
-std::string_view verdictOf(const RelationHeld& held);
-std::string_view verdictOf(const SeriesHeld& held);
+std::string_view verdictOf(const RelationResult& result);
+std::string_view verdictOf(const SeriesResult& result);
 // Whose fault it is; empty where nothing is broken.
-std::string blameInWords(const RelationHeld& held, const ReportDevice& device);
+std::string blameInWords(const RelationResult& result, const ReportDevice& device);
 // "lit 3.1e-08 of 2e-07 at 12,30": the worst pixel; "the same" where there is no difference.
-std::string worstInWords(const SeriesHeld& held);
+std::string worstInWords(const SeriesResult& result);
 
 // "deferred, gbuffer full"; "reference, in double".
-std::string seriesInWords(const SeriesHeld& held);
+std::string seriesInWords(const SeriesResult& result);
 
 // One relation for a terminal: its name, its verdict and the worst pixel; a broken one with all that is
 // known.
-std::string inWords(const RelationHeld& held, const ReportDevice& device);
+std::string inWords(const RelationResult& result, const ReportDevice& device);
 // How many hold, and how many are broken.
 std::string inWords(const RelationAudit& audit);
 
@@ -48,6 +48,6 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
 std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& folder, bool force);
 
 // "moved-deferred-full": what the pictures of a broken series are named by.
-std::string pictureStem(const Relation& relation, const SeriesHeld& held);
+std::string pictureStem(const Relation& relation, const SeriesResult& result);
 
 }  // namespace diptych::audit

@@ -20,7 +20,7 @@ std::vector<const Relation*> relationsOf(std::span<const std::string> names);
 std::vector<Relation> lightRelations();     // lights, and all that sends light
 std::vector<Relation> placeRelations();     // where the scene is, and how it is seen
 std::vector<Relation> geometryRelations();  // how the same surfaces are written down
-std::vector<Relation> wayRelations();       // Settings that must not matter
+std::vector<Relation> settingRelations();   // Settings that must not matter
 
 // What several lack.
 std::string lacksNone(const Subject& subject);

@@ -19,7 +19,7 @@ nlohmann::ordered_json numberOf(double value);
 std::string magnitudeInWords(double magnitude);
 
 // How far a criterion holds: "1e-6 to 3.2e5", "up to 3.2e5", "all of it" that was tried, "not at all".
-std::string rangeInWords(const Hold& hold);
+std::string rangeInWords(const ValidRange& range);
 // The same of a prediction; `audit`: between which magnitudes it was tried. Empty where there is none.
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
 

@@ -127,7 +127,7 @@ public:
         for (const auto& [name, magnitude] : options_.audit.required)
             for (const audit::QuantityAudit& quantity : audit_.quantities)
                 if (quantity.quantity->name == name)
-                    audit_.requirements.push_back(audit::judge(quantity, magnitude));
+                    audit_.requirements.push_back(audit::evaluate(quantity, magnitude));
         checkValidation(opened_.device());
         stage.at(0.98, "write");
         if (audit_.kept > 0)

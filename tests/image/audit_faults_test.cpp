@@ -37,16 +37,16 @@ Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& chan
 // on a scale of logarithms. Fails where the one is not sound or the other not broken.
 double limitOf(Measurer& measurer, const Quantity& quantity, double sound, double broken) {
     const std::array<Series, 1> series{Series{Path::forward_plus, {}}};
-    const auto holds = [&](double magnitude) {
+    const auto passes = [&](double magnitude) {
         const Step step = measurer.measure(quantity, series, magnitude);
         EXPECT_EQ(step.failed, "") << magnitude;
         return step.outcomes[0].error() <= percent;
     };
-    EXPECT_TRUE(holds(sound)) << quantity.name;
-    EXPECT_FALSE(holds(broken)) << quantity.name;
+    EXPECT_TRUE(passes(sound)) << quantity.name;
+    EXPECT_FALSE(passes(broken)) << quantity.name;
     while (std::abs(std::log(broken / sound)) > std::log(1.1)) {
         const double middle = std::sqrt(sound * broken);
-        (holds(middle) ? sound : broken) = middle;
+        (passes(middle) ? sound : broken) = middle;
     }
     return std::sqrt(sound * broken);
 }

@@ -55,7 +55,7 @@ void waitAWhile(Related& related, const Subject&) {
 
 }  // namespace
 
-std::vector<Relation> wayRelations() {
+std::vector<Relation> settingRelations() {
     return {{.name = "repeated",
              .changes = "the same scene is uploaded and drawn again",
              .because = "rendering is deterministic",

@@ -18,8 +18,8 @@ namespace diptych::audit {
 std::span<const int> relatedChannels();
 
 // What a picture may differ by, and from which fact that follows.
-struct Grant {
-    Alike alike = Alike::bits;
+struct RelationTolerance {
+    Equality equality = Equality::bits;
     bool reorders = false;  // Relation::reorders
     // bits: units in the last place of a pixel's largest component. 0 where all pipelines round alike.
     int ulps = 0;
@@ -47,7 +47,7 @@ struct Grant {
 };
 
 // By channel the worst pixel: the largest error as a part of what is allowed there.
-struct ChannelHeld {
+struct ChannelResult {
     int mode = 0;
     double error = 0, allowed = 0;  // there, of the largest component (bits: ULP)
     double used = 0;                // error / allowed; infinite where nothing is allowed
@@ -55,9 +55,9 @@ struct ChannelHeld {
     std::uint64_t beyond = 0;       // pixels whose error is not allowed
 };
 
-struct Held {
-    std::vector<ChannelHeld> channels;  // as relatedChannels(), those that both Frames have
-    std::uint64_t covered = 0;          // pixels that show a surface in either picture
+struct FrameResult {
+    std::vector<ChannelResult> channels;  // as relatedChannels(), those that both Frames have
+    std::uint64_t covered = 0;            // pixels that show a surface in either picture
     // Pixels that are set aside, because they show another triangle (rounding: beside an edge; reorders: of
     // the same depth), and the most that may be.
     std::uint64_t aside = 0, most_aside = 0;
@@ -68,14 +68,14 @@ struct Held {
     // Of lit, or of the worst channel where lit holds: error / allowed at each pixel, W x H x 1.
     Image used;
 
-    bool holds() const;
-    const ChannelHeld* worst() const;  // the channel that uses most of what is allowed; nullptr: none
+    bool passes() const;
+    const ChannelResult* worst() const;  // the channel that uses most of what is allowed; nullptr: none
 };
 
 // The changed picture as the given one would be.
 Frame mappedBack(const Frame& changed, const PictureMap& map);
 
 // `changed`: mapped back.
-Held hold(const Frame& given, const Frame& changed, const Grant& grant);
+FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance);
 
 }  // namespace diptych::audit

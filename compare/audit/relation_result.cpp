@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/relation_judge.h"
+#include "compare/audit/relation_result.h"
 
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
@@ -84,31 +84,31 @@ void around(const Image& image, std::size_t pixel, const Visit& visit) {
                       static_cast<std::size_t>(u));
 }
 
-class Judge {
+class Evaluation {
 public:
-    Judge(const Frame& given, const Frame& changed, const Grant& grant)
-        : given_(given), changed_(changed), grant_(grant), where_(coverage(given, changed)) {}
+    Evaluation(const Frame& given, const Frame& changed, const RelationTolerance& tolerance)
+        : given_(given), changed_(changed), tolerance_(tolerance), where_(coverage(given, changed)) {}
 
-    Held run() {
-        Held held;
-        held.covered = where_.count;
+    FrameResult run() {
+        FrameResult result;
+        result.covered = where_.count;
         aside_.assign(where_.covered.size(), false);
         filtered_.assign(where_.covered.size(), false);
-        if (grant_.alike == Alike::rounding) setEdgesAside(held);
-        if (grant_.reorders) setTiesAside(held);
-        if (grant_.alike == Alike::rounding) findFiltered(held);
+        if (tolerance_.equality == Equality::rounding) setEdgesAside(result);
+        if (tolerance_.reorders) setTiesAside(result);
+        if (tolerance_.equality == Equality::rounding) findFiltered(result);
         double most = -1;
         for (const int mode : compared) {
             if (!given_.channels.contains(mode) || !changed_.channels.contains(mode)) continue;
             Image used;
-            held.channels.push_back(channel(mode, used));
-            const ChannelHeld& of = held.channels.back();
+            result.channels.push_back(channel(mode, used));
+            const ChannelResult& of = result.channels.back();
             if (of.used > most && (most <= 1 || mode == lightMode)) {
                 most = of.used;
-                held.used = std::move(used);
+                result.used = std::move(used);
             }
         }
-        return held;
+        return result;
     }
 
 private:
@@ -136,15 +136,15 @@ private:
 
     bool isTextured(std::size_t pixel) const {
         const float id = given(idMode).data[pixel];
-        return id >= 0 && static_cast<std::size_t>(id) < grant_.textured.size() &&
-               grant_.textured[static_cast<std::size_t>(id)];
+        return id >= 0 && static_cast<std::size_t>(id) < tolerance_.textured.size() &&
+               tolerance_.textured[static_cast<std::size_t>(id)];
     }
 
     // By how much shading normals differ, radians, beyond what packing them may; they are judged themselves.
     double normalApart(std::size_t pixel) const {
-        const auto packed = grant_.packed.find(normalMode);
+        const auto packed = tolerance_.packed.find(normalMode);
         return std::max(0.0, apart(given(normalMode).pixel(pixel), changed(normalMode).pixel(pixel), 3) -
-                                 (packed != grant_.packed.end() ? 2 * packed->second : 0));
+                                 (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
     // By what part light changes for a radian of that, at most: ln D of GGX by 2 / alpha, where the half
     // vector is alpha away, and cosines, Smith's and Fresnel's factors by some 4.
@@ -160,14 +160,15 @@ private:
             std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
         if (mode == idMode) return 0;
         // A light's end cancels: what is left of it is rounded by parts of the whole.
-        double allowed = grant_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
+        double allowed = tolerance_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
                          std::numeric_limits<float>::min();
-        if (mode == facet) allowed += grant_.facet;
-        if (grant_.step > 0) allowed += grant_.step * variation(mode, pixel);
-        if (const auto packed = grant_.packed.find(mode); packed != grant_.packed.end())
+        if (mode == facet) allowed += tolerance_.facet;
+        if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
+        if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
             allowed += 2 * packed->second * (mode == static_cast<int>(gpu::DEBUG_emission) ? size : 1);
         if (mode == lightMode) allowed += size * lightPerNormal(pixel) * normalApart(pixel);
-        if (mode == lightMode && grant_.packed_light) allowed += double{grant_.packed_light->data[pixel]};
+        if (mode == lightMode && tolerance_.packed_light)
+            allowed += double{tolerance_.packed_light->data[pixel]};
         return allowed;
     }
     bool isWithinRounding(int mode, std::size_t pixel) const {
@@ -179,11 +180,11 @@ private:
     bool isFilteredAlike(int mode, std::size_t pixel) const {
         const Image &a = given(mode), &b = changed(mode);
         const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
-        const auto packed = grant_.packed.find(mode);
+        const auto packed = tolerance_.packed.find(mode);
         const double size =
             std::max({1.0, largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components)});
         return difference <=
-               size * (grant_.relative + (packed != grant_.packed.end() ? 2 * packed->second : 0));
+               size * (tolerance_.relative + (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
 
     // Whether another surface is seen beside the pixel in a picture: another material, another triangle's
@@ -202,14 +203,14 @@ private:
     }
 
     bool isBesideBlended(std::size_t pixel) const {
-        if (!grant_.blended) return false;
-        bool found = grant_.blended->data[pixel] > 0;
-        around(*grant_.blended, pixel,
-               [&](std::size_t other) { found = found || grant_.blended->data[other] > 0; });
+        if (!tolerance_.blended) return false;
+        bool found = tolerance_.blended->data[pixel] > 0;
+        around(*tolerance_.blended, pixel,
+               [&](std::size_t other) { found = found || tolerance_.blended->data[other] > 0; });
         return found;
     }
 
-    void setEdgesAside(Held& held) {
+    void setEdgesAside(FrameResult& result) {
         std::uint64_t edges = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             const bool beside = isBesideEdge(given_, i), blended = isBesideBlended(i);
@@ -217,24 +218,24 @@ private:
             aside_[i] = (beside && (given(idMode).data[i] != changed(idMode).data[i] ||
                                     !isWithinRounding(viewDepth, i) || !isWithinRounding(facet, i))) ||
                         (blended && !isWithinRounding(lightMode, i));
-            held.aside += aside_[i];
+            result.aside += aside_[i];
         }
-        held.most_aside = std::max(fewPixels, edges / edgesForOneAside);
+        result.most_aside = std::max(fewPixels, edges / edgesForOneAside);
     }
 
-    void setTiesAside(Held& held) {
+    void setTiesAside(FrameResult& result) {
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (given(viewDepth).data[i] != changed(viewDepth).data[i]) continue;
             aside_[i] = std::ranges::any_of(compared, [&](int mode) {
                 return mode != lightMode &&
                        apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
             });
-            held.aside += aside_[i];
+            result.aside += aside_[i];
         }
-        held.most_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
+        result.most_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
     }
 
-    void findFiltered(Held& held) {
+    void findFiltered(FrameResult& result) {
         std::uint64_t textured = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
@@ -243,32 +244,34 @@ private:
                 return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
                        !isFilteredAlike(mode, i);
             });
-            held.filtered += filtered_[i];
+            result.filtered += filtered_[i];
         }
-        held.most_filtered = std::max(
-            fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * grant_.filtered_share));
+        result.most_filtered = std::max(
+            fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * tolerance_.filtered_share));
     }
 
     double errorAt(int mode, std::size_t pixel, double& allowed) const {
         const Image &a = given(mode), &b = changed(mode);
         const float *p = a.pixel(pixel), *q = b.pixel(pixel);
         allowed = 0;
-        if (grant_.alike == Alike::bits || (grant_.alike == Alike::sums && mode != lightMode)) {
-            allowed = grant_.ulps;
+        if (tolerance_.equality == Equality::bits ||
+            (tolerance_.equality == Equality::sums && mode != lightMode)) {
+            allowed = tolerance_.ulps;
             return ulpsApart(p, q, a.components);
         }
-        if (grant_.alike == Alike::rounding) {
+        if (tolerance_.equality == Equality::rounding) {
             allowed = allowedByRounding(mode, pixel);
             if (isTextured(pixel))
-                allowed += grant_.filter_step * (mode == normalMode ? 2 : 1) *
+                allowed += tolerance_.filter_step * (mode == normalMode ? 2 : 1) *
                            std::max({1.0, largest(p, a.components), largest(q, a.components)});
             return apart(p, q, a.components);
         }
         // Terms are at least 0, so that each component's sum is that of their sizes.
         double worst = 0, error = 0;
         for (int c = 0; c < a.components; ++c) {
-            const double may = grant_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
-                               std::numeric_limits<float>::min();
+            const double may =
+                tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
+                std::numeric_limits<float>::min();
             const double is = apart(p + c, q + c, 1);
             if (c > 0 && shareOf(is, may) <= worst) continue;
             worst = shareOf(is, may);
@@ -278,10 +281,10 @@ private:
         return error;
     }
 
-    ChannelHeld channel(int mode, Image& used) {
+    ChannelResult channel(int mode, Image& used) {
         const Image& image = given(mode);
         used = Image(image.width, image.height, 1);
-        ChannelHeld held{.mode = mode};
+        ChannelResult result{.mode = mode};
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (aside_[i] || (filtered_[i] && mode == lightMode)) continue;
             double allowed = 0;
@@ -289,19 +292,19 @@ private:
             if (error == 0) continue;
             const double part = shareOf(error, allowed);
             used.data[i] = static_cast<float>(part);
-            held.beyond += part > 1;
-            if (part <= held.used && held.x >= 0) continue;
-            held.used = part;
-            held.error = error;
-            held.allowed = allowed;
-            held.x = static_cast<int>(i) % image.width;
-            held.y = static_cast<int>(i) / image.width;
+            result.beyond += part > 1;
+            if (part <= result.used && result.x >= 0) continue;
+            result.used = part;
+            result.error = error;
+            result.allowed = allowed;
+            result.x = static_cast<int>(i) % image.width;
+            result.y = static_cast<int>(i) / image.width;
         }
-        return held;
+        return result;
     }
 
     const Frame &given_, &changed_;
-    const Grant& grant_;
+    const RelationTolerance& tolerance_;
     const Coverage where_;
     const double light_floor_ =
         PixelError(Metric::relative, ChannelKind::color, given(lightMode), where_).floor();
@@ -336,13 +339,13 @@ std::span<const int> relatedChannels() {
     return compared;
 }
 
-std::string Grant::inWords() const {
-    switch (alike) {
-        case Alike::bits:
+std::string RelationTolerance::inWords() const {
+    switch (equality) {
+        case Equality::bits:
             return ulps == 0 ? "bit for bit" : fmt::format("{} ULP of the largest component", ulps);
-        case Alike::sums:
+        case Equality::sums:
             return fmt::format("lit: {:.2g} of each component", relative);
-        case Alike::rounding:
+        case Equality::rounding:
             return fmt::format(
                 "{:.2g} of the value{}", relative,
                 step > 0 ? fmt::format(" plus {:.2g} of its change to the next pixel", step) : "");
@@ -350,13 +353,13 @@ std::string Grant::inWords() const {
     return {};
 }
 
-bool Held::holds() const {
+bool FrameResult::passes() const {
     return failed.empty() && aside <= most_aside && filtered <= most_filtered &&
-           std::ranges::all_of(channels, [](const ChannelHeld& of) { return of.beyond == 0; });
+           std::ranges::all_of(channels, [](const ChannelResult& of) { return of.beyond == 0; });
 }
 
-const ChannelHeld* Held::worst() const {
-    const auto found = std::ranges::max_element(channels, {}, &ChannelHeld::used);
+const ChannelResult* FrameResult::worst() const {
+    const auto found = std::ranges::max_element(channels, {}, &ChannelResult::used);
     return found == channels.end() || found->x < 0 ? nullptr : &*found;
 }
 
@@ -382,8 +385,8 @@ Frame mappedBack(const Frame& changed, const PictureMap& map) {
     return back;
 }
 
-Held hold(const Frame& given, const Frame& changed, const Grant& grant) {
-    return Judge(given, changed, grant).run();
+FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance) {
+    return Evaluation(given, changed, tolerance).run();
 }
 
 }  // namespace diptych::audit
