@@ -28,9 +28,9 @@ double nonfiniteOf(const Outcome& outcome) {
 
 // The steps in an order that leads away from the usual one.
 BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
-                              std::size_t usual, int way) {
-    BreakingPoint point{.last = steps[usual].magnitude};
-    for (auto i = static_cast<std::ptrdiff_t>(usual) + way; i >= 0 && i < std::ssize(steps); i += way) {
+                              std::size_t original, int way) {
+    BreakingPoint point{.last = steps[original].magnitude};
+    for (auto i = static_cast<std::ptrdiff_t>(original) + way; i >= 0 && i < std::ssize(steps); i += way) {
         const Step& step = steps[static_cast<std::size_t>(i)];
         // What a device refuses to draw is no failure of arithmetic.
         if (!step.outcomes[series].failed.empty()) return point;
@@ -51,9 +51,9 @@ double rounded(double magnitude, const Quantity& quantity) {
 
 Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings,
                       double error) {
-    Settings usual = settings;
-    if (quantity.predicts_formats) usual.depth_format = DepthFormat::d32f;
-    return quantity.predict && isPrecise(usual) ? quantity.predict(subject, settings, error) : Predicted{};
+    Settings original = settings;
+    if (quantity.predicts_formats) original.depth_format = DepthFormat::d32f;
+    return quantity.predict && isPrecise(original) ? quantity.predict(subject, settings, error) : Predicted{};
 }
 
 // Between two magnitudes: by ratios, as they are tried.
@@ -80,15 +80,15 @@ bool agrees(const BreakingPoint& point, double predicted, bool up, double tried)
 }
 
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
-                                                                  std::size_t series, double usual) {
+                                                                  std::size_t series, double original) {
     std::array<std::vector<ValidRange>, criterionCount> all;
-    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(steps, usual, {}, &Step::magnitude) -
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(steps, original, {}, &Step::magnitude) -
                                              steps.begin());
     for (std::size_t c = 0; c < criterionCount; ++c)
         for (std::size_t s = 0; s < series; ++s) {
             ValidRange range;
-            range.usual = at < steps.size() && passes(criteria[c], steps[at].outcomes[s]);
-            if (range.usual) {
+            range.at_original = at < steps.size() && passes(criteria[c], steps[at].outcomes[s]);
+            if (range.at_original) {
                 range.up = breakingPointOf(criteria[c], steps, s, at, 1);
                 range.down = breakingPointOf(criteria[c], steps, s, at, -1);
             }
@@ -102,7 +102,7 @@ std::optional<double> nextMagnitude(const QuantityAudit& audit) {
     for (const std::vector<ValidRange>& of : audit.valid_ranges)
         for (const ValidRange& range : of)
             for (const BreakingPoint* point : {&range.up, &range.down}) {
-                if (!range.usual || !point->broken || point->last == 0 || point->first == 0) continue;
+                if (!range.at_original || !point->broken || point->last == 0 || point->first == 0) continue;
                 if (std::max(point->last / point->first, point->first / point->last) <= resolved) continue;
                 return rounded(between(point->last, point->first), *audit.quantity);
             }
@@ -116,12 +116,12 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     audit.quantity = &quantity;
     audit.lacks = subject.bounds.empty() ? "the scene has nothing to draw" : quantity.lacks(subject);
     if (!audit.lacks.empty()) return audit;
-    audit.usual = quantity.usual(subject);
+    audit.original = quantity.original(subject);
     ChosenSeries chosen = seriesOf(quantity, subject);
     audit.series = std::move(chosen.series);
     audit.left_out = std::move(chosen.left_out);
     std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
-    magnitudes.insert(audit.usual);
+    magnitudes.insert(audit.original);
     magnitudes.insert(beside.begin(), beside.end());
     const auto measure = [&](double magnitude) {
         Step measured = step(audit.series, magnitude);
@@ -130,7 +130,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     };
     for (const double magnitude : magnitudes) measure(magnitude);
     for (;;) {
-        audit.valid_ranges = validRangesOf(audit.steps, audit.series.size(), audit.usual);
+        audit.valid_ranges = validRangesOf(audit.steps, audit.series.size(), audit.original);
         const std::optional<double> next = nextMagnitude(audit);
         if (!next || std::ranges::count(audit.steps, *next, &Step::magnitude) > 0) break;
         measure(*next);
@@ -160,11 +160,11 @@ Requirement evaluate(const QuantityAudit& audit, double magnitude) {
         for (std::size_t s = 0; s < audit.series.size(); ++s) {
             if (audit.series[s].path != path) continue;
             const ValidRange& range = audit.valid_ranges[requiredCriterion][s];
-            const BreakingPoint& point = magnitude >= audit.usual ? range.up : range.down;
-            const bool far = magnitude >= audit.usual ? point.last >= magnitude : point.last <= magnitude;
-            met = met || (range.usual && far);
-            if (range.usual &&
-                (!furthest || std::abs(point.last - audit.usual) > std::abs(*furthest - audit.usual)))
+            const BreakingPoint& point = magnitude >= audit.original ? range.up : range.down;
+            const bool far = magnitude >= audit.original ? point.last >= magnitude : point.last <= magnitude;
+            met = met || (range.at_original && far);
+            if (range.at_original &&
+                (!furthest || std::abs(point.last - audit.original) > std::abs(*furthest - audit.original)))
                 furthest = point.last;
         }
         const std::string reached =

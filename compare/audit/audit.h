@@ -38,7 +38,7 @@ struct BreakingPoint {
 };
 // Where it does not hold at the usual magnitude already there is none.
 struct ValidRange {
-    bool usual = false;
+    bool at_original = false;
     BreakingPoint up, down;
 };
 
@@ -52,7 +52,7 @@ struct Failure {
 struct QuantityAudit {
     const Quantity* quantity = nullptr;
     std::string lacks;  // why it is not pushed; empty where it is
-    double usual = 0;
+    double original = 0;
     std::vector<Series> series;
     std::vector<std::string> left_out;  // ChosenSeries::left_out
     std::vector<Step> steps;            // ascending
@@ -69,7 +69,7 @@ bool agrees(const BreakingPoint& point, double predicted, bool up, double tried)
 
 // The holds of steps that have been measured.
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
-                                                                  std::size_t series, double usual);
+                                                                  std::size_t series, double original);
 
 // A magnitude between two steps at which to measure next, so that a reach is known to a factor of 1.25;
 // nothing where all are, or where so many steps have been added as pay.

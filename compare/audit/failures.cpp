@@ -30,7 +30,7 @@ std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subjec
     for (const std::size_t criterion : {numberCriterion, requiredCriterion})
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const ValidRange& range = of.valid_ranges[criterion][s];
-            if (!range.usual || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
+            if (!range.at_original || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
             for (const BreakingPoint* point : {&range.up, &range.down})
                 if (point->broken) return Broken{s, criterion, point->first};
         }

@@ -42,7 +42,7 @@ std::string tableOf(const Audit& audit) {
                                swatchOf(of.series[s]), markup(of.series[s].words()));
             for (std::size_t c = 0; c < criterionCount; ++c) {
                 const ValidRange& range = of.valid_ranges[c][s];
-                const bool whole = range.usual && !range.up.broken && !range.down.broken;
+                const bool whole = range.at_original && !range.up.broken && !range.down.broken;
                 out += fmt::format("<td{}>{}</td>", whole ? "" : " class=\"broken\"",
                                    markup(rangeInWords(range)));
             }
@@ -82,7 +82,7 @@ std::string sectionOf(const QuantityAudit& of) {
     const Quantity& quantity = *of.quantity;
     std::string out =
         fmt::format("<div class=\"box\" id=\"{0}\"><h3>{0}</h3><p class=\"soft\">{1}; here {2} {3}</p>",
-                    quantity.name, markup(quantity.what), magnitudeInWords(of.usual), quantity.unit);
+                    quantity.name, markup(quantity.what), magnitudeInWords(of.original), quantity.unit);
     out += auditPlot(of, PlotPlace::page);
     std::vector<std::string> reasons;
     for (const std::vector<Predicted>& predicted : of.predicted)

@@ -104,7 +104,7 @@ private:
     // Takes from the scene what does not decide where a surface is.
     static Frame tracedRays(Scene scene, Settings settings);
     // Of the subject as it is, in a picture of this size.
-    const Truth& usual(const Size& size);
+    const Truth& original(const Size& size);
     // `exposure`: Case::exposure.
     static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
     // What is drawn of a case: the truth of it, and a Frame of each series or why there is none.
@@ -121,8 +121,8 @@ private:
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::pair<int, int>, Truth> usual_;  // by the picture's width and height
-    std::optional<Drawn> pictures_;               // of the quantity that changes pictures alone
+    std::map<std::pair<int, int>, Truth> original_;  // by the picture's width and height
+    std::optional<Drawn> pictures_;                  // of the quantity that changes pictures alone
     Fault fault_{};
 };
 

@@ -28,7 +28,7 @@ Json jsonOf(const BreakingPoint& point) {
 }
 
 Json jsonOf(const ValidRange& range) {
-    if (!range.usual) return nullptr;
+    if (!range.at_original) return nullptr;
     return {{"down", jsonOf(range.down)}, {"up", jsonOf(range.up)}};
 }
 
@@ -50,7 +50,7 @@ Json jsonOf(const QuantityAudit& audit) {
         json["not_pushed"] = audit.lacks;
         return json;
     }
-    json["usual"] = audit.usual;
+    json["usual"] = audit.original;
     json["series"] = Json::array();
     for (std::size_t s = 0; s < audit.series.size(); ++s) {
         Json series = jsonOf(audit.series[s]);
@@ -95,7 +95,7 @@ std::string magnitudeInWords(double magnitude) {
 }
 
 std::string rangeInWords(const ValidRange& range) {
-    if (!range.usual) return "nowhere";
+    if (!range.at_original) return "nowhere";
     return rangeOf(range.down.broken ? std::optional(range.down.last) : std::nullopt,
                    range.up.broken ? std::optional(range.up.last) : std::nullopt);
 }
@@ -113,7 +113,7 @@ std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, st
     const Predicted& predicted = audit.predicted[criterion][series];
     if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    if (!range.usual) return {};  // something else errs by more
+    if (!range.at_original) return {};  // something else errs by more
     // A bound is refuted by what holds beyond it alone.
     if (predicted.at_most && range.up.broken && range.up.last <= predicted.up) return {};
     return agrees(range.up, predicted.up, true, last) && agrees(range.down, predicted.down, false, first);
@@ -126,7 +126,7 @@ std::string inWords(const QuantityAudit& audit) {
     std::string out =
         fmt::format("{}: {}; {} to {}{}, here {}\n", quantity.name, quantity.what,
                     magnitudeInWords(audit.steps.front().magnitude),
-                    magnitudeInWords(audit.steps.back().magnitude), unit, magnitudeInWords(audit.usual));
+                    magnitudeInWords(audit.steps.back().magnitude), unit, magnitudeInWords(audit.original));
     out += fmt::format("    {:<36} {:<22} {:<22} {:<22} {}\n", "", "error < 1e-3", "error < 1e-2",
                        "not visible", "finite");
     for (std::size_t s = 0; s < audit.series.size(); ++s) {

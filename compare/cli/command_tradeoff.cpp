@@ -291,7 +291,7 @@ int runTradeoff(const Options& words) {
     checkTradeoffOptions(options);
     const Settings& given = options.settings;
     const SweepRows sweep =
-        makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
+        makeSweepRows(given, options.grid.empty() ? defaultGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are measured in lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are measured in lit");
     if (options.scenes.size() == 1 && options.shard.empty()) return Sweep(options, sweep).run();

@@ -47,8 +47,9 @@ std::size_t figureOf(const std::string& name) {
 std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
                                     const Scene& scene) {
     const Settings& given = options.settings;
-    tradeoff::SweepRows sweep = tradeoff::makeSweepRows(
-        given, options.grid.empty() ? tradeoff::usualGrids(given) : tradeoff::readGrids(options.grid, given));
+    tradeoff::SweepRows sweep =
+        tradeoff::makeSweepRows(given, options.grid.empty() ? tradeoff::defaultGrids(given)
+                                                            : tradeoff::readGrids(options.grid, given));
     if (options.grid.empty()) sweep = tradeoff::sensitiveRows(sweep, view.lights, &scene);
     sweep = tradeoff::withoutRefused(std::move(sweep), given,
                                      [&](const Settings& row) { return drawingProblem(device, row); });

@@ -129,8 +129,8 @@ private:
         }
     }
     void reset(std::string_view option, std::string_view why) {
-        static const Settings usual;
-        row_.set(option, usual.valueOf(option));
+        static const Settings defaults;
+        row_.set(option, defaults.valueOf(option));
         reasons_.emplace(option, why);
     }
 

@@ -123,7 +123,7 @@ void addProduct(const Grid& grid, SweepBuilder& builder) {
 
 }  // namespace
 
-std::vector<Grid> usualGrids(const Settings& given) {
+std::vector<Grid> defaultGrids(const Settings& given) {
     std::vector<Settings> starts;
     addStarts(given, starts);
     // A grid with the start's values.

@@ -30,7 +30,7 @@ struct SweepRows {
 
 // Default grids without --grid. For each path, varies every Setting that it reads alone, and the pairs of
 // sweepPairs() together.
-std::vector<Grid> usualGrids(const Settings& given);
+std::vector<Grid> defaultGrids(const Settings& given);
 
 // Invalid and unsupported combinations become skips. So does a value that its path ignores; the row is
 // rendered without it. Throws std::runtime_error if no row is left or there are more than

@@ -36,7 +36,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int usualWidth = 1280, usualHeight = 760;  // of the window, at scale 1
+constexpr int defaultWidth = 1280, defaultHeight = 760;  // of the window, at scale 1
 // Interval between frames of the interface, s: 60 frames a second while something moves, at most 125.
 constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.25;
 // A view is still once nothing has moved for this time, s.
@@ -84,7 +84,7 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options),
-          window_(usualWidth, usualHeight, "Diptych"),
+          window_(defaultWidth, defaultHeight, "Diptych"),
           imgui_(window_.handle()),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;

@@ -171,7 +171,7 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                     .unit = "",
                                     .what = "the roughness of all",
                                     .magnitudes = {0.01, 1},
-                                    .usual = [](const Subject&) { return 1.0; },
+                                    .original = [](const Subject&) { return 1.0; },
                                     .lacks = [](const Subject&) { return std::string(); },
                                     .push = pushSharpness};
     const double predicted = std::pow(2 * 1.5 * 0x1p-24 / percent, 0.25);
@@ -221,7 +221,7 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                .unit = "degrees",
                                .what = "the whole angle of the spot",
                                .magnitudes = {1, 90},
-                               .usual = [](const Subject&) { return 90.0; },
+                               .original = [](const Subject&) { return 90.0; },
                                .lacks = [](const Subject&) { return std::string(); },
                                .push = pushSoftCone};
     const double predicted = 2 * std::acos(1 - 0.001 * 0.995) * 180 / std::numbers::pi;

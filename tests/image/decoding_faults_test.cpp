@@ -37,8 +37,7 @@ const DecodingFault decodingFaults[] = {
     {"RoughnessOfHalfFloats", gpu::DEBUG_roughness, asHalf},
     {"AlbedoWithoutItsRoot", gpu::DEBUG_albedo, [](float x) { return rounded(x, 255); }},
     {"AlbedoRootedTwice", gpu::DEBUG_albedo, [](float x) { return std::sqrt(x); }},
-    {"MetallicOfFourBits", gpu::DEBUG_metallic,
-     [](float x) { return x > 0 && x < 1 ? x - 0.5f / 15 : x; }},
+    {"MetallicOfFourBits", gpu::DEBUG_metallic, [](float x) { return x > 0 && x < 1 ? x - 0.5f / 15 : x; }},
     {"OcclusionOfSevenBits", gpu::DEBUG_occlusion, [](float x) { return rounded(x, 127); }},
     {"EmissionOfEightBits", gpu::DEBUG_emission, [](float x) { return x * (1 + 1.0f / 200); }},
 };

@@ -73,7 +73,7 @@ TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
                                   stepOf(10, 2e-3), stepOf(100, 1e-4), stepOf(1000, 0.5, 0.2, 3)};
     const auto ranges = validRangesOf(steps, 1, 1);
     const ValidRange& fine = ranges[0][0];
-    EXPECT_TRUE(fine.usual);
+    EXPECT_TRUE(fine.at_original);
     EXPECT_TRUE(fine.up.broken);
     EXPECT_EQ(fine.up.last, 1);
     EXPECT_EQ(fine.up.first, 10);  // that it holds again at 100 does not count
@@ -88,7 +88,7 @@ TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
     EXPECT_EQ(rangeInWords(visible), "up to 100");
     EXPECT_TRUE(ranges[numberCriterion][0].up.broken);
     const auto bad = validRangesOf({stepOf(1, 1)}, 1, 1);
-    EXPECT_FALSE(bad[0][0].usual);
+    EXPECT_FALSE(bad[0][0].at_original);
     EXPECT_EQ(rangeInWords(bad[0][0]), "nowhere");
     EXPECT_EQ(rangeInWords(validRangesOf({stepOf(1, 0)}, 1, 1)[0][0]), "whole range");
 }
@@ -129,7 +129,7 @@ TEST(Audit, ARequirementIsOfBothPathsAndTheirBestSeries) {
     std::vector<ValidRange>& ranges = audit.valid_ranges[requiredCriterion];
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         if (audit.series[s].path == Path::deferred && audit.series[s].changes.empty())
-            ranges[s].usual = false;
+            ranges[s].at_original = false;
     EXPECT_TRUE(evaluate(audit, 1e6).met) << "with a G-buffer of float32 it does";
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         if (audit.series[s].path == Path::forward_plus)
@@ -167,7 +167,7 @@ TEST(Audit, WhatADeviceRefusesIsNoFailure) {
     std::vector<Step> steps{stepOf(1, 1e-6), stepOf(10, 1e-6), stepOf(100, infinity)};
     steps.back().outcomes.front().failed = "--size 99999x9: draws up to 16384x16384";
     for (const auto& of : validRangesOf(steps, 1, 1)) {
-        EXPECT_TRUE(of[0].usual);
+        EXPECT_TRUE(of[0].at_original);
         EXPECT_FALSE(of[0].up.broken);
         EXPECT_EQ(of[0].up.last, 10);
     }

@@ -22,7 +22,7 @@ Light lightOf(LightKind kind, float range = std::numeric_limits<float>::infinity
 }
 
 SweepRows sensitiveTo(const std::vector<Light>& lights) {
-    return sensitiveRows(makeSweepRows({}, usualGrids({})), lights);
+    return sensitiveRows(makeSweepRows({}, defaultGrids({})), lights);
 }
 
 // Values of a Setting among the rows.
@@ -95,7 +95,7 @@ SweepRows sensitiveUnder(const Material& material, bool even) {
     Settings given;
     given.env = "sky.exr";
     given.multiscatter = Multiscatter::energy;
-    return sensitiveRows(makeSweepRows(given, usualGrids(given)), {}, &scene);
+    return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}, &scene);
 }
 
 TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
@@ -142,7 +142,7 @@ TEST(TradeoffSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     scene.materials.resize(1);
     Primitive& primitive = scene.meshes[0].primitives[0];
     primitive.material = 0;
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, defaultGrids({})), {}, &scene); };
     EXPECT_EQ(valuesOf(sensitive(), "skinning"), std::set<std::string>{"compute"});
     EXPECT_EQ(reasonOf(sensitive(), "skinning", "vertex"), "no vertex is skinned or morphed");
     primitive.targets.resize(1);
@@ -159,7 +159,7 @@ TEST(TradeoffSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
     scene.materials.resize(1);
     scene.meshes[0].primitives[0].material = 0;
     Material& material = scene.materials[0];
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, defaultGrids({})), {}, &scene); };
     EXPECT_EQ(valuesOf(sensitive(), "transparency"), std::set<std::string>{"sorted"});
     EXPECT_EQ(valuesOf(sensitive(), "transparency-layers").size(), 1u);
     EXPECT_EQ(reasonOf(sensitive(), "transparency", "weighted"),
@@ -176,7 +176,7 @@ TEST(TradeoffSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
 TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
     Settings given;
     given.haze = true;
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows(given, usualGrids(given)), {}); };
+    const auto sensitive = [&] { return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}); };
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), (std::set<std::string>{"0", "8", "32"}));
     given.haze_density = 0;
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), std::set<std::string>{"0"});
@@ -190,7 +190,7 @@ TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
 
 // Whatever is left out, each skip names its path, and no two rows are one picture.
 TEST(TradeoffSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
-    const SweepRows all = makeSweepRows({}, usualGrids({}));
+    const SweepRows all = makeSweepRows({}, defaultGrids({}));
     const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});
     EXPECT_LT(sweep.rows.size(), all.rows.size());
     EXPECT_EQ(sweep.rows.front(), Settings()) << "the given Settings stay first";

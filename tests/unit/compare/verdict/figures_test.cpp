@@ -145,13 +145,13 @@ TEST(Figures, FlipIsToldItsOptions) {
                             nullptr, flip})({"flip", 0})
             .value_or(-1);
     };
-    HdrFlipOptions usual, near, one;
+    HdrFlipOptions defaults, near, one;
     near.pixels_per_degree = 20;
     one.start_exposure = one.stop_exposure = 0;
     one.exposures = 1;
-    EXPECT_NE(mean(usual, false), mean(near, false));
-    EXPECT_NE(mean(usual, true), mean(near, true));
-    EXPECT_NE(mean(usual, false), mean(one, false));
+    EXPECT_NE(mean(defaults, false), mean(near, false));
+    EXPECT_NE(mean(defaults, true), mean(near, true));
+    EXPECT_NE(mean(defaults, false), mean(one, false));
 }
 
 // A share of failing pixels: an error that is the bound itself passes.
