@@ -278,25 +278,25 @@ TEST(Calibration, TwoAtOnceAreNamed) {
 
 // What is granted is what would make up for it.
 TEST(Calibration, GrantsAreTheWayBack) {
-    const auto grantOf = [&](const Fake& fake) {
-        nlohmann::ordered_json granted = nlohmann::ordered_json::object();
+    const auto correctionOf = [&](const Fake& fake) {
+        nlohmann::ordered_json corrections = nlohmann::ordered_json::object();
         for (const Deviation& one : deviationsOf(studio().charts(), studio().pictures(fake, 7)))
-            granted.update(one.grant);
-        return granted;
+            corrections.update(one.correction);
+        return corrections;
     };
     Fake fake;
     fake.fov = 1;
-    EXPECT_NEAR(grantOf(fake)["fov_offset"].get<double>(), -1, 0.1);
+    EXPECT_NEAR(correctionOf(fake)["fov_offset"].get<double>(), -1, 0.1);
     fake = {};
     fake.right = 1;
-    EXPECT_NEAR(grantOf(fake)["shift_x"].get<double>(), -0.5, 0.1);
+    EXPECT_NEAR(correctionOf(fake)["shift_x"].get<double>(), -0.5, 0.1);
     fake = {};
     fake.turned = 90;
-    EXPECT_EQ(grantOf(fake)["environment_rotation"], -90);
+    EXPECT_EQ(correctionOf(fake)["environment_rotation"], -90);
     fake = {};
     for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot, Lamp::area})
         fake.factors[lamp] = 1 / glm::radians(180.0);
-    EXPECT_NEAR(grantOf(fake)["light_factor"].get<double>(), glm::radians(180.0), 1e-9);
+    EXPECT_NEAR(correctionOf(fake)["light_factor"].get<double>(), glm::radians(180.0), 1e-9);
 }
 
 TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
