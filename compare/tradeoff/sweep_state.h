@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/tradeoff/measure.h"
 
 #include <nlohmann/json.hpp>
@@ -12,11 +12,11 @@
 
 namespace diptych::tradeoff {
 
-// Checkpoint of the rows measured so far (KeptFolder). Each row is stored separately: images first, then
-// JSON.
+// Checkpoint of the rows measured so far (CheckpointFolder). Each row is stored separately: images first,
+// then JSON.
 class SweepState {
 public:
-    // `key`: inputs of rows besides their Settings. Throws as KeptFolder does.
+    // `key`: inputs of rows besides their Settings. Throws as CheckpointFolder does.
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
 
     bool isRenewed() const { return kept_.isRenewed(); }  // rows of another key were removed
@@ -31,7 +31,7 @@ public:
     static std::filesystem::path folderOf(const std::filesystem::path& out);
 
 private:
-    KeptFolder kept_;
+    CheckpointFolder kept_;
 };
 
 // FNV-1a, 64 bits (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.

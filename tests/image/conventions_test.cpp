@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [
 });
 
 // Another program's picture of the scene: it has these conventions, and says nothing of them nor of its
-// surfaces, which ours are lent for. Those of a pair may cancel in part (a spot's edge near the end of its
+// surfaces, which ours are substituted for. Those of a pair may cancel in part (a spot's edge near the end of its
 // range).
 TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
     using Words = std::vector<std::pair<std::string, std::string>>;
@@ -174,9 +174,9 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
         Frame other = renderer.draw(theirs, light);
         other.origin.external = true;
         other.settings = settings;
-        const Frame lent = cli::lentChannels(other, ours, renderer, options);
-        EXPECT_EQ(lent.settings.skin_normals, normals);
-        const Explanation found = explain(device(), renderer, scene, ours, lent);
+        const Frame substituted = cli::substituteChannels(other, ours, renderer, options);
+        EXPECT_EQ(substituted.settings.skin_normals, normals);
+        const Explanation found = explain(device(), renderer, scene, ours, substituted);
         if (normals == SkinNormals::joints) {
             EXPECT_EQ(found.distance, 0);
             continue;

@@ -12,11 +12,12 @@ namespace diptych {
 
 // Checkpoint of a long command: finished parts in ".NAME.what" beside its output NAME. The next run can
 // resume however this one ends. Only one program at a time can open it.
-class KeptFolder {
+class CheckpointFolder {
 public:
     // `key`: all inputs of the parts. Removes parts of another key. Throws std::runtime_error naming the
     // folder if it cannot be created, is a link, is not ours, or is in use.
-    KeptFolder(const std::filesystem::path& out, const std::string& what, const nlohmann::ordered_json& key);
+    CheckpointFolder(const std::filesystem::path& out, const std::string& what,
+                     const nlohmann::ordered_json& key);
 
     bool isRenewed() const { return renewed_; }  // parts of another key were removed
     // A part's JSON; null if missing or incomplete.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
@@ -44,7 +44,7 @@ OpenFolder made(const fs::path& folder) {
 
 }  // namespace
 
-KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json& key)
+CheckpointFolder::CheckpointFolder(const fs::path& out, const std::string& what, const Json& key)
     : folder_(made(besideOutput(out, what))) {
     if (!folder_.lock())
         throw std::runtime_error(fmt::format(
@@ -62,21 +62,21 @@ KeptFolder::KeptFolder(const fs::path& out, const std::string& what, const Json&
 }
 
 // Removes the key last: it marks the other files as ours.
-void KeptFolder::clear() {
+void CheckpointFolder::clear() {
     for (const std::string& name : folder_.names())
         if (name != keyFile) folder_.removeAll(name);
     folder_.removeFile(keyFile);
 }
 
-Json KeptFolder::find(const std::string& name) const {
+Json CheckpointFolder::find(const std::string& name) const {
     return readJson(path() / (name + ".json"));
 }
 
-void KeptFolder::keep(const std::string& name, const Json& part) const {
+void CheckpointFolder::keep(const std::string& name, const Json& part) const {
     writeFile(path() / (name + ".json"), pageOfJson(part));
 }
 
-void KeptFolder::remove() {
+void CheckpointFolder::remove() {
     clear();
     ::rmdir(path().c_str());
 }
