@@ -88,10 +88,10 @@ RenderOptions drawingOf(const Stage& progress) {
     return drawing;
 }
 
-Coverage pixelAlone(Coverage coverage, const PixelQuestion& question) {
+Coverage pixelAlone(Coverage coverage, const PixelQuery& query) {
     const std::size_t pixel =
-        static_cast<std::size_t>(question.y) * static_cast<std::size_t>(question.baseline.size.width) +
-        static_cast<std::size_t>(question.x);
+        static_cast<std::size_t>(query.y) * static_cast<std::size_t>(query.baseline.size.width) +
+        static_cast<std::size_t>(query.x);
     for (std::size_t i = 0; i < coverage.covered.size(); ++i) coverage.covered[i] &= i == pixel ? 1 : 0;
     coverage.count = coverage.covered.at(pixel) ? 1 : 0;
     return coverage;
@@ -99,33 +99,32 @@ Coverage pixelAlone(Coverage coverage, const PixelQuestion& question) {
 
 class BreakdownBuilder {
 public:
-    BreakdownBuilder(Renderer& renderer, SceneViews& views, const PixelQuestion& question)
+    BreakdownBuilder(Renderer& renderer, SceneViews& views, const PixelQuery& query)
         : renderer_(renderer),
-          question_(question),
+          query_(query),
           scene_(views.scene()),
-          view_(views.at(viewRequest(question.baseline))),
-          frames_{renderer.draw(question.baseline, drawingOf(question.progress.part(0, 0.3))),
-                  renderer.draw(question.test, drawingOf(question.progress.part(0.3, 0.6)))},
+          view_(views.at(viewRequest(query.baseline))),
+          frames_{renderer.draw(query.baseline, drawingOf(query.progress.part(0, 0.3))),
+                  renderer.draw(query.test, drawingOf(query.progress.part(0.3, 0.6)))},
           covered_(coverage(frames_[0], frames_[1])),
-          this_one_(pixelAlone(covered_, question)),
-          pair_{frames_[0], frames_[1], view_.needs, covered_, question.device.bitExact(),
-                nullptr,    nullptr,    nullptr,     nullptr,  question.light_differs},
-          pixel_(static_cast<std::size_t>(question.y) *
-                     static_cast<std::size_t>(question.baseline.size.width) +
-                 static_cast<std::size_t>(question.x)) {
-        question.progress.at(0.6, "reference: the pixel");
-        reference_ = renderer.referencePixel(question.reference, question.x, question.y);
+          this_one_(pixelAlone(covered_, query)),
+          pair_{frames_[0], frames_[1], view_.needs, covered_, query.device.bitExact(),
+                nullptr,    nullptr,    nullptr,     nullptr,  query.light_differs},
+          pixel_(static_cast<std::size_t>(query.y) * static_cast<std::size_t>(query.baseline.size.width) +
+                 static_cast<std::size_t>(query.x)) {
+        query.progress.at(0.6, "reference: the pixel");
+        reference_ = renderer.referencePixel(query.reference, query.x, query.y);
         lit_floor_ = floorOf(debugMode(numberOf(gpu::DEBUG_lit)));
     }
 
     PixelBreakdown build() {
         breakdown_.scene = frames_[0].scene;
         breakdown_.camera = frames_[0].camera.name;
-        breakdown_.x = question_.x;
-        breakdown_.y = question_.y;
-        breakdown_.size = question_.baseline.size;
-        breakdown_.settings = {question_.baseline, question_.test};
-        breakdown_.mode = question_.reference.reference_mode;
+        breakdown_.x = query_.x;
+        breakdown_.y = query_.y;
+        breakdown_.size = query_.baseline.size;
+        breakdown_.settings = {query_.baseline, query_.test};
+        breakdown_.mode = query_.reference.reference_mode;
         breakdown_.names = {frames_[0].name, frames_[1].name};
         findSurface();
         const std::array<Rgb3, 3> blended = blendedOver();
@@ -175,14 +174,14 @@ private:
     }
 
     Tolerance toleranceOf(const DebugMode& mode) const {
-        if (const Rule* const rule = ruleFor(question_.rules, mode.name)) {
+        if (const Rule* const rule = ruleFor(query_.rules, mode.name)) {
             const std::optional<double> most = boundOn(rule->fail, "max");
             return {most.value_or(std::numeric_limits<double>::infinity()),
                     most ? rule->because
                          : rule->origin + " sets no limit for a single pixel: " + conditionText(rule->fail)};
         }
         if (isInformative(mode, pair_)) return informativeTolerance(pair_);
-        FramePair here{frames_[0], frames_[1], view_.needs, this_one_, question_.device.bitExact()};
+        FramePair here{frames_[0], frames_[1], view_.needs, this_one_, query_.device.bitExact()};
         Tolerance tolerance = derivedTolerance(mode, here);
         if (const auto use = encodingUse(mode, here)) tolerance.max = use->most;
         return tolerance;
@@ -209,16 +208,16 @@ private:
         step.differs = differs(onePixel(*images[0], pixel_), onePixel(*images[1], pixel_));
         step.tolerance = toleranceOf(mode);
         step.explained = encodingExplains(mode, pair_, pixel_);
-        const bool judged = ruleFor(question_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
+        const bool judged = ruleFor(query_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
         step.beyond = !(step.difference <= step.tolerance.max) || (judged && step.explained == false);
         breakdown_.steps.push_back(std::move(step));
     }
 
     void takeFacts() {
         const std::vector<std::size_t> casters =
-            question_.baseline.shadows == Shadows::off
+            query_.baseline.shadows == Shadows::off
                 ? std::vector<std::size_t>{}
-                : castingLights(view_.lights, question_.baseline.shadow_lights);
+                : castingLights(view_.lights, query_.baseline.shadow_lights);
         for (std::size_t i = 0; i < view_.lights.size(); ++i) {
             const Light& light = view_.lights[i];
             const glm::dvec3 place(breakdown_.position[0], breakdown_.position[1], breakdown_.position[2]);
@@ -276,7 +275,7 @@ private:
         for (std::size_t side = 0; side < 2; ++side) {
             const float depth = frames_.at(side).channels.at(numberOf(gpu::DEBUG_depth)).pixel(pixel_)[0];
             const std::optional<std::vector<std::size_t>> list =
-                alone.at(side).listAt(question_.x, question_.y, depth);
+                alone.at(side).listAt(query_.x, query_.y, depth);
             const double count = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count))).at(0);
             // What was read must be what the pixel says that it evaluated.
             if (!list || static_cast<double>(list->size()) != count) continue;
@@ -287,8 +286,8 @@ private:
 
     void takeLightTerms(std::array<LightTerms, 2>& alone) {
         const auto both = [&](std::span<const std::size_t> shining) {
-            return std::array{alone[0].at(shining, question_.x, question_.y),
-                              alone[1].at(shining, question_.x, question_.y)};
+            return std::array{alone[0].at(shining, query_.x, query_.y),
+                              alone[1].at(shining, query_.x, query_.y)};
         };
         const auto reference = [&](std::span<const std::size_t> lights, double& uncertainty) {
             Rgb3 sum{};
@@ -310,7 +309,7 @@ private:
                                               order, [&](std::size_t i) { return mayMatter(i); })),
                                           lightsDrawnAlone);
         for (std::size_t i = 0; i < breakdown_.drawn_alone; ++i) {
-            question_.progress.at(
+            query_.progress.at(
                 0.65 + 0.35 * static_cast<double>(i) / static_cast<double>(breakdown_.drawn_alone),
                 "render one light");
             take(PixelTerm::Kind::light, {order[i]});
@@ -348,23 +347,23 @@ private:
     }
 
     void takeTerms() {
-        std::array<LightTerms, 2> alone{renderer_.lightTerms(question_.baseline, false),
-                                        renderer_.lightTerms(question_.test, false)};
+        std::array<LightTerms, 2> alone{renderer_.lightTerms(query_.baseline, false),
+                                        renderer_.lightTerms(query_.test, false)};
         takeLists(alone);
-        const bool together = isByObject(question_.baseline) || isByObject(question_.test);
+        const bool together = isByObject(query_.baseline) || isByObject(query_.test);
         if (!together) takeLightTerms(alone);
         std::array<Rgb3, 2> environment{};
         const auto both = [&](gpu::uint mode) { return std::array{colorOf(0, mode), colorOf(1, mode)}; };
         const reference::Shading& rest = reference_.without_lights;
-        if (view_.environment && question_.baseline.ibl_intensity > 0) {
+        if (view_.environment && query_.baseline.ibl_intensity > 0) {
             for (std::size_t side = 0; side < 2; ++side) {
-                const Settings& settings = side == 0 ? question_.baseline : question_.test;
+                const Settings& settings = side == 0 ? query_.baseline : query_.test;
                 LightTerms with = renderer_.lightTerms(settings, true);
-                environment.at(side) = with.at({}, question_.x, question_.y);
+                environment.at(side) = with.at({}, query_.x, query_.y);
                 // Without the harmonics, which no light's own blackness darkens.
                 if (isByObject(settings))
                     environment.at(side) =
-                        plus(environment.at(side), alone.at(side).at({}, question_.x, question_.y), -1);
+                        plus(environment.at(side), alone.at(side).at({}, query_.x, query_.y), -1);
             }
             add(PixelTerm::Kind::environment, {}, environment,
                 rgb(rest.reflected.diffuse + rest.reflected.specular), rest.uncertainty);
@@ -432,7 +431,7 @@ private:
     }
 
     Renderer& renderer_;
-    const PixelQuestion& question_;
+    const PixelQuery& query_;
     const Scene& scene_;
     const SceneView& view_;
     const std::array<Frame, 2> frames_;  // baseline, test
@@ -474,8 +473,8 @@ std::size_t PixelBreakdown::differing() const {
     return static_cast<std::size_t>(std::ranges::count_if(steps, &PixelStep::differs));
 }
 
-PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuestion& question) {
-    return BreakdownBuilder(renderer, views, question).build();
+PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuery& query) {
+    return BreakdownBuilder(renderer, views, query).build();
 }
 
 }  // namespace diptych

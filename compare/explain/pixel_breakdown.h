@@ -24,7 +24,7 @@ namespace diptych {
 // drawn together.
 inline constexpr std::size_t lightsDrawnAlone = 32;
 
-struct PixelQuestion {
+struct PixelQuery {
     int x = 0, y = 0;               // from the top left, within the picture
     Settings baseline, test;        // of the two paths, in any order
     Settings reference;             // of the same view
@@ -123,6 +123,6 @@ std::span<const int> pixelSteps();
 
 // Draws the view by both paths, the pixel by the reference, and each light alone that `lightsDrawnAlone`
 // tells. `views` are the renderer's. Throws std::runtime_error, one line, as Renderer does.
-PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuestion& question);
+PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuery& query);
 
 }  // namespace diptych

@@ -675,18 +675,18 @@ struct DrawingThread::State {
 
     void breakDown() {
         const Settings& settings = order.subject.settings;
-        PixelQuestion question{.x = order.pixel->x,
-                               .y = order.pixel->y,
-                               .baseline = settingsOf(drawn_paths[0], settings.size),
-                               .test = settingsOf(drawn_paths[1], settings.size),
-                               .reference = referenceSettings(settings),
-                               .device = reportDevice(*device),
-                               .rules = options.compare.rules,
-                               .light_differs = {},
-                               .progress = stage("this pixel")};
-        question.light_differs = lightDifferences(question.baseline, question.test);
+        PixelQuery query{.x = order.pixel->x,
+                         .y = order.pixel->y,
+                         .baseline = settingsOf(drawn_paths[0], settings.size),
+                         .test = settingsOf(drawn_paths[1], settings.size),
+                         .reference = referenceSettings(settings),
+                         .device = reportDevice(*device),
+                         .rules = options.compare.rules,
+                         .light_differs = {},
+                         .progress = stage("this pixel")};
+        query.light_differs = lightDifferences(query.baseline, query.test);
         auto next = std::make_shared<Breakdown>(
-            Breakdown{both, *order.pixel, pixelBreakdown(*renderer, *views, question), {}});
+            Breakdown{both, *order.pixel, pixelBreakdown(*renderer, *views, query), {}});
         next->words = inWords(next->breakdown);
         broken_down = std::pair(both, *order.pixel);
         const std::lock_guard lock(mutex);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `plan --compile-on`: a GPU's compiler where there is no GPU. RADV of Mesa compiles for the families that it
 // knows: Debian 12's (Mesa 22.3) not for RDNA 3 and 4, Debian 13's for all.
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renderers of others: what they are told, what becomes of their pictures, and what of those that fail.
 #include "shared/image/exr.h"
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 #include "tests/tool/fake_renderer.h"
 #include "tests/tool/running.h"
 

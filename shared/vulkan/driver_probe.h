@@ -34,12 +34,12 @@ private:
     int before_;
 };
 
-struct DriverTrial {
+struct DriverProbe {
     bool crashed = false;  // the child ended before `act` returned
-    std::string said;      // result of `act`, or the message of its exception
+    std::string output;     // result of `act`, or the message of its exception
 };
 // Calls `act` in a child process with standard error discarded.
-DriverTrial tryInChild(const std::function<std::string()>& act);
+DriverProbe probeInChild(const std::function<std::string()>& act);
 
 // Driver files of Mesa's RADV: among those of VK_DRIVER_FILES, otherwise in the loader's default folders.
 std::vector<std::string> radvFiles();

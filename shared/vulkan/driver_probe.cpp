@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -50,7 +50,7 @@ QuietStandardError::~QuietStandardError() {
     ::close(before_);
 }
 
-DriverTrial tryInChild(const std::function<std::string()>& act) {
+DriverProbe probeInChild(const std::function<std::string()>& act) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "testing a driver: pipe");
@@ -60,28 +60,28 @@ DriverTrial tryInChild(const std::function<std::string()>& act) {
         const rlimit none{0, 0};
         ::setrlimit(RLIMIT_CORE, &none);
         const QuietStandardError quiet;
-        std::string said;
+        std::string output;
         try {
-            said = act();
+            output = act();
         } catch (const std::exception& failed) {
-            said = failed.what();
+            output = failed.what();
         }
-        const ssize_t written = ::write(ends[1], said.data(), said.size());
+        const ssize_t written = ::write(ends[1], output.data(), output.size());
         ::_exit(written < 0 ? 1 : 0);
     }
     ::close(ends[1]);
-    DriverTrial trial;
+    DriverProbe probe_result;
     std::array<char, 4096> part{};
     for (ssize_t count = 0; (count = ::read(ends[0], part.data(), part.size())) != 0;) {
         if (count < 0 && errno != EINTR) break;
-        if (count > 0) trial.said.append(part.data(), static_cast<std::size_t>(count));
+        if (count > 0) probe_result.output.append(part.data(), static_cast<std::size_t>(count));
     }
     ::close(ends[0]);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    trial.crashed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
-    return trial;
+    probe_result.crashed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+    return probe_result;
 }
 
 std::vector<std::string> radvFiles() {
