@@ -17,7 +17,7 @@
 namespace diptych::choose {
 
 // Check of the chosen Settings from a held-out camera.
-struct UnseenCamera {
+struct HeldOutCamera {
     std::string camera;
     double error = 0;
     bool holds = true;  // within the error budget; without one, at most 1.5 times the chosen error
@@ -41,7 +41,7 @@ struct ChoiceReport {
     Choice choice;
     // By candidate: description of its Settings, and the command that renders it.
     std::vector<std::string> words, commands;
-    std::vector<UnseenCamera> unseen;  // other cameras of the scene
+    std::vector<HeldOutCamera> held_out;  // other cameras of the scene
     std::vector<std::string> notes{};
     std::optional<SensitivityReport> sensitivities{};
     double seconds = 0;

@@ -49,10 +49,10 @@ std::vector<std::string> missesInWords(const ChoiceReport& report) {
     return lines;
 }
 
-void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
-    if (report.unseen.empty())
+void addHeldOut(const ChoiceReport& report, std::vector<std::string>& lines) {
+    if (report.held_out.empty())
         lines.push_back(std::string("not checked from another camera: the scene has no other"));
-    for (const UnseenCamera& camera : report.unseen)
+    for (const HeldOutCamera& camera : report.held_out)
         lines.push_back(fmt::format(
             "checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera, report.figure,
             camera.error, camera.holds ? "" : ", over the budget: name both cameras with --camera"));
@@ -175,7 +175,7 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     if (choice.significant)
         lines.push_back(fmt::format("significant: every other finalist is slower, at {:.0f} % confidence",
                                     100 * rankingConfidence));
-    addUnseen(report, lines);
+    addHeldOut(report, lines);
     return lines;
 }
 
@@ -213,11 +213,11 @@ std::string inWords(const ChoiceReport& report) {
 
 nlohmann::ordered_json toJson(const ChoiceReport& report) {
     const Choice& choice = report.choice;
-    Json ties = Json::array(), candidates = Json::array(), unseen = Json::array();
+    Json ties = Json::array(), candidates = Json::array(), held_out = Json::array();
     for (const std::size_t i : choice.ties) ties.push_back(i);
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(jsonOf(report, i));
-    for (const UnseenCamera& camera : report.unseen)
-        unseen.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
+    for (const HeldOutCamera& camera : report.held_out)
+        held_out.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
     const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
     const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
     Json json{
@@ -240,7 +240,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["sure"] = choice.significant;
     json["why"] = whyInWords(report);
     if (report.sensitivities) json["deciders"] = toJson(*report.sensitivities);
-    json["unseen_cameras"] = std::move(unseen);
+    json["unseen_cameras"] = std::move(held_out);
     json["judged"] = choice.judged;
     json["estimated"] = 0;  // schema 1 key, unused: every image is judged from all cameras
     json["frames_timed"] = choice.timings;

@@ -83,13 +83,13 @@ std::vector<std::string> allCameras(const Scene& scene) {
 }
 
 // The scene's cameras that are not in `cameras`. `cameras` has indices or names, as on the command line.
-std::vector<std::string> unseenCameras(const Scene& scene, const std::vector<std::string>& cameras) {
-    std::vector<std::string> unseen;
+std::vector<std::string> heldOutCameras(const Scene& scene, const std::vector<std::string>& cameras) {
+    std::vector<std::string> held_out;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         if (std::ranges::count(cameras, std::to_string(i)) == 0 &&
             std::ranges::count(cameras, scene.cameras[i].name) == 0)
-            unseen.push_back(std::to_string(i));
-    return unseen;
+            held_out.push_back(std::to_string(i));
+    return held_out;
 }
 
 }  // namespace
@@ -186,8 +186,8 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     }
     held.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
-        for (const std::string& camera : unseenCameras(held.scene, cameras))
-            report.unseen.push_back(fromUnseen(held, truth, report, camera));
+        for (const std::string& camera : heldOutCameras(held.scene, cameras))
+            report.held_out.push_back(atHeldOut(held, truth, report, camera));
     if (options_.choose.explain && report.choice.chosen)
         report.sensitivities = sensitivityOf(held, report, stage.part(0.95, 1));
     checkValidation(device_);
@@ -233,7 +233,7 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(Held& held, const C
                                                 })};
 }
 
-UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,
+HeldOutCamera SceneChooser::atHeldOut(Held& held, const Settings& truth, const ChoiceReport& report,
                                       const std::string& camera) {
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = {};

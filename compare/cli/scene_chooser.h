@@ -31,7 +31,7 @@ public:
 private:
     struct Held;  // a scene, read and uploaded
     Held& hold(const std::string& scene, const Stage& progress);
-    choose::UnseenCamera fromUnseen(Held& held, const Settings& truth, const choose::ChoiceReport& report,
+    choose::HeldOutCamera atHeldOut(Held& held, const Settings& truth, const choose::ChoiceReport& report,
                                     const std::string& camera);
     std::optional<choose::SensitivityReport> sensitivityOf(Held& held, const choose::ChoiceReport& report,
                                                            const Stage& progress);

@@ -2,6 +2,7 @@
 // Evaluates every light at a surface, without culling, packing or light lists.
 #pragma once
 
+#include "compare/reference/adaptive_sampling.h"
 #include "compare/reference/area.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/environment.h"
@@ -11,7 +12,6 @@
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
 #include "compare/reference/surroundings.h"
-#include "compare/reference/until_confident.h"
 #include "shared/scene/model/scene.h"
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include "compare/reference/haze.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
-#include "compare/reference/pace.h"
 #include "compare/reference/picture_key.h"
 #include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
@@ -15,6 +14,7 @@
 #include "compare/reference/resolve.h"
 #include "compare/reference/sampling.h"
 #include "compare/reference/shadow_edge.h"
+#include "compare/reference/time_estimate.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
@@ -132,9 +132,7 @@ public:
     bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
     double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
 
-    int material(std::size_t pixel) const {
-        return static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
-    }
+    int material(std::size_t pixel) const { return static_cast<int>(value(gpu::DEBUG_material_id, pixel).x); }
 
     Surface surface(std::size_t pixel, const PixelRays& rays, int material) const {
         Surface s;
@@ -217,8 +215,7 @@ public:
         Visibility visible;
         if (request_.shadows() || request_.surroundings) visible = visibilityFrom(standing->foot);
         pixel.shading = lighting_(s, visible, seed);
-        pixel.lit +=
-            (pixel.shading.all() + s.emission - own) * pixel.haze.transmittance * (1 - pixel.hidden);
+        pixel.lit += (pixel.shading.all() + s.emission - own) * pixel.haze.transmittance * (1 - pixel.hidden);
         return pixel;
     }
 

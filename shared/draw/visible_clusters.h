@@ -23,13 +23,13 @@ struct SampleGrid {
 double placeError(const SampleGrid& grid);
 
 // Visibility of one instance.
-class ShownClusters {
+class VisibleClusters {
 public:
     // `clip_from_object`: for positions in the box from `min` to `max`, m; shaders multiply in float32.
     // `culls_backs`: the draw culls back faces. `mirrored`: front faces are counter-clockwise in object
     // space and clockwise on screen.
-    ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object, const glm::dvec3& min,
-                  const glm::dvec3& max, bool culls_backs, bool mirrored);
+    VisibleClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object, const glm::dvec3& min,
+                    const glm::dvec3& max, bool culls_backs, bool mirrored);
 
     // Triangles of the meshlet that may be visible.
     TriangleSet of(const Cluster& cluster, const ClusterTriangles& triangles,

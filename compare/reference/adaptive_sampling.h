@@ -28,8 +28,8 @@ struct Estimated {
 // confidence, less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything
 // All Right?").
 template <class Estimate>
-Estimated untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole,
-                         double piece) {
+Estimated sampleUntilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first,
+                               double whole, double piece) {
     constexpr std::size_t count = 8;
     // Stopping at the first agreement is biased toward stopping too early: only 92 % of Student's 95 %
     // intervals would contain the true value. With this factor 95 % do.

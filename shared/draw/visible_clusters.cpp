@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/draw/shown_clusters.h"
+#include "shared/draw/visible_clusters.h"
 
 #include "shared/contract/samples.h"
 
@@ -51,8 +51,9 @@ double placeError(const SampleGrid& grid) {
     return placeRounding * std::max(grid.width, grid.height);
 }
 
-ShownClusters::ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object,
-                             const glm::dvec3& min, const glm::dvec3& max, bool culls_backs, bool mirrored)
+VisibleClusters::VisibleClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object,
+                                 const glm::dvec3& min, const glm::dvec3& max, bool culls_backs,
+                                 bool mirrored)
     : grid_(grid),
       rows_(glm::transpose(clip_from_object)),
       error_(0),
@@ -102,7 +103,7 @@ ShownClusters::ShownClusters(const SampleGrid& grid, const glm::dmat4& clip_from
     faces_ = culls_backs && area_scale_ > 0 && std::isfinite(area_scale_) && finite(eye_);
 }
 
-bool ShownClusters::isBetweenSamples(const Cluster& cluster, double nearest, double off) const {
+bool VisibleClusters::isBetweenSamples(const Cluster& cluster, double nearest, double off) const {
     const glm::dvec3 size = glm::dvec3(cluster.max) - glm::dvec3(cluster.min);
     // Geometry between samples is less than a pixel wide or high, so larger boxes are not tested.
     if (!(glm::length(size) * std::min(pixels_.x, pixels_.y) < 4 * nearest)) return false;
@@ -121,14 +122,14 @@ bool ShownClusters::isBetweenSamples(const Cluster& cluster, double nearest, dou
            !holdsSample(low.y - off, high.y + off, grid_.samples, 4);
 }
 
-double ShownClusters::placeOff(double nearest) const {
+double VisibleClusters::placeOff(double nearest) const {
     return placeError(grid_) +
            0.5 * std::max(grid_.width * (error_.x + error_.w), grid_.height * (error_.y + error_.w)) /
                nearest;
 }
 
-TriangleSet ShownClusters::of(const Cluster& cluster, const ClusterTriangles& triangles,
-                              const ClusterTriangles::Entry& entry) const {
+TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& triangles,
+                                const ClusterTriangles::Entry& entry) const {
     const glm::dvec3 middle = middleOf(cluster), half = glm::dvec3(cluster.max) - middle;
     bool within = within_;
     if (!within) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What culling leaves out covers no sample, however a device rounds; and it leaves out most of what can be.
-#include "shared/draw/shown_clusters.h"
+#include "shared/draw/visible_clusters.h"
 
 #include "tests/support/rasteriser.h"
 
@@ -42,7 +42,7 @@ Counts expectNothingShownIsLeftOut(const TriangleMesh& mesh, const SampleGrid& g
         max = glm::max(max, glm::dvec3(p));
     }
     ClusterTriangles triangles;
-    const ShownClusters shown(grid, clipFromObject, min, max, culls, mirrored);
+    const VisibleClusters shown(grid, clipFromObject, min, max, culls, mirrored);
     Counts counts;
     for (std::size_t k = 0; k < clusters.size(); ++k) {
         const Cluster& cluster = clusters[k];
@@ -73,7 +73,7 @@ glm::dmat4 clipOf(const SampleGrid& grid, const glm::dvec3& eye, const glm::dvec
     return glm::translate(viewOf(grid, eye, target, fov, near, orthographic).clipFromWorld(), -eye);
 }
 
-TEST(ShownClusters, NothingThatCoversASampleIsLeftOut) {
+TEST(VisibleClusters, NothingThatCoversASampleIsLeftOut) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> part(-1, 1);
     Counts all;
@@ -108,7 +108,7 @@ TEST(ShownClusters, NothingThatCoversASampleIsLeftOut) {
 }
 
 // Seen along a triangle's plane, from before or behind it by little: near where the decision falls.
-TEST(ShownClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
+TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(-1, 1);
     std::size_t shown = 0, left = 0;
@@ -146,7 +146,7 @@ TEST(ShownClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
 }
 
 // Clusters that reach over an edge of the picture by a pixel at most.
-TEST(ShownClusters, NothingThatReachesIntoTheViewIsLeftOut) {
+TEST(VisibleClusters, NothingThatReachesIntoTheViewIsLeftOut) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(0, 1);
     std::size_t shown = 0, left = 0;
@@ -175,7 +175,7 @@ TEST(ShownClusters, NothingThatReachesIntoTheViewIsLeftOut) {
 }
 
 // A ball in the middle of a picture of common size: of the half that is turned away nearly all.
-TEST(ShownClusters, BacksAreLeftOut) {
+TEST(VisibleClusters, BacksAreLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     const SampleGrid grid{640, 360, 1, 1.0 / 256};
@@ -189,7 +189,7 @@ TEST(ShownClusters, BacksAreLeftOut) {
     EXPECT_GT(kept(false, false), 0.95);  // of which some are smaller than between samples
 }
 
-TEST(ShownClusters, WhatIsBeyondTheViewIsLeftOut) {
+TEST(VisibleClusters, WhatIsBeyondTheViewIsLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     const SampleGrid grid{640, 360, 1, 1.0 / 256};
@@ -201,7 +201,7 @@ TEST(ShownClusters, WhatIsBeyondTheViewIsLeftOut) {
 }
 
 // 2,304 triangles within a pixel, and within a quarter of one.
-TEST(ShownClusters, WhatIsBetweenSamplesIsLeftOut) {
+TEST(VisibleClusters, WhatIsBetweenSamplesIsLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     for (const int samples : {1, 4})
