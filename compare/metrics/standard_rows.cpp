@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/metrics/plain_rows.h"
+#include "compare/metrics/standard_rows.h"
 
 #include "compare/metrics/fast_math.h"
 

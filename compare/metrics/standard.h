@@ -16,7 +16,7 @@ enum class Range { display, linear };
 // r: reference, t: test. N counts components of covered pixels, or covered pixels for per-pixel metrics.
 // All are 0 if nothing is covered. A component that is non-finite and not the same in both is an infinite
 // difference. The metrics it enters become infinite (PSNR minus infinity), and its pixel is counted.
-struct PlainMetrics {
+struct StandardMetrics {
     // Over components.
     double mse = 0, rmse = 0;  // 1/N sum (t-r)^2, and its root
     double mae = 0;            // 1/N sum |t-r|
@@ -53,7 +53,7 @@ struct PlainMetrics {
 // Compares two images; throws std::runtime_error if their sizes or components differ. Makes a few passes
 // over the pixels, each with a few dozen rows per thread. The result does not depend on the number of
 // threads.
-PlainMetrics plainMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-                          Range range, const Coverage& coverage);
+StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+                                Range range, const Coverage& coverage);
 
 }  // namespace diptych

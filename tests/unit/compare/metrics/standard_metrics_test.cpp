@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures of two pictures against numbers worked out by hand.
-#include "compare/metrics/plain.h"
+#include "compare/metrics/standard.h"
 #include "tests/support/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -14,23 +14,23 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-PlainMetrics scalars(PixelData reference, PixelData test) {
+StandardMetrics scalars(PixelData reference, PixelData test) {
     const std::size_t count = reference.size();
-    return plainMetrics(rowOf(1, std::move(reference)), rowOf(1, std::move(test)), ChannelKind::scalar,
-                        Range::linear, everyPixel(count));
+    return standardMetrics(rowOf(1, std::move(reference)), rowOf(1, std::move(test)), ChannelKind::scalar,
+                           Range::linear, everyPixel(count));
 }
-PlainMetrics colors(const Image& reference, const Image& test, Range range = Range::linear) {
-    return plainMetrics(reference, test, ChannelKind::color, range, everyPixel(reference.pixels()));
+StandardMetrics colors(const Image& reference, const Image& test, Range range = Range::linear) {
+    return standardMetrics(reference, test, ChannelKind::color, range, everyPixel(reference.pixels()));
 }
-PlainMetrics vectors(PixelData reference, PixelData test) {
+StandardMetrics vectors(PixelData reference, PixelData test) {
     const std::size_t count = reference.size() / 3;
-    return plainMetrics(rowOf(3, std::move(reference)), rowOf(3, std::move(test)), ChannelKind::vector,
-                        Range::linear, everyPixel(count));
+    return standardMetrics(rowOf(3, std::move(reference)), rowOf(3, std::move(test)), ChannelKind::vector,
+                           Range::linear, everyPixel(count));
 }
 
-TEST(PlainMetrics, ByHand) {
+TEST(StandardMetrics, ByHand) {
     // Differences 0, 0.5, 0.25, 0; all exact in binary but the relative ones.
-    const PlainMetrics m = scalars({1, 2, 3, 4}, {1, 2.5f, 2.75f, 4});
+    const StandardMetrics m = scalars({1, 2, 3, 4}, {1, 2.5f, 2.75f, 4});
     EXPECT_EQ(m.mse, 0.078125);
     EXPECT_EQ(m.rmse, std::sqrt(0.078125));
     EXPECT_EQ(m.mae, 0.1875);
@@ -44,20 +44,20 @@ TEST(PlainMetrics, ByHand) {
     EXPECT_FALSE(m.ssim.has_value()) << "no colours";
 }
 
-TEST(PlainMetrics, PercentilesAreTheNearestRank) {
+TEST(StandardMetrics, PercentilesAreTheNearestRank) {
     PixelData reference(1000, 1.0f), test(1000);
     for (std::size_t i = 0; i < 1000; ++i) test[(i * 617) % 1000] = static_cast<float>(i + 2);
-    const PlainMetrics m = scalars(reference, test);
+    const StandardMetrics m = scalars(reference, test);
     EXPECT_EQ(m.relative_p99, 990);
     EXPECT_EQ(m.relative_p999, 999);
     EXPECT_EQ(m.relative_max, 1000);
     EXPECT_EQ(scalars({0, 0}, {0, 1}).relative_max, endless) << "of nothing";
 }
 
-TEST(PlainMetrics, ThePictureItselfHasNoError) {
+TEST(StandardMetrics, ThePictureItselfHasNoError) {
     const Image image = noise(50, 40, 1, 0, 100);
     for (const Range range : {Range::display, Range::linear}) {
-        const PlainMetrics m = colors(image, image, range);
+        const StandardMetrics m = colors(image, image, range);
         EXPECT_EQ(m.mse + m.mae + m.relative_mse + m.relative_max + m.ulp_max + m.ulp_mean, 0);
         EXPECT_EQ(m.psnr, endless);
         EXPECT_EQ(m.ssim, 1.0);
@@ -65,14 +65,14 @@ TEST(PlainMetrics, ThePictureItselfHasNoError) {
     }
 }
 
-TEST(PlainMetrics, DisplayValuesHaveAPeakOfOne) {
-    const PlainMetrics m =
+TEST(StandardMetrics, DisplayValuesHaveAPeakOfOne) {
+    const StandardMetrics m =
         colors(flat(20, 20, 0.5f, 0.5f, 0.5f), flat(20, 20, 0.25f, 0.25f, 0.25f), Range::display);
     EXPECT_EQ(m.peak, 1);
     EXPECT_DOUBLE_EQ(m.psnr, 10 * std::log10(16.0));
 }
 
-TEST(PlainMetrics, UlpsAreStepsBetweenFloats) {
+TEST(StandardMetrics, UlpsAreStepsBetweenFloats) {
     const float one = std::nextafter(1.0f, 2.0f), least = std::numeric_limits<float>::denorm_min();
     EXPECT_EQ(scalars({1}, {one}).ulp_max, 1);
     EXPECT_EQ(scalars({1}, {2}).ulp_max, 1 << 23);
@@ -83,8 +83,8 @@ TEST(PlainMetrics, UlpsAreStepsBetweenFloats) {
     EXPECT_EQ(scalars({-most}, {most}).ulp_max, 2.0 * 0x7f7fffff) << "exact, past what 32 bits hold";
 }
 
-TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
-    const PlainMetrics m = scalars({1, nan, 3, inf, nan, inf}, {1, nan, nan, inf, 1, -inf});
+TEST(StandardMetrics, ANanAgainstANumberIsInfinite) {
+    const StandardMetrics m = scalars({1, nan, 3, inf, nan, inf}, {1, nan, nan, inf, 1, -inf});
     EXPECT_EQ(m.nonfinite_reference, 4u);
     EXPECT_EQ(m.nonfinite_test, 4u);
     EXPECT_EQ(m.nonfinite_different, 3u);
@@ -93,7 +93,7 @@ TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
         EXPECT_EQ(v, endless);
     EXPECT_EQ(m.psnr, -endless);
 
-    const PlainMetrics alike = scalars({nan, inf, 2}, {nan, inf, 1});
+    const StandardMetrics alike = scalars({nan, inf, 2}, {nan, inf, 1});
     EXPECT_EQ(alike.relative_max, 0.5);
     EXPECT_EQ(alike.mse, 1.0 / 3);
     EXPECT_EQ(alike.nonfinite_different, 0u);
@@ -101,7 +101,7 @@ TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
     EXPECT_EQ(colors(rowOf(3, {nan, 1, 2}), rowOf(3, {nan, 1, 2.5f})).relative_max, 0.25);
 }
 
-TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
+TEST(StandardMetrics, WhatIsNotCoveredIsNotThere) {
     Image reference = noise(40, 30, 2), test = noise(40, 30, 3);
     Coverage coverage = everyPixel(reference.pixels());
     Image kept(20, 30, 3), keptTest = kept;
@@ -118,8 +118,9 @@ TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
                 }
             }
         }
-    const PlainMetrics some = plainMetrics(reference, test, ChannelKind::color, Range::linear, coverage);
-    const PlainMetrics all = colors(kept, keptTest);
+    const StandardMetrics some =
+        standardMetrics(reference, test, ChannelKind::color, Range::linear, coverage);
+    const StandardMetrics all = colors(kept, keptTest);
     EXPECT_NEAR(some.mse, all.mse, 1e-15) << "doubles in another order";
     EXPECT_NEAR(some.relative_mean, all.relative_mean, 1e-13);
     EXPECT_EQ(some.relative_max, all.relative_max);
@@ -133,12 +134,13 @@ TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
 
     coverage.covered.assign(coverage.covered.size(), 0);
     coverage.count = 0;
-    const PlainMetrics none = plainMetrics(reference, test, ChannelKind::color, Range::linear, coverage);
+    const StandardMetrics none =
+        standardMetrics(reference, test, ChannelKind::color, Range::linear, coverage);
     EXPECT_EQ(none.relative_max + none.mse + none.psnr, 0);
     EXPECT_FALSE(none.ssim.has_value());
 }
 
-TEST(PlainMetrics, AnglesByHand) {
+TEST(StandardMetrics, AnglesByHand) {
     EXPECT_DOUBLE_EQ(vectors({1, 0, 0}, {0, 2, 0}).angle_max, 90);
     EXPECT_DOUBLE_EQ(vectors({0, 0, 1}, {0, 0, -1}).angle_max, 180);
     EXPECT_EQ(vectors({0, 0, 1}, {0, 0, 3}).angle_max, 0) << "another length";
@@ -150,10 +152,10 @@ TEST(PlainMetrics, AnglesByHand) {
     EXPECT_EQ(colors(rowOf(3, {1, 0, 0}), rowOf(3, {0, 1, 0})).angle_max, 0) << "colours have none";
 }
 
-TEST(PlainMetrics, AgreeWithTheChannelsStatistics) {
+TEST(StandardMetrics, AgreeWithTheChannelsStatistics) {
     const Image a = noise(120, 70, 4, 0, 5), b = noise(120, 70, 5, 0, 5);
     const Coverage all = everyPixel(a.pixels());
-    const PlainMetrics m = colors(a, b);
+    const StandardMetrics m = colors(a, b);
     const ChannelStats relative = channelStats(Metric::relative, ChannelKind::color, a, b, all);
     constexpr double half = 0x1p-24;  // a float's rounding
     EXPECT_NEAR(m.relative_max, relative.max, half * relative.max);
@@ -163,11 +165,11 @@ TEST(PlainMetrics, AgreeWithTheChannelsStatistics) {
     EXPECT_EQ(m.different, relative.different);
 }
 
-TEST(PlainMetrics, ThreadsDoNotChangeABit) {
+TEST(StandardMetrics, ThreadsDoNotChangeABit) {
     const Image a = noise(333, 170, 6, 0, 5), b = noise(333, 170, 7, 0, 5);
-    const PlainMetrics many = colors(a, b);
+    const StandardMetrics many = colors(a, b);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const PlainMetrics single = colors(a, b);
+    const StandardMetrics single = colors(a, b);
     EXPECT_EQ(many.mse, single.mse);
     EXPECT_EQ(many.relative_mse, single.relative_mse);
     EXPECT_EQ(many.relative_mean, single.relative_mean);
@@ -175,12 +177,12 @@ TEST(PlainMetrics, ThreadsDoNotChangeABit) {
     EXPECT_EQ(many.ssim, single.ssim);
 }
 
-TEST(PlainMetrics, OnlyAlikePicturesAreCompared) {
+TEST(StandardMetrics, OnlyAlikePicturesAreCompared) {
     EXPECT_THROW(colors(grey(1), noise(40, 31, 1)), std::runtime_error);
-    EXPECT_THROW(plainMetrics(grey(1), grey(1), ChannelKind::color, Range::linear, everyPixel(3)),
+    EXPECT_THROW(standardMetrics(grey(1), grey(1), ChannelKind::color, Range::linear, everyPixel(3)),
                  std::runtime_error);
     const Image five(2, 2, 5);
-    EXPECT_THROW(plainMetrics(five, five, ChannelKind::vector, Range::linear, everyPixel(4)),
+    EXPECT_THROW(standardMetrics(five, five, ChannelKind::vector, Range::linear, everyPixel(4)),
                  std::runtime_error);
 }
 

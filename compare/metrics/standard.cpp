@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/metrics/plain.h"
+#include "compare/metrics/standard.h"
 
 #include "compare/metrics/order.h"
 #include "compare/metrics/pixel.h"
-#include "compare/metrics/plain_rows.h"
 #include "compare/metrics/ssim.h"
+#include "compare/metrics/standard_rows.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -176,7 +176,7 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Cove
                         test.components));
 }
 
-void setPixels(const PlainPass& pass, PlainMetrics& m) {
+void setPixels(const PlainPass& pass, StandardMetrics& m) {
     constexpr std::array shares{1.0, 0.99, 0.999};
     const Order relative = pass.relative();
     const std::vector<float> ranks = relative.nearestRanks(shares);
@@ -186,7 +186,7 @@ void setPixels(const PlainPass& pass, PlainMetrics& m) {
     m.relative_p999 = ranks[2];
 }
 
-void setComponents(const BandSums& sums, double components, Range range, PlainMetrics& m) {
+void setComponents(const BandSums& sums, double components, Range range, StandardMetrics& m) {
     const double beyond = m.nonfinite_different ? infinity : 0;
     const RowSums& s = sums.components;
     m.mse = RowSums::total(s.squared) / components + beyond;
@@ -199,7 +199,7 @@ void setComponents(const BandSums& sums, double components, Range range, PlainMe
     m.psnr = m.mse > 0 ? 10 * std::log10(m.peak * m.peak / m.mse) : infinity;
 }
 
-void setAngles(const BandSums& sums, PlainMetrics& m) {
+void setAngles(const BandSums& sums, StandardMetrics& m) {
     const double beyond = m.nonfinite_different ? infinity : 0;
     m.angle_max = sums.mostDegrees + beyond;
     m.length_max = sums.mostLength + beyond;
@@ -229,10 +229,10 @@ std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& te
 
 }  // namespace
 
-PlainMetrics plainMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-                          Range range, const Coverage& coverage) {
+StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+                                Range range, const Coverage& coverage) {
     checkPair(reference, test, coverage);
-    PlainMetrics m;
+    StandardMetrics m;
     const PlainPass pass(reference, test, kind, coverage);
     const BandSums sums = pass.run();
     m.pixels = coverage.count;
