@@ -31,10 +31,10 @@ struct BandSums {
     std::uint64_t different = 0, infinite = 0, nonfinite_reference = 0, nonfinite_test = 0;
 };
 
-class PlainPass {
+class StandardPass {
 public:
-    PlainPass(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-              const Coverage& coverage)
+    StandardPass(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+                 const Coverage& coverage)
         : reference_(reference),
           test_(test),
           coverage_(coverage),
@@ -101,7 +101,7 @@ private:
     double floor_;
 };
 
-std::vector<std::size_t> PlainPass::clean(int y, Row& row) const {
+std::vector<std::size_t> StandardPass::clean(int y, Row& row) const {
     const int components = reference_.components;
     const std::size_t width = size(reference_.width), n = width * size(components);
     const std::uint8_t* covered = coverage_.covered.data() + size(y) * width;
@@ -122,7 +122,7 @@ std::vector<std::size_t> PlainPass::clean(int y, Row& row) const {
     return infinitePixels;
 }
 
-void PlainPass::measure(int y, Row& row) const {
+void StandardPass::measure(int y, Row& row) const {
     const int width = reference_.width, n = width * reference_.components;
     const std::uint8_t* covered = coverage_.covered.data() + size(y) * size(width);
     row.infinite = row.nonfinite_reference = row.nonfinite_test = 0;
@@ -142,7 +142,7 @@ void PlainPass::measure(int y, Row& row) const {
         if (!covered[x]) row.absolute[x] = row.relative[x] = notCovered;
 }
 
-void PlainPass::add(int y, Row& row, BandSums& sums) const {
+void StandardPass::add(int y, Row& row, BandSums& sums) const {
     measure(y, row);
     const int width = reference_.width, n = width * reference_.components;
     addRow(sums.components, row.test, row.reference, n);
@@ -176,7 +176,7 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Cove
                         test.components));
 }
 
-void setPixels(const PlainPass& pass, StandardMetrics& m) {
+void setPixels(const StandardPass& pass, StandardMetrics& m) {
     constexpr std::array shares{1.0, 0.99, 0.999};
     const Order relative = pass.relative();
     const std::vector<float> ranks = relative.nearestRanks(shares);
@@ -233,7 +233,7 @@ StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows&
                                 Range range, const Coverage& coverage) {
     checkPair(reference, test, coverage);
     StandardMetrics m;
-    const PlainPass pass(reference, test, kind, coverage);
+    const StandardPass pass(reference, test, kind, coverage);
     const BandSums sums = pass.run();
     m.pixels = coverage.count;
     m.different = sums.different;
