@@ -8,91 +8,91 @@
 
 namespace diptych::probe {
 
-struct Sloppy {
+struct Inexact {
     float value = 0;
-    Sloppy() = default;
-    Sloppy(float x) : value(x) {}
+    Inexact() = default;
+    Inexact(float x) : value(x) {}
 };
 
-inline Random& sloppiness() {
+inline Random& inexactness() {
     thread_local Random random(1);
     return random;
 }
 
-inline Sloppy anyOf(Interval x) {
+inline Inexact anyOf(Interval x) {
     // Half of them are the ends.
-    const double share = std::clamp(sloppiness().uniform(-0.5, 1.5), 0.0, 1.0);
+    const double share = std::clamp(inexactness().uniform(-0.5, 1.5), 0.0, 1.0);
     const double most_value = double{std::numeric_limits<float>::max()};
     const double lo = floatAbove(std::max(x.lo, -most_value)), hi = floatBelow(std::min(x.hi, most_value));
     if (hi <= lo) return static_cast<float>(lo);
     return static_cast<float>(std::clamp(double{static_cast<float>(lo + (hi - lo) * share)}, lo, hi));
 }
 
-inline Sloppy operator+(Sloppy a, Sloppy b) {
+inline Inexact operator+(Inexact a, Inexact b) {
     return anyOf(Interval(a.value) + Interval(b.value));
 }
-inline Sloppy operator-(Sloppy a, Sloppy b) {
+inline Inexact operator-(Inexact a, Inexact b) {
     return anyOf(Interval(a.value) - Interval(b.value));
 }
-inline Sloppy operator-(Sloppy a) {
+inline Inexact operator-(Inexact a) {
     return -a.value;
 }
-inline Sloppy operator*(Sloppy a, Sloppy b) {
+inline Inexact operator*(Inexact a, Inexact b) {
     return anyOf(Interval(a.value) * Interval(b.value));
 }
-inline Sloppy operator/(Sloppy a, Sloppy b) {
+inline Inexact operator/(Inexact a, Inexact b) {
     return anyOf(Interval(a.value) / Interval(b.value));
 }
-inline Sloppy sumOf(Sloppy a, Sloppy b, Sloppy c) {
+inline Inexact sumOf(Inexact a, Inexact b, Inexact c) {
     return anyOf(sumOf(Interval(a.value), Interval(b.value), Interval(c.value)));
 }
-inline Sloppy inverseRoot(Sloppy x) {
+inline Inexact inverseRoot(Inexact x) {
     return anyOf(inverseRoot(Interval(x.value)));
 }
-inline Sloppy root(Sloppy x) {
+inline Inexact root(Inexact x) {
     return anyOf(root(Interval(x.value)));
 }
-inline Sloppy powerOfTwo(Sloppy x) {
+inline Inexact powerOfTwo(Inexact x) {
     return anyOf(powerOfTwo(Interval(x.value)));
 }
-inline Sloppy exponential(Sloppy x) {
+inline Inexact exponential(Inexact x) {
     return anyOf(exponential(Interval(x.value)));
 }
-inline Sloppy binaryLogarithm(Sloppy x) {
+inline Inexact binaryLogarithm(Inexact x) {
     return anyOf(binaryLogarithm(Interval(x.value)));
 }
-inline Sloppy naturalLogarithm(Sloppy x) {
+inline Inexact naturalLogarithm(Inexact x) {
     return anyOf(naturalLogarithm(Interval(x.value)));
 }
-inline Sloppy sine(Sloppy x) {
+inline Inexact sine(Inexact x) {
     return anyOf(sine(Interval(x.value)));
 }
-inline Sloppy cosine(Sloppy x) {
+inline Inexact cosine(Inexact x) {
     return anyOf(cosine(Interval(x.value)));
 }
-inline Sloppy least(Sloppy a, Sloppy b) {
+inline Inexact least(Inexact a, Inexact b) {
     return std::min(a.value, b.value);
 }
-inline Sloppy most(Sloppy a, Sloppy b) {
+inline Inexact most(Inexact a, Inexact b) {
     return std::max(a.value, b.value);
 }
-inline Sloppy size(Sloppy a) {
+inline Inexact size(Inexact a) {
     return std::abs(a.value);
 }
-inline Sloppy floorOf(Sloppy a) {
+inline Inexact floorOf(Inexact a) {
     return std::floor(a.value);
 }
-inline bool isLess(Sloppy a, Sloppy b) {
+inline bool isLess(Inexact a, Inexact b) {
     return a.value < b.value;
 }
-inline Sloppy chosen(bool truth, Sloppy a, Sloppy b) {
+inline Inexact chosen(bool truth, Inexact a, Inexact b) {
     return truth ? a : b;
 }
-inline Sloppy approximating(Sloppy x, double relative, double absolute = 0) {
+inline Inexact approximating(Inexact x, double relative, double absolute = 0) {
     return anyOf(approximating(Interval(x.value), relative, absolute));
 }
 template <class Of>
-Sloppy monotoneOf(Sloppy x, Of of, double relative, double absolute = 0) {
+Inexact monotoneOf(Inexact x, Of of, double relative, double absolute = 0) {
     return anyOf(monotoneOf(Interval(x.value), of, relative, absolute));
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Vectors of the number types of probes: Interval and Sloppy for a device's arithmetic, double for exact
+// Vectors of the number types of probes: Interval and Inexact for a device's arithmetic, double for exact
 // results.
 #pragma once
 
-#include "compare/probe/sloppy.h"
+#include "compare/probe/inexact.h"
 
 #include <cmath>
 
@@ -65,7 +65,7 @@ inline Vec<Interval> nearlyUnit(Vec<Interval> v) {
     };
     return {both(v.x), both(v.y), both(v.z)};
 }
-inline Vec<Sloppy> nearlyUnit(Vec<Sloppy> v) {
+inline Vec<Inexact> nearlyUnit(Vec<Inexact> v) {
     return v;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The arithmetic of what Vulkan allows, and what is counted of results.
+#include "compare/probe/inexact.h"
 #include "compare/probe/probe.h"
-#include "compare/probe/sloppy.h"
 
 #include <gtest/gtest.h>
 
