@@ -72,12 +72,12 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     } else {
         out += "<td class=\"n\" data-value=\"inf\"></td><td class=\"n\" data-value=\"inf\"></td>";
     }
-    std::string fate = fateInWords(candidate.fate);
+    std::string status = statusInWords(candidate.status);
     if (i == report.choice.chosen)
-        fate = "chosen";
+        status = "chosen";
     else if (std::ranges::count(report.choice.ties, i) > 0)
-        fate = "tied with the best";
-    return out + fmt::format("<td>{}</td></tr>\n", fate);
+        status = "tied with the best";
+    return out + fmt::format("<td>{}</td></tr>\n", status);
 }
 
 // The chosen candidate first, then raced ones, then judged ones; each group by time.

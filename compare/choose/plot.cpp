@@ -35,7 +35,7 @@ public:
         const bool file = place == PlotPlace::file;
         for (const bool raced : {false, true})  // finalists on top
             for (const std::size_t i : drawn_)
-                if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
+                if ((choice_.candidates[i].status == CandidateStatus::raced) == raced) out += point(i, file);
         out += names() + legend();
         return plotElement(
             plotWidth, plotHeight,
@@ -116,10 +116,10 @@ private:
     std::string point(std::size_t i, bool file) const {
         const Candidate& candidate = choice_.candidates[i];
         const double px = x(candidate.ms()), py = y(candidate.judged->error);
-        const bool raced = candidate.fate == Fate::raced;
+        const bool raced = candidate.status == CandidateStatus::raced;
         const std::string words =
             fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report_.words[i], candidate.ms(), report_.figure,
-                        candidate.judged->error, fateInWords(candidate.fate));
+                        candidate.judged->error, statusInWords(candidate.status));
         std::string out = fmt::format(
             "<g class=\"point {}{}\" data-row=\"{}\"{}><title>{}</title>", nameOf(candidate.settings.path),
             raced ? " best" : "", i + 1,
@@ -180,7 +180,7 @@ private:
                                    svgNumber(at - 10), svgNumber(up), svgNumber(at + 9), svgNumber(up));
             });
         const auto isDrawn = [&](const auto& what) { return std::ranges::any_of(drawn_, what); };
-        if (isDrawn([&](std::size_t i) { return choice_.candidates[i].fate == Fate::raced; }))
+        if (isDrawn([&](std::size_t i) { return choice_.candidates[i].status == CandidateStatus::raced; }))
             entry("finalist, 99 % interval", "best", [](double at, double up) {
                 return fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
                                    svgNumber(at - 9), svgNumber(up - 4), svgNumber(up + 4), svgNumber(up),

@@ -74,7 +74,7 @@ std::string inWords(const CommonReport& report, const ChoiceReport& first);
 std::string longerInWords(double ratio, double low, double high);
 // Time, error and memory of one candidate.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
-const char* fateInWords(Fate fate);
+const char* statusInWords(CandidateStatus status);
 // Reasons, alternatives and significance, or how far the budget is missed. One line each, not indented.
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);
 std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);

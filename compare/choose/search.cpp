@@ -53,10 +53,10 @@ public:
             for (const auto& [path, first] : firsts_) improve(path);
         }
         for (Candidate& each : all_)
-            each.fate = !each.judged                            ? Fate::slower
-                        : missOf(*each.judged, {}, budget_) > 0 ? Fate::misses
-                        : missBy(each) > 0                      ? Fate::too_slow
-                                                                : Fate::fits;
+            each.status = !each.judged                            ? CandidateStatus::slower
+                          : missOf(*each.judged, {}, budget_) > 0 ? CandidateStatus::misses
+                          : missBy(each) > 0                      ? CandidateStatus::too_slow
+                                                                  : CandidateStatus::fits;
         timeBestAgain();
         if (!found_.chosen) findNearest();
         found_.candidates = std::move(all_);
@@ -287,7 +287,7 @@ private:
         while (true) {
             std::vector<std::size_t> fit;
             for (std::size_t i = 0; i < all_.size(); ++i)
-                if (all_[i].fate == Fate::fits) fit.push_back(i);
+                if (all_[i].status == CandidateStatus::fits) fit.push_back(i);
             if (fit.empty()) return;
             std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return rank(i); });
             const Candidate& best = all_[fit.front()];
@@ -299,7 +299,7 @@ private:
             timeAgain(fit);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
             // The fastest finalist exceeds the time budget, so all do.
-            for (const std::size_t i : fit) all_[i].fate = Fate::too_slow;
+            for (const std::size_t i : fit) all_[i].status = CandidateStatus::too_slow;
             found_.chosen.reset();
             found_.runner_up.reset();
             found_.ties.clear();
@@ -324,7 +324,7 @@ private:
             for (Candidate& each : all_) each.log_ms += shift;
         for (std::size_t k = 0; k < which.size(); ++k) {
             const std::size_t i = which[k];
-            all_[i].fate = Fate::raced;
+            all_[i].status = CandidateStatus::raced;
             all_[i].race_time = result.finalists[k];
             if (k == result.winner) continue;
             if (!all_[i].race_time->isSlower()) found_.ties.push_back(i);

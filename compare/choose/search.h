@@ -64,7 +64,7 @@ struct SearchOptions {
     std::function<void(double, std::string_view)> progress = {};
 };
 
-enum class Fate {
+enum class CandidateStatus {
     slower,    // timed, slower than the best; not judged
     misses,    // exceeds the error or memory
     too_slow,  // exceeds the time
@@ -74,14 +74,14 @@ enum class Fate {
 
 struct Candidate {
     Settings settings;
-    Fate fate = Fate::slower;
+    CandidateStatus status = CandidateStatus::slower;
     std::optional<Judged> judged{};
     double log_ms = 0;                        // mean of its log times, ms
     std::size_t timings = 0;                  // 0: log_ms is not valid
     std::vector<PassTime> passes{};           // of the chosen one and the other path's best
     std::optional<FinalistTime> race_time{};  // if raced
     double ms() const;                        // NaN without timings
-    bool isFit() const { return fate == Fate::fits || fate == Fate::raced; }
+    bool isFit() const { return status == CandidateStatus::fits || status == CandidateStatus::raced; }
 };
 
 // Largest relative excess over the budget; 0: within it. `ms`: empty to ignore time.

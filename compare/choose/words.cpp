@@ -89,25 +89,27 @@ std::string whyInWords(const ChoiceReport& report) {
 
 // "12 drawn and no better"
 std::string fatesInWords(const Choice& choice) {
-    std::map<Fate, std::size_t> counts;
-    for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
+    std::map<CandidateStatus, std::size_t> counts;
+    for (const Candidate& candidate : choice.candidates) ++counts[candidate.status];
     std::vector<std::string> words;
-    for (const Fate fate : {Fate::raced, Fate::fits, Fate::too_slow, Fate::misses, Fate::slower})
-        if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], fateInWords(fate)));
+    for (const CandidateStatus status :
+         {CandidateStatus::raced, CandidateStatus::fits, CandidateStatus::too_slow, CandidateStatus::misses,
+          CandidateStatus::slower})
+        if (counts[status] > 0) words.push_back(fmt::format("{} {}", counts[status], statusInWords(status)));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-const char* nameOf(Fate fate) {
-    switch (fate) {
-        case Fate::slower:
+const char* nameOf(CandidateStatus status) {
+    switch (status) {
+        case CandidateStatus::slower:
             return "slower";
-        case Fate::misses:
+        case CandidateStatus::misses:
             return "misses";
-        case Fate::too_slow:
+        case CandidateStatus::too_slow:
             return "too slow";
-        case Fate::fits:
+        case CandidateStatus::fits:
             return "fits";
-        case Fate::raced:
+        case CandidateStatus::raced:
             return "raced";
     }
     return "";
@@ -118,7 +120,7 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
     Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
               {"words", report.words[i]},
               {"command", report.commands[i]},
-              {"fate", nameOf(candidate.fate)},
+              {"fate", nameOf(candidate.status)},
               {"frames_timed", candidate.timings}};
     json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
@@ -148,17 +150,17 @@ std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     return text;
 }
 
-const char* fateInWords(Fate fate) {
-    switch (fate) {
-        case Fate::slower:
+const char* statusInWords(CandidateStatus status) {
+    switch (status) {
+        case CandidateStatus::slower:
             return "slower, error not measured";
-        case Fate::misses:
+        case CandidateStatus::misses:
             return "over the error or memory budget";
-        case Fate::too_slow:
+        case CandidateStatus::too_slow:
             return "too slow";
-        case Fate::fits:
+        case CandidateStatus::fits:
             return "no better";
-        case Fate::raced:
+        case CandidateStatus::raced:
             return "timed against each other";
     }
     return "";

@@ -94,8 +94,8 @@ std::vector<std::string> heldOutCameras(const Scene& scene, const std::vector<st
 
 }  // namespace
 
-struct SceneChooser::Held {
-    Held(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
+struct SceneChooser::LoadedScene {
+    LoadedScene(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
         : where(std::move(name)), scene(std::move(read)), views(scene), renderer(device, views, pipelines) {}
     std::string where;
     Scene scene;
@@ -115,34 +115,35 @@ SceneChooser::SceneChooser(const Options& options)
 
 SceneChooser::~SceneChooser() = default;
 
-SceneChooser::Held& SceneChooser::hold(const std::string& scene, const Stage& progress) {
-    if (held_ && held_->where == scene) return *held_;
-    if (held_)
-        if (const auto before = references_.find(held_->where); before != references_.end())
+SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const Stage& progress) {
+    if (loaded_ && loaded_->where == scene) return *loaded_;
+    if (loaded_)
+        if (const auto before = references_.find(loaded_->where); before != references_.end())
             for (const auto& errors : before->second.errors) errors->release();
-    held_.reset();
-    held_ = std::make_unique<Held>(scene, loadShown(scene, options_.settings, progress), device_, pipelines_);
+    loaded_.reset();
+    loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, options_.settings, progress), device_,
+                                            pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        held_->evaluator.emplace(held_->renderer, references->second, figure_, renderOptions(options_));
-    return *held_;
+        loaded_->evaluator.emplace(loaded_->renderer, references->second, figure_, renderOptions(options_));
+    return *loaded_;
 }
 
 ChoiceReport SceneChooser::choose(const std::string& where) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, where);
-    Held& held = hold(where, stage.part(0, 0.05));
+    LoadedScene& loaded = load(where, stage.part(0, 0.05));
     const std::vector<std::string> cameras =
-        options_.camera_given ? options_.cameras : allCameras(held.scene);
+        options_.camera_given ? options_.cameras : allCameras(loaded.scene);
     Settings given = options_.settings;
     given.camera = cameras.front();
     Options asked = options_;
     asked.settings = given;
     const std::vector<Settings> candidates =
-        candidatesFor(asked, device_, held.views.at(viewRequest(given)), held.scene);
+        candidatesFor(asked, device_, loaded.views.at(viewRequest(given)), loaded.scene);
 
     ChoiceReport report;
     report.scene = where;
-    report.notes = held.scene.notes;
+    report.notes = loaded.scene.notes;
     report.given = given;
     report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
     report.figure = tradeoff::errorFigures.at(figure_).title;
@@ -154,12 +155,12 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
     const tradeoff::ReferenceFrames& references =
         references_
-            .insert_or_assign(where, tradeoff::drawReferenceFrames(held.renderer, truth, cameras,
+            .insert_or_assign(where, tradeoff::drawReferenceFrames(loaded.renderer, truth, cameras,
                                                                    pictureChoice(options_), drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
-    tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
-    held.evaluator.emplace(held.renderer, references, figure_, renderOptions(options_));
+    tradeoff::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
+    loaded.evaluator.emplace(loaded.renderer, references, figure_, renderOptions(options_));
 
     SearchOptions search;
     search.budget = report.budget;
@@ -176,7 +177,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     };
     const Stage searching = stage.part(0.2, 0.95);
     search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
-    report.choice = choose::search(tableOf(candidates), *held.evaluator, search);
+    report.choice = choose::search(tableOf(candidates), *loaded.evaluator, search);
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
@@ -184,19 +185,19 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
-    held.evaluator->release();  // frees memory for other evaluators
+    loaded.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
-        for (const std::string& camera : heldOutCameras(held.scene, cameras))
-            report.held_out.push_back(atHeldOut(held, truth, report, camera));
+        for (const std::string& camera : heldOutCameras(loaded.scene, cameras))
+            report.held_out.push_back(atHeldOut(loaded, truth, report, camera));
     if (options_.choose.explain && report.choice.chosen)
-        report.sensitivities = sensitivityOf(held, report, stage.part(0.95, 1));
+        report.sensitivities = sensitivityOf(loaded, report, stage.part(0.95, 1));
     checkValidation(device_);
     report.seconds = secondsSince(start);
     progress_.wipe();
     return report;
 }
 
-std::optional<SensitivityReport> SceneChooser::sensitivityOf(Held& held, const ChoiceReport& report,
+std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,
                                                              const Stage& progress) {
     const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
@@ -220,7 +221,7 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(Held& held, const C
             for (Settings& each : compared)
                 if (field.option.starts_with("transparency"))
                     each.set(field.option, options_.settings.valueOf(field.option));
-    const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
+    const VariedScene varied{device_, pipelines_, loaded.views, loaded.renderer, references, compared};
     constexpr int rounds = 5;
     return SensitivityReport{report.words[*choice.chosen],
                              report.words[*other],
@@ -233,13 +234,13 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(Held& held, const C
                                                 })};
 }
 
-HeldOutCamera SceneChooser::atHeldOut(Held& held, const Settings& truth, const ChoiceReport& report,
+HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
                                       const std::string& camera) {
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = {};
     const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
-        held.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
-    SceneEvaluator evaluator(held.renderer, references, figure_, drawing);
+        loaded.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
+    SceneEvaluator evaluator(loaded.renderer, references, figure_, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = evaluator.judge(chosen.settings).error;
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
@@ -259,7 +260,7 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     common.budget = reports.front().budget;
     common.progress = [&](double done, std::string_view what) { stage.at(done, std::string(what)); };
     const std::function<Evaluator&(std::size_t)> evaluatorOf = [&](std::size_t scene) -> Evaluator& {
-        return *hold(reports[scene].scene, Stage()).evaluator;
+        return *load(reports[scene].scene, Stage()).evaluator;
     };
     all.choice = choose::chooseForAll(own, evaluatorOf, common);
     Settings given = options_.settings;

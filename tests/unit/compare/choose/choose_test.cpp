@@ -236,10 +236,10 @@ TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     EXPECT_EQ(choice.judged, evaluator.judged);
     EXPECT_LE(choice.judged, 16u);
     EXPECT_TRUE(choice.significant);
-    EXPECT_EQ(choice.candidates[*choice.chosen].fate, Fate::raced);
+    EXPECT_EQ(choice.candidates[*choice.chosen].status, CandidateStatus::raced);
     for (const Candidate& candidate : choice.candidates)
         if (candidate.settings.valueOf("spec-aa") == "on") {
-            EXPECT_NE(candidate.fate, Fate::raced);
+            EXPECT_NE(candidate.status, CandidateStatus::raced);
         }
 }
 
@@ -255,7 +255,7 @@ TEST(ChooseSearch, WhereNothingFitsTheNearestIsNamed) {
     const Choice choice = search(table, evaluator, options);
     EXPECT_FALSE(choice.chosen);
     EXPECT_EQ(choice.nearest, 2u);
-    for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.fate, Fate::misses);
+    for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.status, CandidateStatus::misses);
 }
 
 TEST(ChooseSearch, TheMostAccurateWithinATime) {

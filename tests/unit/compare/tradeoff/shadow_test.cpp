@@ -107,8 +107,8 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     std::vector<bool> time, memory;
     for (const ShadowRow& row : rows) {
         order.push_back(row.row);
-        time.push_back(row.beaten_in_time);
-        memory.push_back(row.beaten_in_memory);
+        time.push_back(row.dominated_in_time);
+        memory.push_back(row.dominated_in_memory);
     }
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 1, 2}));
     EXPECT_EQ(time, (std::vector{false, false, true, true}));
