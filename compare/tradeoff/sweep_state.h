@@ -20,8 +20,8 @@ public:
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
 
     bool isRenewed() const { return kept_.isRenewed(); }  // rows of another key were removed
-    // A stored row with `cameras` cameras, all with the same number of timing blocks, 1 to `visits`.
-    std::optional<TradeoffRow> find(const Settings& settings, std::size_t cameras, std::size_t visits) const;
+    // A stored row with `cameras` cameras, all with the same number of timing blocks, 1 to `blocks`.
+    std::optional<TradeoffRow> find(const Settings& settings, std::size_t cameras, std::size_t blocks) const;
     void keep(MeasuredRow& measured);    // sets the row's file names
     void renew(const TradeoffRow& row);  // updates a stored row
     // Path of a stored row's file.

@@ -436,7 +436,7 @@ TEST(HostileFuzz, Tradeoffs) {
     std::ofstream(root / "secret.png") << "secret";
     MeasuredRow measured;
     measured.row.cameras.resize(1);
-    measured.row.cameras[0].visits = {{2, 1, 3, 5}};
+    measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.cameras[0].passes = {{"shade", 1}};
     measured.row.cameras[0].errors = measured.row.errors = {0.1, 0.2, 0.3};
     measured.row.warnings = {"a warning"};
