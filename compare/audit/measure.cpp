@@ -299,7 +299,7 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
             same = original(pushed.settings.size);
             if (quantity->light) multiply(same->lit.channels.at(litOf), magnitude);
             if (quantity->lengths) multiply(same->rays.channels.at(depthOf), magnitude);
-            step.truth_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
+            step.reference_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
         const Truth& truth = same ? *same : drawn.truth;
         step.covered = coverage(truth.rays, truth.rays).count;

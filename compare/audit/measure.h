@@ -70,7 +70,7 @@ struct Step {
     std::vector<Outcome> outcomes;  // as the series
     // Quantity::same_picture: the reference's own error() against its picture of the scene as it is, which is
     // the truth then: how far it could be trusted by itself.
-    std::optional<double> truth_moved{};
+    std::optional<double> reference_moved{};
     std::uint64_t covered = 0;  // pixels of the reference that show a surface
     std::string failed;         // why there is no reference
 };

@@ -173,7 +173,7 @@ std::string inWords(const Requirement& requirement) {
 
 Json toJson(const Step& step) {
     Json json{{"magnitude", step.magnitude}, {"covered", step.covered}};
-    if (step.truth_moved) json["truth_moved"] = numberOf(*step.truth_moved);
+    if (step.reference_moved) json["truth_moved"] = numberOf(*step.reference_moved);
     if (!step.failed.empty()) json["failed"] = step.failed;
     json["outcomes"] = Json::array();
     for (const Outcome& outcome : step.outcomes) {
@@ -194,7 +194,7 @@ Step stepFromJson(const Json& json) {
     Step step;
     step.magnitude = json.at("magnitude");
     step.covered = json.at("covered");
-    if (json.contains("truth_moved")) step.truth_moved = numberFrom(json["truth_moved"]);
+    if (json.contains("truth_moved")) step.reference_moved = numberFrom(json["truth_moved"]);
     step.failed = json.value("failed", "");
     for (const Json& one : json.at("outcomes")) {
         Outcome outcome;

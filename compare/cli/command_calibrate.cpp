@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 // The renderer's image of the charts under one lamp type. A missing image is an error without a lamp;
 // under a lamp it means that the renderer does not support that type.
 external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const external::Renderer& renderer) {
-    external::Shown shown{lamp, external::truthUnder(charts, lamp), {}, {}};
+    external::Shown shown{lamp, external::referenceUnder(charts, lamp), {}, {}};
     const Scene scene = external::chartsUnder(charts, lamp);
     Settings settings = external::chartSettings(lamp);
     SceneViews views(scene);

@@ -105,7 +105,7 @@ public:
                                 [&](const Settings& row) { return drawingProblem(device_, row); });
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
-        tradeoff_.given = truthFor(options.settings, sweep_.rows);
+        tradeoff_.given = referenceFor(options.settings, sweep_.rows);
         tradeoff_.reference = referenceSettings(tradeoff_.given);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;

@@ -150,7 +150,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.figure_name = tradeoff::errorFigures.at(figure_).name;
     report.device = reportDevice(device_);
 
-    const Settings truth = tradeoff::truthFor(given, candidates);
+    const Settings truth = tradeoff::referenceFor(given, candidates);
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
     const tradeoff::ReferenceFrames& references =

@@ -116,7 +116,7 @@ private:
         return value ? std::optional(response_->radiance(*value)) : std::nullopt;
     }
     glm::dvec3 expected(Lamp lamp, const std::string& chart) const {
-        const ChartTruth& truth = pictures_.at(lamp)->truth;
+        const ChartReference& truth = pictures_.at(lamp)->truth;
         return shownBy(truth.ids, idOf(chart), truth.lit, Placement()).value_or(glm::dvec3(0));
     }
 
@@ -338,7 +338,7 @@ Settings chartSettings(Lamp lamp) {
     return settings;
 }
 
-ChartTruth truthUnder(const Scene& charts, Lamp lamp) {
+ChartReference referenceUnder(const Scene& charts, Lamp lamp) {
     Settings settings = chartSettings(lamp);
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;

@@ -30,15 +30,15 @@ Scene chartsUnder(const Scene& charts, Lamp lamp);
 Settings chartSettings(Lamp lamp);
 
 // Expected lit and material_id, by the reference. lit excludes the environment's light.
-struct ChartTruth {
+struct ChartReference {
     Image lit, ids;
 };
-ChartTruth truthUnder(const Scene& charts, Lamp lamp);
+ChartReference referenceUnder(const Scene& charts, Lamp lamp);
 
 // An image of the charts, or the reason for its absence.
 struct Shown {
     Lamp lamp = Lamp::none;
-    ChartTruth truth;
+    ChartReference truth;
     Image picture;  // empty: missing
     std::string problem{};
 };

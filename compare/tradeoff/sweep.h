@@ -45,7 +45,7 @@ SweepRows withoutRefused(SweepRows sweep, const Settings& given,
 
 // Settings of the reference: the given ones, with features of the rows. Shadows are on if any row has
 // them. Multiple scattering is the random walk if any row has it. Haze is ray marched if any row does so.
-Settings truthFor(const Settings& given, const std::vector<Settings>& rows);
+Settings referenceFor(const Settings& given, const std::vector<Settings>& rows);
 
 // Skips with one reason: values per option, or combinations, as text.
 struct SkipGroup {

@@ -233,12 +233,12 @@ TEST(Audit, WhatIsRequiredIsMeasuredItself) {
 
 TEST(Audit, StepsComeBackFromJson) {
     Step step = stepOf(2.5, infinity, 0.25, 7);
-    step.truth_moved = 1e-9;
+    step.reference_moved = 1e-9;
     step.covered = 12;
     step.outcomes.front().failed = "no \"memory\"";
     const Step back = stepFromJson(nlohmann::ordered_json::parse(toJson(step).dump()));
     EXPECT_EQ(back.magnitude, 2.5);
-    EXPECT_EQ(back.truth_moved, step.truth_moved);
+    EXPECT_EQ(back.reference_moved, step.reference_moved);
     EXPECT_EQ(back.covered, 12u);
     const Outcome& outcome = back.outcomes.front();
     EXPECT_EQ(outcome.light, infinity);

@@ -112,7 +112,7 @@ std::vector<Fault> faults() {
 class Studio {
 public:
     Studio() : charts_(loadScene("builtin:calibration")) {
-        for (const Lamp lamp : lamps) truths_[lamp] = truthUnder(charts_, lamp);
+        for (const Lamp lamp : lamps) truths_[lamp] = referenceUnder(charts_, lamp);
     }
     const Scene& charts() const { return charts_; }
 
@@ -130,8 +130,8 @@ private:
         const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random);
         const auto found = fake.factors.find(lamp);
         const double factor = (found == fake.factors.end() ? 1 : found->second) * model;
-        const ChartTruth& lit = drawn(fake, lamp);
-        const ChartTruth& dark = drawn(fake, Lamp::none);
+        const ChartReference& lit = drawn(fake, lamp);
+        const ChartReference& dark = drawn(fake, Lamp::none);
         Image image = lit.lit;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
@@ -149,7 +149,7 @@ private:
         return image;
     }
 
-    const ChartTruth& drawn(const Fake& fake, Lamp lamp) {
+    const ChartReference& drawn(const Fake& fake, Lamp lamp) {
         const bool sky = lamp == Lamp::environment;
         const std::string key = fmt::format(
             "{} {} {} {} {} {} {} {} {}", nameOf(lamp), fake.fov, fake.right, fake.down, fake.colour_linear,
@@ -160,7 +160,7 @@ private:
     }
 
     // A picture of one column more has its middle half a pixel further left, seen from the first one.
-    ChartTruth draw(const Fake& fake, Lamp lamp) const {
+    ChartReference draw(const Fake& fake, Lamp lamp) const {
         Scene scene = chartsUnder(charts_, lamp);
         Settings settings = chartSettings(lamp);
         // Under the sky, where a pixel takes long and only the middles of faces count, of a quarter's size.
@@ -197,7 +197,7 @@ private:
         const Frame frame =
             std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
         const Image& whole = frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
-        ChartTruth shown{Image(whole_size.width, whole_size.height, 3), {}};
+        ChartReference shown{Image(whole_size.width, whole_size.height, 3), {}};
         for (int y = 0; y < whole_size.height; ++y)
             for (int x = 0; x < whole_size.width; ++x)
                 for (int c = 0; c < 3; ++c) shown.lit.at(x, y, c) = whole.at(x / coarse, y / coarse, c);
@@ -205,8 +205,8 @@ private:
     }
 
     const Scene charts_;
-    std::map<Lamp, ChartTruth> truths_;
-    std::map<std::string, ChartTruth> drawn_;
+    std::map<Lamp, ChartReference> truths_;
+    std::map<std::string, ChartReference> drawn_;
 };
 
 Studio& studio() {
@@ -301,7 +301,7 @@ TEST(Calibration, GrantsAreTheWayBack) {
 
 TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
     const Scene& charts = studio().charts();
-    const Image ids = truthUnder(charts, Lamp::environment).ids;
+    const Image ids = referenceUnder(charts, Lamp::environment).ids;
     const Image lit = std::move(studio().pictures({}, 3).back().picture);
     int faces = 0;
     for (const Mesh& mesh : charts.meshes) {

@@ -131,12 +131,12 @@ TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
 TEST(TradeoffShadow, TheTruthHasShadowsWhereAnyRowDoes) {
     Settings given;
     given.shadows = Shadows::off;
-    EXPECT_EQ(truthFor(given, {given, given}), given);
+    EXPECT_EQ(referenceFor(given, {given, given}), given);
     Settings shadowed = given;
     shadowed.shadows = Shadows::evsm;
-    EXPECT_NE(truthFor(given, {given, shadowed}).shadows, Shadows::off);
-    EXPECT_EQ(referenceSettings(truthFor(given, {given, shadowed})).shadows, Shadows::pcf);
-    EXPECT_EQ(truthFor(shadowed, {given}), shadowed);
+    EXPECT_NE(referenceFor(given, {given, shadowed}).shadows, Shadows::off);
+    EXPECT_EQ(referenceSettings(referenceFor(given, {given, shadowed})).shadows, Shadows::pcf);
+    EXPECT_EQ(referenceFor(shadowed, {given}), shadowed);
 }
 
 }  // namespace

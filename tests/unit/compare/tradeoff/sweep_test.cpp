@@ -253,11 +253,11 @@ TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
     Settings given;
     const SweepRows defaults = defaultSweep(given);
     EXPECT_EQ(tried(defaults), std::set{Multiscatter::off});
-    EXPECT_EQ(truthFor(given, defaults.rows), given);
+    EXPECT_EQ(referenceFor(given, defaults.rows), given);
     given.multiscatter = Multiscatter::energy;
     const SweepRows asked = defaultSweep(given);
     EXPECT_EQ(tried(asked), (std::set{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez}));
-    const Settings truth = truthFor(given, asked.rows);
+    const Settings truth = referenceFor(given, asked.rows);
     EXPECT_EQ(truth.multiscatter, Multiscatter::walk);
     EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
 }
@@ -273,11 +273,11 @@ TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
     Settings given;
     const SweepRows defaults = defaultSweep(given);
     EXPECT_EQ(tried(defaults), std::set{0});
-    EXPECT_EQ(truthFor(given, defaults.rows), given);
+    EXPECT_EQ(referenceFor(given, defaults.rows), given);
     given.haze = true;
     const SweepRows asked = defaultSweep(given);
     EXPECT_EQ(tried(asked), (std::set{0, 8, 32}));
-    EXPECT_GT(truthFor(given, asked.rows).haze_march_steps, 0);
+    EXPECT_GT(referenceFor(given, asked.rows).haze_march_steps, 0);
 }
 
 // Against one sample a pixel, filtered roughness is an error whatever it is good for.
