@@ -120,7 +120,7 @@ private:
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
                    const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment, Multiscatter multiscatter, double environment_turned,
+                   bool shadowed_environment, Multiscatter multiscatter, double environment_rotation,
                    const Falloff& falloff)
     : ambient_(ambient),
       shadowed_environment_(shadowed_environment),
@@ -135,7 +135,7 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
         else
             punctual_.push_back({light, light.position - eye, casts});
     }
-    if (environment) environment_.emplace(*environment, environment_factor, environment_turned);
+    if (environment) environment_.emplace(*environment, environment_factor, environment_rotation);
     if (environment_ && environment_->black()) environment_.reset();
 }
 

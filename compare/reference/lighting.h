@@ -59,7 +59,7 @@ public:
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
-             Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0,
+             Multiscatter multiscatter = Multiscatter::off, double environment_rotation = 0,
              const Falloff& falloff = {});
 
     // After these calls Shading has costs (unless Multiscatter::walk is used) or surroundings (if

@@ -38,10 +38,10 @@ PictureFile ofOneLayer(std::string format, std::string sample, Image image, Imag
 }
 
 // Applies the orientation of the file.
-void turn(PictureFile& file, int orientation) {
+void orient(PictureFile& file, int orientation) {
     PictureLayer& layer = file.layers.front();
-    layer.image = turned(std::move(layer.image), orientation);
-    layer.coded = turned(std::move(layer.coded), orientation);
+    layer.image = oriented(std::move(layer.image), orientation);
+    layer.coded = oriented(std::move(layer.coded), orientation);
     if (orientation >= 5) std::swap(file.width, file.height);
 }
 
@@ -50,7 +50,7 @@ PictureFile pictureOfPng(std::span<const std::byte> bytes, const std::string& na
     PngPicture png = readPngPicture(bytes, name, most, eight);
     PictureFile file =
         ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image), std::move(png.coded));
-    turn(file, orientationOfPng(bytes));
+    orient(file, orientationOfPng(bytes));
     file.display_referred = !png.linear;
     file.straight_alpha = true;
     file.notes = std::move(png.notes);
@@ -120,7 +120,7 @@ PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& n
         StoredPicture stored{{}, std::move(coded), static_cast<int>(components)};
         PictureFile file = eight == EightBits::kept ? ofOneLayer("JPEG", "8 bit", {}, std::move(stored.coded))
                                                     : ofOneLayer("JPEG", "8 bit", stored.takeImage());
-        turn(file, orientationOfJpeg(bytes));
+        orient(file, orientationOfJpeg(bytes));
         file.notes = notesOfJpeg(bytes);
         file.display_referred = true;
         return file;

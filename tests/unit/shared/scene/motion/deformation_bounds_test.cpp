@@ -223,7 +223,7 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
 TEST(DeformationBounds, OfWhatATurnedMapPosesArePrepared) {
     const Scene scene = loadScene("builtin:tangents");
     for (const Instance& instance : poseAt(scene, 1).instances) {
-        EXPECT_TRUE(instance.map_turned);
+        EXPECT_TRUE(instance.map_rotated);
         EXPECT_FALSE(primitiveOf(scene, instance).deformation_bounds.empty());
     }
 }
