@@ -71,7 +71,7 @@ void stain(Case& of) {
 }
 
 // A small fault for each, of the kind that it is there to find.
-const std::map<std::string_view, std::function<void(Case&)>>& plantedFaults() {
+const std::map<std::string_view, std::function<void(Case&)>>& injectedFaults() {
     static const std::map<std::string_view, std::function<void(Case&)>> faults{
         {"lights_permuted", [](Case& of) { of.scene.lights.pop_back(); }},
         {"lights_split", [](Case& of) { dim(of, 1 - 1e-5f); }},
@@ -113,8 +113,8 @@ TEST(RelationImages, EachIsBrokenByAPlantedFault) {
     const audit::Subject subject = relatedScene("points");
     audit::RelationMeasurer measurer(device(), subject, {}, pipelines());
     for (const audit::Relation& relation : audit::relations()) {
-        const auto fault = plantedFaults().find(relation.name);
-        ASSERT_NE(fault, plantedFaults().end()) << relation.name << " has no planted fault";
+        const auto fault = injectedFaults().find(relation.name);
+        ASSERT_NE(fault, injectedFaults().end()) << relation.name << " has no planted fault";
         const audit::RelationResult of = measurer.measure(relation, fault->second);
         EXPECT_EQ(audit::verdictOf(of), "broken") << audit::inWords(of, relatedDevice());
         bool every = true;

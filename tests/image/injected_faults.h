@@ -21,7 +21,7 @@
 
 namespace diptych::tests {
 
-class PlantedView;
+class InjectedView;
 
 // The name of the first of a view's lights, which alone has one.
 inline constexpr const char* firstLight = "the first";
@@ -30,7 +30,7 @@ inline constexpr const char* firstLight = "the first";
 // or blended surfaces before an environment, in haze.
 enum class ViewKind { opaque, blended };
 
-struct PlantedFault {
+struct InjectedFault {
     std::string means;               // "normals of 8 bits"
     std::vector<std::string> named;  // the causes of which one has to be first
     ViewKind kind = ViewKind::opaque;
@@ -41,24 +41,24 @@ struct PlantedFault {
     // ... of what is drawn, ...
     std::function<void(Settings&, Scene&)> draw{};
     // ... or of terms and lit, once they are drawn.
-    std::function<void(PlantedView&, Frame&)> after{};
+    std::function<void(InjectedView&, Frame&)> after{};
 };
 
 // At least 50 of them.
-const std::vector<PlantedFault>& plantedFaults();
-const PlantedFault& plantedFault(std::string_view means);  // throws std::out_of_range
+const std::vector<InjectedFault>& injectedFaults();
+const InjectedFault& injectedFault(std::string_view means);  // throws std::out_of_range
 
 // One scene x camera x seed. The seed sets lights, materials, and what baked light and occlusion there is.
-class PlantedView {
+class InjectedView {
 public:
-    PlantedView(const std::string& scene, const std::string& camera, std::uint32_t seed, ViewKind kind);
+    InjectedView(const std::string& scene, const std::string& camera, std::uint32_t seed, ViewKind kind);
 
     // The Frame of a renderer with these faults, with the terms of its lit as channels.
-    Frame with(std::span<const PlantedFault* const> faults);
-    Frame with(const PlantedFault& fault);
+    Frame with(std::span<const InjectedFault* const> faults);
+    Frame with(const InjectedFault& fault);
     Explanation explained(const Frame& test);
     // Whether the fault changes lit by more than rounding here; drawn once for each.
-    bool feels(const PlantedFault& fault);
+    bool feels(const InjectedFault& fault);
 
     bool covered(std::size_t pixel) const;
 
@@ -87,6 +87,6 @@ private:
 bool differsVisibly(const Image& a, const Image& b);
 
 // The views in which faults of a kind are planted: at least 20, each made at its first use and then kept.
-std::vector<PlantedView*> plantedViews(ViewKind kind);
+std::vector<InjectedView*> injectedViews(ViewKind kind);
 
 }  // namespace diptych::tests

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/image/planted_faults.h"
+#include "tests/image/injected_faults.h"
 
 #include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
@@ -23,7 +23,7 @@ constexpr int modeOf(gpu::uint number) {
 
 constexpr int pictureWidth = 48, pictureHeight = 27;
 
-std::vector<int> plantedChannels() {
+std::vector<int> injectedChannels() {
     std::vector<int> modes = explainedChannels();
     for (const int term : termChannels()) modes.push_back(term);
     for (const gpu::uint more :
@@ -59,8 +59,8 @@ float* dataOf(Frame& frame, gpu::uint number) {
 
 // Terms that are changed, and lit with them.
 using OfTerm = std::function<float(float term, std::size_t pixel)>;
-std::function<void(PlantedView&, Frame&)> term(std::vector<gpu::uint> terms, const OfTerm& of) {
-    return [terms, of](PlantedView& view, Frame& frame) {
+std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, const OfTerm& of) {
+    return [terms, of](InjectedView& view, Frame& frame) {
         const Image before = sumOfTerms(frame);
         for (const gpu::uint number : terms) {
             Image& image = frame.channels.at(modeOf(number));
@@ -75,9 +75,9 @@ std::function<void(PlantedView&, Frame&)> term(std::vector<gpu::uint> terms, con
 }
 
 // lit alone.
-std::function<void(PlantedView&, Frame&)> output(
+std::function<void(InjectedView&, Frame&)> output(
     const std::function<void(float*, const float* emitted)>& of) {
-    return [of](PlantedView& view, Frame& frame) {
+    return [of](InjectedView& view, Frame& frame) {
         Image& image = frame.channels.at(lit);
         const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
         for (std::size_t p = 0; p < image.pixels(); ++p)
@@ -85,15 +85,15 @@ std::function<void(PlantedView&, Frame&)> output(
     };
 }
 
-std::function<void(PlantedView&, Frame&)> exposed(float factor) {
-    return [factor](PlantedView&, Frame& frame) {
+std::function<void(InjectedView&, Frame&)> exposed(float factor) {
+    return [factor](InjectedView&, Frame& frame) {
         for (float& value : frame.channels.at(lit).data) value *= factor;
     };
 }
 
 // The right picture but for a tile of 24 x 16 pixels, from which the first light that lights it is dropped.
-void dropFromTile(PlantedView& view, Frame& frame) {
-    PlantedFault without{"a light is dropped", {}};
+void dropFromTile(InjectedView& view, Frame& frame) {
+    InjectedFault without{"a light is dropped", {}};
     double most = 0;
     Frame dropped;
     for (std::size_t light = 0; light < view.scene.lights.size(); ++light) {
@@ -124,7 +124,7 @@ void dropFromTile(PlantedView& view, Frame& frame) {
 
 // Blended surfaces without the haze before them, over opaque ones with it: over = T under + B, and T is what
 // more light under them adds.
-void hazeOnOpaqueOnly(PlantedView& view, Frame& frame) {
+void hazeOnOpaqueOnly(InjectedView& view, Frame& frame) {
     Settings clear = view.settings, bare = view.settings;
     clear.haze = false;
     bare.transparency = Transparency::off;
@@ -143,7 +143,7 @@ void hazeOnOpaqueOnly(PlantedView& view, Frame& frame) {
     }
 }
 
-void addChannelFaults(std::vector<PlantedFault>& all) {
+void addChannelFaults(std::vector<InjectedFault>& all) {
     const auto add = [&](std::string channel, const char* means, std::function<void(float*)> pixel) {
         all.push_back({channel + " " + means, {channel}, ViewKind::opaque, false, channel, std::move(pixel)});
     };
@@ -182,7 +182,7 @@ void addChannelFaults(std::vector<PlantedFault>& all) {
     add("position", "of halves", each([](double x) { return std::round(512 * x / 8) * 8 / 512; }));
 }
 
-void addLightFaults(std::vector<PlantedFault>& all) {
+void addLightFaults(std::vector<InjectedFault>& all) {
     const std::vector<std::string> direct{"direct diffuse", "direct specular"};
     const auto lights = [&](const char* means, const std::vector<std::string>& named,
                             const std::function<void(Light&)>& of, bool first_alone = false) {
@@ -286,7 +286,7 @@ void addLightFaults(std::vector<PlantedFault>& all) {
                    {},
                    {},
                    {},
-                   [](PlantedView& view, Frame& frame) {
+                   [](InjectedView& view, Frame& frame) {
                        Settings bare = view.settings;
                        bare.transparency = Transparency::off;
                        const Image under = view.litUnder(bare);
@@ -296,9 +296,9 @@ void addLightFaults(std::vector<PlantedFault>& all) {
                    }});
 }
 
-void addTermFaults(std::vector<PlantedFault>& all) {
+void addTermFaults(std::vector<InjectedFault>& all) {
     const auto add = [&](const char* means, std::vector<std::string> named,
-                         std::function<void(PlantedView&, Frame&)> after) {
+                         std::function<void(InjectedView&, Frame&)> after) {
         all.push_back({means, std::move(named), ViewKind::opaque, false, {}, {}, {}, std::move(after)});
     };
     const auto by = [](float factor) {
@@ -312,14 +312,14 @@ void addTermFaults(std::vector<PlantedFault>& all) {
         term({gpu::DEBUG_lit_diffuse}, by(1 / pi)));
     add("diffuse light in three steps", {"direct diffuse"},
         term({gpu::DEBUG_lit_diffuse}, [](float value, std::size_t) { return std::floor(8 * value) / 8; }));
-    add("occlusion is left out of ambient light", {"ambient light"}, [](PlantedView& view, Frame& frame) {
+    add("occlusion is left out of ambient light", {"ambient light"}, [](InjectedView& view, Frame& frame) {
         const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
         term({gpu::DEBUG_lit_ambient}, [&](float value, std::size_t pixel) {
             return occluded.pixel(pixel)[0] > 0 ? value / occluded.pixel(pixel)[0] : value;
         })(view, frame);
     });
     add("occlusion darkens lights as well", {"direct diffuse", "direct specular"},
-        [](PlantedView& view, Frame& frame) {
+        [](InjectedView& view, Frame& frame) {
             const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
             term({gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular}, [&](float value, std::size_t pixel) {
                 return value * occluded.pixel(pixel)[0];
@@ -328,14 +328,14 @@ void addTermFaults(std::vector<PlantedFault>& all) {
     add("haze adds no light", {"haze in the air"}, term({gpu::DEBUG_lit_haze}, by(0)));
     add("haze takes no light", {"haze in the air"},
         term({gpu::DEBUG_transmittance}, [](float, std::size_t) { return 1.0f; }));
-    add("emission is missing from the sum", {"sum with emission"}, [](PlantedView& view, Frame& frame) {
+    add("emission is missing from the sum", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
         const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
         const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
         Image& image = frame.channels.at(lit);
         for (std::size_t i = 0; i < image.data.size(); ++i)
             if (view.covered(i / 3)) image.data[i] -= emitted_light.data[i] * through.data[i];
     });
-    add("emission is in the sum twice", {"sum with emission"}, [](PlantedView& view, Frame& frame) {
+    add("emission is in the sum twice", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
         const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
         const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
         Image& image = frame.channels.at(lit);
@@ -444,9 +444,9 @@ Settings settingsOf(const std::string& name, const std::string& camera, ViewKind
 
 }  // namespace
 
-const std::vector<PlantedFault>& plantedFaults() {
-    static const std::vector<PlantedFault> faults = [] {
-        std::vector<PlantedFault> all;
+const std::vector<InjectedFault>& injectedFaults() {
+    static const std::vector<InjectedFault> faults = [] {
+        std::vector<InjectedFault> all;
         addChannelFaults(all);
         addLightFaults(all);
         addTermFaults(all);
@@ -455,8 +455,8 @@ const std::vector<PlantedFault>& plantedFaults() {
     return faults;
 }
 
-const PlantedFault& plantedFault(std::string_view means) {
-    for (const PlantedFault& fault : plantedFaults())
+const InjectedFault& injectedFault(std::string_view means) {
+    for (const InjectedFault& fault : injectedFaults())
         if (fault.means == means) return fault;
     throw std::out_of_range("no fault is called " + std::string(means));
 }
@@ -470,15 +470,15 @@ bool differsVisibly(const Image& a, const Image& b) {
     return difference > 1e-5 * all;
 }
 
-PlantedView::PlantedView(const std::string& scene_name, const std::string& camera, std::uint32_t seed,
-                         ViewKind view_kind)
+InjectedView::InjectedView(const std::string& scene_name, const std::string& camera, std::uint32_t seed,
+                           ViewKind view_kind)
     : name(fmt::format("{}, {}, seed {}", scene_name, camera, seed)),
       kind(view_kind),
       scene(seeded(scene_name, seed, view_kind)),
       views(scene),
       renderer(device(), views, pipelines()),
       settings(settingsOf(scene_name, camera, view_kind, seed)),
-      right(drawnBy(Path::forward_plus, renderer, settings, plantedChannels())),
+      right(drawnBy(Path::forward_plus, renderer, settings, injectedChannels())),
       images_(device(), settings.size) {
     right.settings = settings;
     // Occlusion, which few scenes have.
@@ -492,12 +492,12 @@ PlantedView::PlantedView(const std::string& scene_name, const std::string& camer
     shadeInto(right, settings);
 }
 
-bool PlantedView::covered(std::size_t pixel) const {
+bool InjectedView::covered(std::size_t pixel) const {
     return right.channels.at(modeOf(gpu::DEBUG_material_id)).pixel(pixel)[0] >= 0;
 }
 
 // lit and its terms of the Frame's channels.
-void PlantedView::shadeInto(Frame& frame, const Settings& drawn) {
+void InjectedView::shadeInto(Frame& frame, const Settings& drawn) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) images_.set(0, c, frame);
     std::optional<ChannelShading> other;
     if (!shading_)
@@ -514,8 +514,8 @@ void PlantedView::shadeInto(Frame& frame, const Settings& drawn) {
     frame.channels.at(modeOf(gpu::DEBUG_transmittance)) = std::move(terms.transmittance);
 }
 
-Image PlantedView::litUnder(const Settings& other, const std::string& channel,
-                            const std::function<void(float*)>& pixel) {
+Image InjectedView::litUnder(const Settings& other, const std::string& channel,
+                             const std::function<void(float*)>& pixel) {
     Frame frame = right;
     for (const int number : surfaceChannels())
         if (debugMode(number).name == channel)
@@ -525,12 +525,12 @@ Image PlantedView::litUnder(const Settings& other, const std::string& channel,
     return frame.channels.at(lit);
 }
 
-Frame PlantedView::with(std::span<const PlantedFault* const> faults) {
+Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
     Frame frame = right;
     Settings drawn = settings;
     const std::vector<Light> lights = scene.lights;
     bool drawn_otherwise = false, surfaces_differ = false;
-    for (const PlantedFault* const fault : faults) {
+    for (const InjectedFault* const fault : faults) {
         if (fault->draw) {
             fault->draw(drawn, scene);
             drawn_otherwise = true;
@@ -563,27 +563,27 @@ Frame PlantedView::with(std::span<const PlantedFault* const> faults) {
     }
     if (drawn_otherwise || surfaces_differ) shadeInto(frame, drawn);
     scene.lights = lights;
-    for (const PlantedFault* const fault : faults)
+    for (const InjectedFault* const fault : faults)
         if (fault->after) fault->after(*this, frame);
     return frame;
 }
 
-Frame PlantedView::with(const PlantedFault& fault) {
-    const PlantedFault* const one = &fault;
+Frame InjectedView::with(const InjectedFault& fault) {
+    const InjectedFault* const one = &fault;
     return with(std::span(&one, 1));
 }
 
-Explanation PlantedView::explained(const Frame& test) {
+Explanation InjectedView::explained(const Frame& test) {
     return explain(device(), renderer, scene, right, test);
 }
 
-bool PlantedView::feels(const PlantedFault& fault) {
+bool InjectedView::feels(const InjectedFault& fault) {
     const auto known = felt_.find(fault.means);
     if (known != felt_.end()) return known->second;
     return felt_[fault.means] = differsVisibly(right.channels.at(lit), with(fault).channels.at(lit));
 }
 
-std::vector<PlantedView*> plantedViews(ViewKind kind) {
+std::vector<InjectedView*> injectedViews(ViewKind kind) {
     struct Place {
         const char* scene;
         std::vector<const char*> cameras;
@@ -598,14 +598,14 @@ std::vector<PlantedView*> plantedViews(ViewKind kind) {
         {"builtin:glass", {"front", "inside", "eye=-1.4,1.3,4.5 target=0,0.9,0 fov=46"}},
         {"builtin:crossed", {"front", "eye=1.2,0.9,3.2 target=0,0.6,0 fov=46"}}};
     pipelines();  // before the views, which it outlives
-    static std::map<ViewKind, std::vector<std::unique_ptr<PlantedView>>> made;
-    std::vector<std::unique_ptr<PlantedView>>& views = made[kind];
+    static std::map<ViewKind, std::vector<std::unique_ptr<InjectedView>>> made;
+    std::vector<std::unique_ptr<InjectedView>>& views = made[kind];
     if (views.empty())
         for (std::uint32_t seed = 1; seed <= (kind == ViewKind::opaque ? 4u : 5u); ++seed)
             for (const Place& place : kind == ViewKind::opaque ? opaque : blended)
                 for (const char* camera : place.cameras)
-                    views.push_back(std::make_unique<PlantedView>(place.scene, camera, seed, kind));
-    std::vector<PlantedView*> all;
+                    views.push_back(std::make_unique<InjectedView>(place.scene, camera, seed, kind));
+    std::vector<InjectedView*> all;
     for (const auto& view : views) all.push_back(view.get());
     return all;
 }
