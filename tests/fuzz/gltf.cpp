@@ -2,7 +2,7 @@
 // .gltf and .glb alike, told apart as a reader does: by their first bytes. A few files lie beside it.
 #include "shared/scene/gltf/gltf.h"
 #include "tests/fuzz/fuzz.h"
-#include "tests/fuzz/sound_scene.h"
+#include "tests/fuzz/valid_scene.h"
 
 #include <tbb/global_control.h>
 

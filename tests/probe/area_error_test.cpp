@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The errors of both ways of shading area lights against the reference: the table of shared/light/MEASURED.md
 // is measured here, and written to the file that DIPTYCH_AREA_TABLE names.
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

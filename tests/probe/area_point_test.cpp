@@ -4,7 +4,7 @@
 // peak. And against what does not depend on that definition: small lights have the irradiance of their solid
 // angle.
 #include "compare/reference/brdf.h"
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

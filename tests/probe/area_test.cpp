@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shipped area lights: their closed forms against quadrature in double.
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

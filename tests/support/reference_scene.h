@@ -2,7 +2,7 @@
 // Small scenes of which the reference's tests draw whole pictures.
 #pragma once
 
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 #include "tests/support/shapes.h"
 
 #include "compare/reference/checkpoint.h"

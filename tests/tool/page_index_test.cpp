@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A report of a thousand comparisons in a browser: what it builds and loads at once, and what once it is
 // asked.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The wipe as a browser paints it: left of the divider the baseline's picture, right of it the other's.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Columns of numbers on a page: decimal points stand one below the other, in a browser's own measure.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report's page as a browser shows it: real events go in, what stands on the page comes out.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page says of the pixel under the cursor is what the Frames hold.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // No page scrolls sideways, on a phone nothing in it does either; and what is printed needs no mouse.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "compare/checks/check_features.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
-#include "tests/support/checks_maker.h"
+#include "tests/support/checks_builder.h"
 
 #include <glm/trigonometric.hpp>
 

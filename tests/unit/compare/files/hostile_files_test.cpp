@@ -17,7 +17,7 @@
 #include "shared/text/one_line.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

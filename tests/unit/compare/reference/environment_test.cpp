@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference under environments: directions, furnaces, and its stated confidence.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/environment.h"
 

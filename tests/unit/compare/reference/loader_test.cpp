@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The reference's results for glTF files, against values computed by hand: a fault in the loader, which both
 // paths and the reference share, would not show otherwise.
-#include "tests/support/gltf_maker.h"
-#include "tests/support/png_maker.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/png_builder.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reference's material, and its reflection of area lights, against formulas and sums made independently
 // here.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/brdf.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The microsurface by random walk: its single reflection is the analytic BRDF, none of its light is lost, and
 // how far the compensations are from it.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/microsurface.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reference draws what a file's quaternion turns, whatever its length: a tilted plane at its exact
 // places.
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {

@@ -2,7 +2,7 @@
 // How sure the mean of independent estimates is, and the points that are sampled.
 #include "compare/reference/sampling.h"
 
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include <set>
 

@@ -6,7 +6,7 @@
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "tests/support/nonfinite.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

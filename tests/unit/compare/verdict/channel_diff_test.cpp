@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When a channel passes: the last value that does and the first that does not, and what another device and
 // noise are granted.
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths with several samples a pixel beside the reference: lit alone means the same in both.
 #include "shared/frame/made_channels.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The spherical harmonics of assignment per_object against numeric integration; also that every light is in
 // one of the three groups, and that no light jumps from one to another.
-#include "tests/support/object_lights_maker.h"
+#include "tests/support/object_lights_builder.h"
 
 #include <algorithm>
 #include <functional>

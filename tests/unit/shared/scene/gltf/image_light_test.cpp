@@ -3,7 +3,7 @@
 #include "compare/reference/environment.h"
 #include "shared/image/png.h"
 #include "shared/scene/image/cube_map.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

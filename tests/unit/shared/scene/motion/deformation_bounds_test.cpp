@@ -24,7 +24,7 @@ namespace {
 
 constexpr int poseCount = 256;
 
-struct PoseMaker {
+struct PoseBuilder {
     std::mt19937 random{20};
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -88,9 +88,10 @@ void check(const Scene& scene, Ratios& ratios, const std::string& what) {
 }
 
 Ratios ofRandomPoses(const Scene& scene, const std::string& what) {
-    PoseMaker maker;
+    PoseBuilder builder;
     Ratios ratios;
-    for (int i = 0; i < poseCount; ++i) check(maker.posed(scene), ratios, fmt::format("{} pose {}", what, i));
+    for (int i = 0; i < poseCount; ++i)
+        check(builder.posed(scene), ratios, fmt::format("{} pose {}", what, i));
     return ratios;
 }
 
@@ -204,8 +205,8 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
         }
         return least;
     };
-    PoseMaker maker;
-    Scene large = maker.posed(star(8, 8, 1000000)), small = maker.posed(star(8, 8, 20000));
+    PoseBuilder builder;
+    Scene large = builder.posed(star(8, 8, 1000000)), small = builder.posed(star(8, 8, 20000));
     const auto start = std::chrono::steady_clock::now();
     prepareDeformationBounds(large);
     const double prepared =

@@ -32,9 +32,9 @@ struct PosingChoice {
     int cells = 7;              // of the surface along one side
 };
 
-class PosingMaker {
+class PosingBuilder {
 public:
-    explicit PosingMaker(unsigned seed) : random_(seed) {}
+    explicit PosingBuilder(unsigned seed) : random_(seed) {}
 
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random_);

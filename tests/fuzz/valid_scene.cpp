@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/sound_scene.h"
+#include "tests/fuzz/valid_scene.h"
 
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 #include "tests/fuzz/fuzz.h"
-#include "tests/fuzz/sound_light.h"
+#include "tests/fuzz/valid_light.h"
 
 #include <glm/geometric.hpp>
 

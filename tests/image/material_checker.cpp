@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/image/material_judge.h"
+#include "tests/image/material_checker.h"
 
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -147,7 +147,7 @@ double movedBy(int mode, const std::vector<Cell>& cells, const CellCamera& camer
     }
 }
 
-void judge(Judged& judged, const float* got, const std::vector<double>& expected, double allowed,
+void judge(CheckedValues& judged, const float* got, const std::vector<double>& expected, double allowed,
            const std::string& where) {
     for (std::size_t c = 0; c < expected.size(); ++c) {
         ++judged.values;
@@ -221,11 +221,11 @@ std::optional<double> allowedBeside(const std::vector<Cell>& cells, const CellCa
 
 }  // namespace
 
-bool anyWrong(const Judgement& judgement) {
+bool anyWrong(const ChannelChecks& judgement) {
     return std::ranges::any_of(judgement, [](const auto& entry) { return entry.second.wrong > 0; });
 }
 
-std::string describe(const Judgement& judgement) {
+std::string describe(const ChannelChecks& judgement) {
     std::string text;
     for (const auto& [mode, judged] : judgement)
         text += fmt::format("{}: {} of {} wrong, worst {:.3g} of what is allowed, {}\n", debugMode(mode).name,
@@ -233,9 +233,9 @@ std::string describe(const Judgement& judgement) {
     return text;
 }
 
-Judgement againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, const CellCamera& camera,
-                            const CellDecode& decode) {
-    Judgement judgement;
+ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, const CellCamera& camera,
+                                const CellDecode& decode) {
+    ChannelChecks judgement;
     const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * camera.size.x + x); };
     for (int y = 0; y < camera.size.y; ++y)
         for (int x = 0; x < camera.size.x; ++x) {
@@ -258,9 +258,9 @@ Judgement againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, 
     return judgement;
 }
 
-Judgement againstReference(const Frame& frame, const Frame& reference, const std::vector<Cell>& cells,
-                           const CellCamera& camera) {
-    Judgement judgement;
+ChannelChecks againstReference(const Frame& frame, const Frame& reference, const std::vector<Cell>& cells,
+                               const CellCamera& camera) {
+    ChannelChecks judgement;
     const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * camera.size.x + x); };
     for (int y = 0; y < camera.size.y; ++y)
         for (int x = 0; x < camera.size.x; ++x) {

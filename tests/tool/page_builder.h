@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/report/report.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 #include "tests/tool/browser.h"
 
 #include <string>

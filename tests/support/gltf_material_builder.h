@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <utility>
 

@@ -14,23 +14,23 @@ namespace diptych::tests {
 
 // What was found of a channel: how many values were judged, how many were off by more than they may be, and
 // the worst, as a multiple of what is allowed.
-struct Judged {
+struct CheckedValues {
     std::size_t values = 0, wrong = 0;
     double worst = 0;
     std::string worst_at;  // "cell NAME at X, Y: GOT, not EXPECTED"
 };
-using Judgement = std::map<int, Judged>;  // by channel
+using ChannelChecks = std::map<int, CheckedValues>;  // by channel
 
 // Whether any value is wrong.
-bool anyWrong(const Judgement& judgement);
-std::string describe(const Judgement& judgement);
+bool anyWrong(const ChannelChecks& judgement);
+std::string describe(const ChannelChecks& judgement);
 
 // Channels of the material, depth and position against the closed form.
-Judgement againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, const CellCamera& camera,
-                            const CellDecode& decode);
+ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, const CellCamera& camera,
+                                const CellDecode& decode);
 
 // Every channel that both have, light among them.
-Judgement againstReference(const Frame& frame, const Frame& reference, const std::vector<Cell>& cells,
-                           const CellCamera& camera);
+ChannelChecks againstReference(const Frame& frame, const Frame& reference, const std::vector<Cell>& cells,
+                               const CellCamera& camera);
 
 }  // namespace diptych::tests

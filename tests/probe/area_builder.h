@@ -8,7 +8,7 @@
 #include "shared/light/lights.h"
 #include "shared/light/ltc.h"
 #include "tests/probe/probe.h"
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

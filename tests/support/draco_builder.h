@@ -2,7 +2,7 @@
 // glTF files with KHR_draco_mesh_compression, made with Draco's own encoder.
 #pragma once
 
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
