@@ -36,7 +36,7 @@ private:
 
 struct DriverProbe {
     bool crashed = false;  // the child ended before `act` returned
-    std::string output;     // result of `act`, or the message of its exception
+    std::string output;    // result of `act`, or the message of its exception
 };
 // Calls `act` in a child process with standard error discarded.
 DriverProbe probeInChild(const std::function<std::string()>& act);

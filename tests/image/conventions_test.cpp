@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [
 });
 
 // Another program's picture of the scene: it has these conventions, and says nothing of them nor of its
-// surfaces, which ours are substituted for. Those of a pair may cancel in part (a spot's edge near the end of its
-// range).
+// surfaces, which ours are substituted for. Those of a pair may cancel in part (a spot's edge near the end of
+// its range).
 TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
     using Words = std::vector<std::pair<std::string, std::string>>;
     const std::pair<const char*, Words> cases[] = {

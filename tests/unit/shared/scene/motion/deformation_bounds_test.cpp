@@ -3,6 +3,7 @@
 #include "shared/scene/motion/deformation_bounds.h"
 
 #include "shared/scene/load.h"
+#include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 
 #include <fmt/format.h>
