@@ -23,7 +23,7 @@ namespace {
 void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::shared_ptr<const DescriptorSets> channels, const char* name, Shader fragment,
                 std::span<const ImageRef> targets, VkFormat format) {
-    const gpu::uint most = inputs.device.profile().packets_per_draw;
+    const gpu::uint most = inputs.device.profile().list_entries_per_draw;
     if (inputs.longest_list > most)
         throw std::runtime_error(
             fmt::format("relighting from channels reads up to {} light list entries, but a list has {}; use "

@@ -51,7 +51,7 @@ private:
 bool drawsSolids(const DrawList& draws) {
     return std::ranges::any_of(draws.solids(), [&](const DrawItem& item) {
         const auto runs = std::span(draws.runs).subspan(item.first_run, item.runs);
-        return runs.empty() || std::ranges::any_of(runs, [](const IndexRun& run) { return run.count > 0; });
+        return runs.empty() || std::ranges::any_of(runs, [](const IndexRange& run) { return run.count > 0; });
     });
 }
 

@@ -115,7 +115,7 @@ void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
             if (isDivisible(primitive)) primitive = divided(primitive, n);
 }
 
-double usualTriangles(const Subject& subject) {
+double originalTriangles(const Subject& subject) {
     return static_cast<double>(triangleCount(subject.given.scene));
 }
 
@@ -131,7 +131,7 @@ void pushSize(Case& pushed, const Subject& subject, double height) {
     pushed.settings.size = {side(aspect * height), side(height)};
 }
 
-double usualSize(const Subject& subject) {
+double originalSize(const Subject& subject) {
     return static_cast<double>(subject.view.height);
 }
 
@@ -139,7 +139,7 @@ void pushTime(Case& pushed, const Subject&, double seconds) {
     pushed.settings.time = seconds;
 }
 
-double usualTime(const Subject& subject) {
+double originalTime(const Subject& subject) {
     return subject.given.settings.time;
 }
 
@@ -171,7 +171,7 @@ std::vector<Quantity> amountQuantities() {
              .unit = "",
              .what = "number of copies of every local light, which share its intensity",
              .magnitudes = {1, 10, 100, 1000, mostCopies},
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksLocalLight,
              .push = pushLights,
              .variants = {{"assign", "tiled"}, {"assign", "every"}},
@@ -182,7 +182,7 @@ std::vector<Quantity> amountQuantities() {
              .unit = "",
              .what = "number of triangles, by subdividing the scene's own",
              .magnitudes = ladder(1e2, 1e6),
-             .usual = usualTriangles,
+             .original = originalTriangles,
              .lacks = lacksRigid,
              .push = pushTriangles,
              .whole = true,
@@ -191,7 +191,7 @@ std::vector<Quantity> amountQuantities() {
              .unit = "pixels",
              .what = "the picture's height at the same aspect ratio",
              .magnitudes = sizes,
-             .usual = usualSize,
+             .original = originalSize,
              .lacks = lacksNothing,
              .push = pushSize,
              .whole = true,
@@ -200,7 +200,7 @@ std::vector<Quantity> amountQuantities() {
              .unit = "s",
              .what = "the animation time",
              .magnitudes = times,
-             .usual = usualTime,
+             .original = originalTime,
              .lacks = lacksMotion,
              .push = pushTime,
              .predict = predictTime}};

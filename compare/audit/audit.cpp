@@ -27,21 +27,21 @@ double nonfiniteOf(const Outcome& outcome) {
 }
 
 // The steps in order of distance from the default one.
-Reach reachOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
-              std::size_t usual, int way) {
-    Reach reach{.last = steps[usual].magnitude};
-    for (auto i = static_cast<std::ptrdiff_t>(usual) + way; i >= 0 && i < std::ssize(steps); i += way) {
+BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
+                              std::size_t original, int way) {
+    BreakingPoint point{.last = steps[original].magnitude};
+    for (auto i = static_cast<std::ptrdiff_t>(original) + way; i >= 0 && i < std::ssize(steps); i += way) {
         const Step& step = steps[static_cast<std::size_t>(i)];
         // A case that the device rejects is no arithmetic failure.
-        if (!step.outcomes[series].failed.empty()) return reach;
-        if (!holds(criterion, step.outcomes[series])) {
-            reach.first = step.magnitude;
-            reach.broken = true;
-            return reach;
+        if (!step.outcomes[series].failed.empty()) return point;
+        if (!passes(criterion, step.outcomes[series])) {
+            point.first = step.magnitude;
+            point.broken = true;
+            return point;
         }
-        reach.last = step.magnitude;
+        point.last = step.magnitude;
     }
-    return reach;
+    return point;
 }
 
 // Four digits, which is finer than the resolution.
@@ -51,9 +51,9 @@ double rounded(double magnitude, const Quantity& quantity) {
 
 Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Settings& settings,
                       double error) {
-    Settings usual = settings;
-    if (quantity.predicts_formats) usual.depth_format = DepthFormat::d32f;
-    return quantity.predict && isPrecise(usual) ? quantity.predict(subject, settings, error) : Predicted{};
+    Settings original = settings;
+    if (quantity.predicts_formats) original.depth_format = DepthFormat::d32f;
+    return quantity.predict && isPrecise(original) ? quantity.predict(subject, settings, error) : Predicted{};
 }
 
 // Geometric mean, because magnitudes are tried by ratios.
@@ -69,42 +69,42 @@ const std::array<Criterion, criterionCount> criteria{
      {"visible", "not visible (HDR-FLIP below 0.05)", 0.05, flipOf},
      {"finite", "every pixel finite", 0.5, nonfiniteOf}}};
 
-bool holds(const Criterion& criterion, const Outcome& outcome) {
+bool passes(const Criterion& criterion, const Outcome& outcome) {
     return criterion.figure(outcome) < criterion.limit;
 }
 
-bool agrees(const Reach& reach, double predicted, bool up, double tried) {
-    if (!reach.broken) return up ? predicted * agreement >= tried : predicted / agreement <= tried;
-    const double measured = reach.last > 0 ? between(reach.last, reach.first) : reach.first;
+bool agrees(const BreakingPoint& point, double predicted, bool up, double tried) {
+    if (!point.broken) return up ? predicted * agreement >= tried : predicted / agreement <= tried;
+    const double measured = point.last > 0 ? between(point.last, point.first) : point.first;
     return predicted > 0 && std::max(measured / predicted, predicted / measured) <= agreement;
 }
 
-std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& steps, std::size_t series,
-                                                      double usual) {
-    std::array<std::vector<Hold>, criterionCount> all;
-    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(steps, usual, {}, &Step::magnitude) -
+std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
+                                                                  std::size_t series, double original) {
+    std::array<std::vector<ValidRange>, criterionCount> all;
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(steps, original, {}, &Step::magnitude) -
                                              steps.begin());
     for (std::size_t c = 0; c < criterionCount; ++c)
         for (std::size_t s = 0; s < series; ++s) {
-            Hold hold;
-            hold.usual = at < steps.size() && holds(criteria[c], steps[at].outcomes[s]);
-            if (hold.usual) {
-                hold.up = reachOf(criteria[c], steps, s, at, 1);
-                hold.down = reachOf(criteria[c], steps, s, at, -1);
+            ValidRange range;
+            range.at_original = at < steps.size() && passes(criteria[c], steps[at].outcomes[s]);
+            if (range.at_original) {
+                range.up = breakingPointOf(criteria[c], steps, s, at, 1);
+                range.down = breakingPointOf(criteria[c], steps, s, at, -1);
             }
-            all[c].push_back(hold);
+            all[c].push_back(range);
         }
     return all;
 }
 
 std::optional<double> nextMagnitude(const QuantityAudit& audit) {
     if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + mostAdded) return {};
-    for (const std::vector<Hold>& of : audit.holds)
-        for (const Hold& hold : of)
-            for (const Reach* reach : {&hold.up, &hold.down}) {
-                if (!hold.usual || !reach->broken || reach->last == 0 || reach->first == 0) continue;
-                if (std::max(reach->last / reach->first, reach->first / reach->last) <= resolved) continue;
-                return rounded(between(reach->last, reach->first), *audit.quantity);
+    for (const std::vector<ValidRange>& of : audit.valid_ranges)
+        for (const ValidRange& range : of)
+            for (const BreakingPoint* point : {&range.up, &range.down}) {
+                if (!range.at_original || !point->broken || point->last == 0 || point->first == 0) continue;
+                if (std::max(point->last / point->first, point->first / point->last) <= resolved) continue;
+                return rounded(between(point->last, point->first), *audit.quantity);
             }
     return {};
 }
@@ -116,12 +116,12 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     audit.quantity = &quantity;
     audit.lacks = subject.bounds.empty() ? "the scene has nothing to draw" : quantity.lacks(subject);
     if (!audit.lacks.empty()) return audit;
-    audit.usual = quantity.usual(subject);
+    audit.original = quantity.original(subject);
     ChosenSeries chosen = seriesOf(quantity, subject);
     audit.series = std::move(chosen.series);
     audit.left_out = std::move(chosen.left_out);
     std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
-    magnitudes.insert(audit.usual);
+    magnitudes.insert(audit.original);
     magnitudes.insert(beside.begin(), beside.end());
     const auto measure = [&](double magnitude) {
         Step measured = step(audit.series, magnitude);
@@ -130,7 +130,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     };
     for (const double magnitude : magnitudes) measure(magnitude);
     for (;;) {
-        audit.holds = holdsOf(audit.steps, audit.series.size(), audit.usual);
+        audit.valid_ranges = validRangesOf(audit.steps, audit.series.size(), audit.original);
         const std::optional<double> next = nextMagnitude(audit);
         if (!next || std::ranges::count(audit.steps, *next, &Step::magnitude) > 0) break;
         measure(*next);
@@ -142,7 +142,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     return audit;
 }
 
-Requirement judge(const QuantityAudit& audit, double magnitude) {
+Requirement evaluate(const QuantityAudit& audit, double magnitude) {
     Requirement requirement{.quantity = std::string(audit.quantity->name), .magnitude = magnitude};
     if (!audit.lacks.empty()) {
         requirement.because = "not varied: " + audit.lacks;
@@ -159,13 +159,13 @@ Requirement judge(const QuantityAudit& audit, double magnitude) {
         std::optional<double> furthest;
         for (std::size_t s = 0; s < audit.series.size(); ++s) {
             if (audit.series[s].path != path) continue;
-            const Hold& hold = audit.holds[requiredCriterion][s];
-            const Reach& reach = magnitude >= audit.usual ? hold.up : hold.down;
-            const bool far = magnitude >= audit.usual ? reach.last >= magnitude : reach.last <= magnitude;
-            met = met || (hold.usual && far);
-            if (hold.usual &&
-                (!furthest || std::abs(reach.last - audit.usual) > std::abs(*furthest - audit.usual)))
-                furthest = reach.last;
+            const ValidRange& range = audit.valid_ranges[requiredCriterion][s];
+            const BreakingPoint& point = magnitude >= audit.original ? range.up : range.down;
+            const bool far = magnitude >= audit.original ? point.last >= magnitude : point.last <= magnitude;
+            met = met || (range.at_original && far);
+            if (range.at_original &&
+                (!furthest || std::abs(point.last - audit.original) > std::abs(*furthest - audit.original)))
+                furthest = point.last;
         }
         const std::string reached =
             furthest ? fmt::format("the error stays below 1e-2 as far as {:.3g}", *furthest)

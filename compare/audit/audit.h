@@ -28,18 +28,18 @@ extern const std::array<Criterion, criterionCount> criteria;
 inline constexpr std::size_t requiredCriterion = 1;  // the criterion of --require
 inline constexpr std::size_t visibleCriterion = 2, numberCriterion = 3;
 
-bool holds(const Criterion& criterion, const Outcome& outcome);
+bool passes(const Criterion& criterion, const Outcome& outcome);
 
 // How far one way a criterion is met, starting at the default magnitude.
-struct Reach {
+struct BreakingPoint {
     double last = 0;   // last magnitude tried that meets it
     double first = 0;  // first one that does not; meaningless if not broken
     bool broken = false;
 };
 // `up` and `down` are empty if the criterion fails at the default magnitude.
-struct Hold {
-    bool usual = false;
-    Reach up, down;
+struct ValidRange {
+    bool at_original = false;
+    BreakingPoint up, down;
 };
 
 // Where a series fails, in the smallest scene that reproduces it.
@@ -52,12 +52,12 @@ struct Failure {
 struct QuantityAudit {
     const Quantity* quantity = nullptr;
     std::string lacks;  // why it is not varied; empty if it is
-    double usual = 0;
+    double original = 0;
     std::vector<Series> series;
     std::vector<std::string> left_out;  // ChosenSeries::left_out
     std::vector<Step> steps;            // ascending
     // By criterion and series.
-    std::array<std::vector<Hold>, criterionCount> holds;
+    std::array<std::vector<ValidRange>, criterionCount> valid_ranges;
     // By criterion (only the two error criteria) and series.
     std::array<std::vector<Predicted>, 2> predicted;
     std::vector<Failure> failures;
@@ -65,11 +65,11 @@ struct QuantityAudit {
 
 // Whether a measured and a predicted breaking point agree: within a factor of 2, or both beyond the last
 // magnitude tried (`tried`).
-bool agrees(const Reach& reach, double predicted, bool up, double tried);
+bool agrees(const BreakingPoint& point, double predicted, bool up, double tried);
 
 // Ranges in which measured steps meet the criteria.
-std::array<std::vector<Hold>, criterionCount> holdsOf(const std::vector<Step>& steps, std::size_t series,
-                                                      double usual);
+std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
+                                                                  std::size_t series, double original);
 
 // The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
 // Empty if all are known, or after the maximum number of refinement steps.
@@ -88,7 +88,7 @@ struct Requirement {
     bool met = false;
     std::string because{};  // "deferred: the error is below 1e-2 up to 3e5"
 };
-Requirement judge(const QuantityAudit& audit, double magnitude);
+Requirement evaluate(const QuantityAudit& audit, double magnitude);
 
 struct Audit : Audited {
     std::vector<QuantityAudit> quantities;

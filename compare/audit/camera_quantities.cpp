@@ -24,7 +24,7 @@ double farOf(const Subject& subject) {
     return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * reach;
 }
 
-double usualNear(const Subject& subject) {
+double originalNear(const Subject& subject) {
     return farOf(subject) / subject.view.camera.near;
 }
 
@@ -33,7 +33,7 @@ void pushNear(Case& pushed, const Subject& subject, double ratio) {
     pushed.camera().near = pushed.camera().far / ratio;
 }
 
-double usualFov(const Subject& subject) {
+double originalFov(const Subject& subject) {
     return glm::degrees(subject.view.camera.yfov);
 }
 
@@ -55,7 +55,7 @@ void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
     pushed.camera().world_from_camera = lookAt(eye, subject.point);
 }
 
-double usualGrazing(const Subject& subject) {
+double originalGrazing(const Subject& subject) {
     const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
     return glm::degrees(std::asin(std::clamp(glm::dot(to_eye, subject.normal), 0.0, 1.0)));
 }
@@ -136,7 +136,7 @@ std::vector<Quantity> cameraQuantities() {
          .unit = "",
          .what = "exposure of the 8-bit pictures, as a factor of the automatic exposure",
          .magnitudes = ladder(1e-30, 1e30, 1e3),
-         .usual = usualOne,
+         .original = originalOne,
          .lacks = lacksNothing,
          .push = pushExposure,
          .of_pictures = true,
@@ -145,7 +145,7 @@ std::vector<Quantity> cameraQuantities() {
          .unit = "",
          .what = "the far plane's distance divided by the near plane's, by moving the near plane",
          .magnitudes = ladder(1e2, 1e9),
-         .usual = usualNear,
+         .original = originalNear,
          .lacks = lacksNothing,
          .push = pushNear,
          .variants = {{"depth-format", "d32f-standard"}, {"depth-format", "d24"}, {"depth-format", "d16"}},
@@ -155,7 +155,7 @@ std::vector<Quantity> cameraQuantities() {
          .unit = "degrees",
          .what = "the vertical field of view, from the same camera position",
          .magnitudes = fovs,
-         .usual = usualFov,
+         .original = originalFov,
          .lacks = lacksPerspective,
          .push = pushFov,
          .predict = predictFov},
@@ -163,7 +163,7 @@ std::vector<Quantity> cameraQuantities() {
          .unit = "degrees",
          .what = "the angle between the view and the surface in the middle of the picture",
          .magnitudes = grazes,
-         .usual = usualGrazing,
+         .original = originalGrazing,
          .lacks = lacksSurface,
          .push = pushGrazing,
          .predict = predictGrazing}};

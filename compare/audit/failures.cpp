@@ -29,10 +29,10 @@ struct Broken {
 std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subject) {
     for (const std::size_t criterion : {numberCriterion, requiredCriterion})
         for (std::size_t s = 0; s < of.series.size(); ++s) {
-            const Hold& hold = of.holds[criterion][s];
-            if (!hold.usual || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
-            for (const Reach* reach : {&hold.up, &hold.down})
-                if (reach->broken) return Broken{s, criterion, reach->first};
+            const ValidRange& range = of.valid_ranges[criterion][s];
+            if (!range.at_original || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
+            for (const BreakingPoint* point : {&range.up, &range.down})
+                if (point->broken) return Broken{s, criterion, point->first};
         }
     return {};
 }
@@ -66,7 +66,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         const Outcome& outcome = step.outcomes.front();
         // An empty image shows no failure.
         const bool drawn = outcome.failed.empty() && step.covered > 0;
-        return FailingPixel{drawn && !holds(criterion, outcome), outcome.worst_x, outcome.worst_y,
+        return FailingPixel{drawn && !passes(criterion, outcome), outcome.worst_x, outcome.worst_y,
                             outcome.error()};
     };
     const std::string at =

@@ -30,7 +30,7 @@ std::string lacksEnvironment(const Subject& subject) {
     return subject.given.scene.environment ? "" : "the scene has no environment: add one with --env";
 }
 
-double usualOne(const Subject&) {
+double originalOne(const Subject&) {
     return 1;
 }
 

@@ -22,7 +22,7 @@ std::string lacksLocalLight(const Subject& subject);
 std::string lacksSun(const Subject& subject);
 std::string lacksEnvironment(const Subject& subject);
 
-double usualOne(const Subject& subject);
+double originalOne(const Subject& subject);
 
 // first, first * step, ... up to last, all rounded to three digits.
 std::vector<double> ladder(double first, double last, double step = 10);

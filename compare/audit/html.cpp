@@ -41,10 +41,10 @@ std::string tableOf(const Audit& audit) {
             out += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}{2}</td>", of.quantity->name,
                                swatchOf(of.series[s]), markup(of.series[s].words()));
             for (std::size_t c = 0; c < criterionCount; ++c) {
-                const Hold& hold = of.holds[c][s];
-                const bool whole = hold.usual && !hold.up.broken && !hold.down.broken;
+                const ValidRange& range = of.valid_ranges[c][s];
+                const bool whole = range.at_original && !range.up.broken && !range.down.broken;
                 out += fmt::format("<td{}>{}</td>", whole ? "" : " class=\"broken\"",
-                                   markup(rangeInWords(hold)));
+                                   markup(rangeInWords(range)));
             }
             std::optional<bool> agree;
             for (std::size_t c = 0; c < of.predicted.size(); ++c) {
@@ -82,7 +82,7 @@ std::string sectionOf(const QuantityAudit& of) {
     const Quantity& quantity = *of.quantity;
     std::string out =
         fmt::format("<div class=\"box\" id=\"{0}\"><h3>{0}</h3><p class=\"soft\">{1}; here {2} {3}</p>",
-                    quantity.name, markup(quantity.what), magnitudeInWords(of.usual), quantity.unit);
+                    quantity.name, markup(quantity.what), magnitudeInWords(of.original), quantity.unit);
     out += auditPlot(of, PlotPlace::page);
     std::vector<std::string> reasons;
     for (const std::vector<Predicted>& predicted : of.predicted)

@@ -89,7 +89,7 @@ Predicted predictCone(const Subject&, const Settings&, double) {
     return {.because = "a cone's soft edge is at least 0.001 wide in cosine, and float32 resolves 6e-8"};
 }
 
-double usualRange(const Subject& subject) {
+double originalRange(const Subject& subject) {
     double longest = 0;
     for (const Light& light : subject.given.scene.lights)
         if (isLocal(light) && std::isfinite(light.range)) longest = std::max(longest, double{light.range});
@@ -124,7 +124,7 @@ double localDistance(const Subject& subject, const glm::dvec3& from) {
     return nearest;
 }
 
-double usualDistance(const Subject& subject) {
+double originalDistance(const Subject& subject) {
     return localDistance(subject, subject.point);
 }
 
@@ -132,7 +132,7 @@ void pushDistance(Case& pushed, const Subject& subject, double metres) {
     moveLocalLights(pushed, subject.point, metres);
 }
 
-double usualEye(const Subject& subject) {
+double originalEye(const Subject& subject) {
     return localDistance(subject, subject.view.eye());
 }
 
@@ -163,7 +163,7 @@ void pushCone(Case& pushed, const Subject& subject, double degrees) {
     }
 }
 
-double usualCone(const Subject&) {
+double originalCone(const Subject&) {
     return 90;
 }
 
@@ -222,7 +222,7 @@ std::vector<Quantity> lightQuantities() {
          .unit = "",
          .what = "all light sources, multiplied by a factor",
          .magnitudes = ladder(1e-12, 1e12),
-         .usual = usualOne,
+         .original = originalOne,
          .lacks = lacksNothing,
          .push = pushIntensity,
          .variants = {{"lit-format", "fp16"}, {"lit-format", "b10g11r11"}},
@@ -233,7 +233,7 @@ std::vector<Quantity> lightQuantities() {
          .unit = "m",
          .what = "the range of every point, spot and area light",
          .magnitudes = ladder(1e-3, 1e9),
-         .usual = usualRange,
+         .original = originalRange,
          .lacks = lacksLocalLight,
          .push = pushRange,
          .predict = predictRange},
@@ -242,7 +242,7 @@ std::vector<Quantity> lightQuantities() {
          .what =
              "distance of local lights from the surface in the middle of the picture, which stays as bright",
          .magnitudes = places,
-         .usual = usualDistance,
+         .original = originalDistance,
          .lacks = lacksDistance,
          .push = pushDistance,
          .predict = predictDistance},
@@ -250,7 +250,7 @@ std::vector<Quantity> lightQuantities() {
          .unit = "m",
          .what = "distance of local lights from the camera",
          .magnitudes = places,
-         .usual = usualEye,
+         .original = originalEye,
          .lacks = lacksLocalLight,
          .push = pushEye,
          .predict = predictEye},
@@ -258,7 +258,7 @@ std::vector<Quantity> lightQuantities() {
          .unit = "degrees",
          .what = "the full cone angle of every point and spot light, inner equal to outer",
          .magnitudes = cones,
-         .usual = usualCone,
+         .original = originalCone,
          .lacks = lacksCone,
          .push = pushCone,
          .predict = predictCone},
@@ -266,7 +266,7 @@ std::vector<Quantity> lightQuantities() {
          .unit = "",
          .what = "the brightest pixel of the environment, multiplied by a factor",
          .magnitudes = ladder(1, 1e12),
-         .usual = usualOne,
+         .original = originalOne,
          .lacks = lacksEnvironment,
          .push = pushEnvironment,
          .variants = {{"ibl", "sampled"}},

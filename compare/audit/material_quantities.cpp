@@ -15,7 +15,7 @@ void pushRoughness(Case& pushed, const Subject&, double roughness) {
     for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
 }
 
-double usualRoughness(const Subject&) {
+double originalRoughness(const Subject&) {
     return 1;
 }
 
@@ -101,7 +101,7 @@ std::vector<Quantity> materialQuantities() {
              .unit = "",
              .what = "the roughness factor of every material",
              .magnitudes = roughnesses,
-             .usual = usualRoughness,
+             .original = originalRoughness,
              .lacks = lacksNothing,
              .push = pushRoughness,
              .variants = {{"shading-precision", "fp16"}},
@@ -110,7 +110,7 @@ std::vector<Quantity> materialQuantities() {
              .unit = "",
              .what = "the strength of every normal map",
              .magnitudes = ladder(1e-3, 1e9),
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksNormalMap,
              .push = pushNormalMap,
              .predict = predictNormalMap},
@@ -118,7 +118,7 @@ std::vector<Quantity> materialQuantities() {
              .unit = "",
              .what = "every texel of every texture except alpha, as a fraction of its type's largest value",
              .magnitudes = {0, 1e-5, 1 / 255.0, 2 / 255.0, 0.05, 0.2, 0.5, 254 / 255.0, 1},
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksTexture,
              .push = pushTexel,
              .predict = predictTexel},
@@ -126,7 +126,7 @@ std::vector<Quantity> materialQuantities() {
              .unit = "W/(sr m^2)",
              .what = "the emission of every surface",
              .magnitudes = ladder(1e-12, 1e38, 100),
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksNothing,
              .push = pushEmission,
              .predict = predictEmission},
@@ -134,7 +134,7 @@ std::vector<Quantity> materialQuantities() {
              .unit = "",
              .what = "the colour of every vertex, replacing its own",
              .magnitudes = ladder(1e-38, 1, 100),
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksNothing,
              .push = pushColor,
              .predict = predictColor}};

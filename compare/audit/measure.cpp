@@ -158,11 +158,11 @@ void ChosenSeries::add(Series one, const Settings& settings) {
 }
 
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject) {
-    Case usual = subject.given;
-    quantity.push(usual, subject, quantity.usual(subject));
+    Case original = subject.given;
+    quantity.push(original, subject, quantity.original(subject));
     ChosenSeries all;
     const auto add = [&](Series series) {
-        const Settings settings = series.applied(usual.settings);
+        const Settings settings = series.applied(original.settings);
         all.add(std::move(series), settings);
     };
     for (const Path path : drawn_paths) add({path, {}});
@@ -196,15 +196,15 @@ Frame Measurer::tracedRays(Scene scene, Settings settings) {
         drawWithoutDevice(views, {referenceSettings(settings)}, drawing({idsOf, depthOf})).front());
 }
 
-const Measurer::Truth& Measurer::usual(const Size& size) {
-    const auto known = usual_.find({size.width, size.height});
-    if (known != usual_.end()) return known->second;
+const Measurer::Truth& Measurer::original(const Size& size) {
+    const auto known = original_.find({size.width, size.height});
+    if (known != original_.end()) return known->second;
     Settings settings = subject_.given.settings;
     settings.size = size;
     SceneViews views(subject_.given.scene);
     Renderer renderer(device_, views, pipelines_);
     Truth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.given.scene, settings)};
-    return usual_.emplace(std::pair(size.width, size.height), std::move(truth)).first->second;
+    return original_.emplace(std::pair(size.width, size.height), std::move(truth)).first->second;
 }
 
 Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure) {
@@ -235,7 +235,7 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 
 std::string Measurer::fingerprint() {
     reference::Key key;
-    const Truth& truth = usual(subject_.given.settings.size);
+    const Truth& truth = original(subject_.given.settings.size);
     for (const Frame* frame : {&truth.lit, &truth.rays})
         for (const auto& [mode, image] : frame->channels) key.addAll(image.data);
     return fmt::format("{:016x}", key.value());
@@ -296,10 +296,10 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
         const Drawn& drawn = own ? *own : *pictures_;
         std::optional<Truth> same;
         if (quantity && quantity->same_picture) {
-            same = usual(pushed.settings.size);
+            same = original(pushed.settings.size);
             if (quantity->light) multiply(same->lit.channels.at(litOf), magnitude);
             if (quantity->lengths) multiply(same->rays.channels.at(depthOf), magnitude);
-            step.truth_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
+            step.reference_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
         const Truth& truth = same ? *same : drawn.truth;
         step.covered = coverage(truth.rays, truth.rays).count;

@@ -70,7 +70,7 @@ struct Step {
     std::vector<Outcome> outcomes;  // one for each series
     // Quantity::same_picture: error() of the reference itself against its image of the original scene,
     // which is then the truth. Measures how far the reference can be trusted.
-    std::optional<double> truth_moved{};
+    std::optional<double> reference_moved{};
     std::uint64_t covered = 0;  // pixels of the reference that show a surface
     std::string failed;         // why there is no reference
 };
@@ -104,7 +104,7 @@ private:
     // Removes from the scene what does not decide where a surface is.
     static Frame tracedRays(Scene scene, Settings settings);
     // Truth of the original subject at an image size.
-    const Truth& usual(const Size& size);
+    const Truth& original(const Size& size);
     // `exposure`: Case::exposure.
     static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
     // Results for a case: its truth, and for each series a Frame or the reason why there is none.
@@ -121,8 +121,8 @@ private:
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::pair<int, int>, Truth> usual_;  // by image width and height
-    std::optional<Drawn> pictures_;               // of a quantity that only changes images
+    std::map<std::pair<int, int>, Truth> original_;  // by image width and height
+    std::optional<Drawn> pictures_;                  // of a quantity that only changes images
     Fault fault_{};
 };
 

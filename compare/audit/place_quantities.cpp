@@ -85,7 +85,7 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
                 "the factor"};
 }
 
-double usualOffset(const Subject&) {
+double originalOffset(const Subject&) {
     return 0;
 }
 
@@ -100,7 +100,7 @@ std::vector<Quantity> placeQuantities() {
              .unit = "m",
              .what = "distance from the origin of scene, lights and camera together",
              .magnitudes = offsets,
-             .usual = usualOffset,
+             .original = originalOffset,
              .lacks = lacksNothing,
              .push = pushOffset,
              .same_picture = true,
@@ -109,7 +109,7 @@ std::vector<Quantity> placeQuantities() {
              .unit = "m",
              .what = "distance of vertices from their mesh's origin, which its node compensates",
              .magnitudes = vertices,
-             .usual = usualOffset,
+             .original = originalOffset,
              .lacks = lacksNothing,
              .push = pushVertex,
              .predict = predictVertex},
@@ -117,7 +117,7 @@ std::vector<Quantity> placeQuantities() {
              .unit = "",
              .what = "factor on all lengths, with intensities adjusted so that the picture stays the same",
              .magnitudes = ladder(1e-6, 1e6),
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksNothing,
              .push = pushScale,
              .same_picture = true,

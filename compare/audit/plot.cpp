@@ -47,9 +47,9 @@ public:
             out += fmt::format("<line class=\"budget\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
                                svgNumber(box_.left), svgNumber(y(limit)), svgNumber(box_.right),
                                svgNumber(y(limit)));
-        if (audit_.usual > 0)
+        if (audit_.original > 0)
             out += fmt::format("<line class=\"usual\" x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{2}\"/>",
-                               svgNumber(x(audit_.usual)), svgNumber(box_.top), svgNumber(box_.bottom));
+                               svgNumber(x(audit_.original)), svgNumber(box_.top), svgNumber(box_.bottom));
         // The first of overlapping series is on top.
         for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
         out += legend();

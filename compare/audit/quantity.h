@@ -26,11 +26,11 @@ struct Predicted {
 };
 
 struct Quantity {
-    std::string_view name;            // "offset"
-    std::string_view unit;            // "m"; may be empty
-    std::string_view what;            // "scene, lights and camera moved together away from the origin"
-    std::vector<double> magnitudes;   // ascending; above 0, but for a first one of 0
-    double (*usual)(const Subject&);  // that of the original scene, or the nearest that looks the same
+    std::string_view name;               // "offset"
+    std::string_view unit;               // "m"; may be empty
+    std::string_view what;               // "scene, lights and camera moved together away from the origin"
+    std::vector<double> magnitudes;      // ascending; above 0, but for a first one of 0
+    double (*original)(const Subject&);  // that of the original scene, or the nearest that looks the same
     // Why this scene cannot be varied; empty if it can.
     std::string (*lacks)(const Subject&);
     // Modifies an original case.

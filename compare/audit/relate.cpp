@@ -103,16 +103,17 @@ Settings settingsOfSeries(const Series& series, const Settings& settings) {
 
 }  // namespace
 
-bool RelationHeld::holds() const {
-    return std::ranges::all_of(series, [](const SeriesHeld& of) {
-        return isReferenceSeries(of.series) || !of.lacks.empty() || of.held.holds();
+bool RelationResult::passes() const {
+    return std::ranges::all_of(series, [](const SeriesResult& of) {
+        return isReferenceSeries(of.series) || !of.lacks.empty() || of.comparison.passes();
     });
 }
 
-Blame RelationHeld::blame(bool cpu) const {
-    if (holds()) return Blame::none;
-    for (const SeriesHeld& of : series)
-        if (isReferenceSeries(of.series) && of.lacks.empty() && !of.held.holds()) return Blame::relation;
+Blame RelationResult::blame(bool cpu) const {
+    if (passes()) return Blame::none;
+    for (const SeriesResult& of : series)
+        if (isReferenceSeries(of.series) && of.lacks.empty() && !of.comparison.passes())
+            return Blame::relation;
     return cpu ? Blame::ours_likely : Blame::driver_or_ours;
 }
 
@@ -194,31 +195,31 @@ Image RelationMeasurer::packedLight(const Related& related) {
     return sum;
 }
 
-Grant RelationMeasurer::grantOf(const Relation& relation, const Related& related,
-                                const Settings& settings) const {
-    Grant grant;
-    grant.alike = relation.alike;
-    grant.reorders = relation.reorders;
-    if (!relation.same_pipelines && !device_.profile().bit_exact) grant.ulps = gpuUlps;
+RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const Related& related,
+                                                const Settings& settings) const {
+    RelationTolerance tolerance;
+    tolerance.equality = relation.equality;
+    tolerance.reorders = relation.reorders;
+    if (!relation.same_pipelines && !device_.profile().bit_exact) tolerance.ulps = gpuUlps;
     const double terms =
         static_cast<double>(std::max(related.base.scene.lights.size(), related.changed.scene.lights.size())) +
         termsBesideLights;
     // Both images may round in opposite directions.
-    if (relation.alike == Alike::sums) grant.relative = 2 * terms * roundoff;
-    if (relation.alike != Alike::rounding) return grant;
-    grant.relative = 2 * (terms + roundingsOfATerm) * roundoff;
+    if (relation.equality == Equality::sums) tolerance.relative = 2 * terms * roundoff;
+    if (relation.equality != Equality::rounding) return tolerance;
+    tolerance.relative = 2 * (terms + roundingsOfATerm) * roundoff;
     for (const Material& material : related.base.scene.materials)
-        grant.textured.push_back(hasTexture(material));
-    if (settings.path == Path::reference) return grant;
-    grant.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
+        tolerance.textured.push_back(hasTexture(material));
+    if (settings.path == Path::reference) return tolerance;
+    tolerance.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
     // One step across, one down, and one between two levels.
-    grant.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
-                        std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
-    grant.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
-    grant.filtered_share =
+    tolerance.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
+                            std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
+    tolerance.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
+    tolerance.filtered_share =
         std::min(mostFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
-    grant.packed = packedBounds(settings);
-    return grant;
+    tolerance.packed = packedBounds(settings);
+    return tolerance;
 }
 
 std::uint64_t RelationMeasurer::tied() {
@@ -232,16 +233,16 @@ std::uint64_t RelationMeasurer::tied() {
         const std::array settings{settingsOfSeries({Path::forward_plus, {}}, subject_.given.settings)};
         const Drawn given = draw(related.base, settings), changed = draw(related.changed, settings);
         if (!given.frames[0] || !changed.frames[0]) continue;
-        Grant grant;
-        grant.reorders = true;
+        RelationTolerance tolerance;
+        tolerance.reorders = true;
         const Frame back = mappedBack(*changed.frames[0], related.map);
-        tied_ = std::max(*tied_, hold(*given.frames[0], back, grant).aside);
+        tied_ = std::max(*tied_, evaluate(*given.frames[0], back, tolerance).aside);
     }
     return *tied_;
 }
 
-RelationHeld RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
-    RelationHeld result;
+RelationResult RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
+    RelationResult result;
     result.relation = &relation;
     result.lacks = subject_.bounds.empty() ? "the scene has nothing to draw" : relation.lacks(subject_);
     if (!result.lacks.empty()) return result;
@@ -265,7 +266,7 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
     Drawn& given = own ? *others : *given_;
     Drawn changed = draw(related.changed, after, !dear);
     for (std::size_t i = 0; i < series_.size(); ++i) {
-        SeriesHeld of;
+        SeriesResult of;
         of.series = series_[i];
         if (relation.of_settings && effectiveSettings(before[i]) == effectiveSettings(after[i])) {
             of.lacks = fmt::format("{} does not read the changed input", nameOf(series_[i].path));
@@ -273,7 +274,7 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
             continue;
         }
         if (dear && isReferenceSeries(of.series)) {
-            if (result.holds()) {
+            if (result.passes()) {
                 of.lacks = "not drawn: both paths hold, and the reference is slow with an environment";
                 result.series.push_back(std::move(of));
                 continue;
@@ -281,32 +282,32 @@ RelationHeld RelationMeasurer::measure(const Relation& relation, const std::func
             addReference(given, related.base, before);
             addReference(changed, related.changed, after);
         }
-        of.grant = grantOf(relation, related, after[i]);
+        of.tolerance = toleranceOf(relation, related, after[i]);
         Image packed;
-        if (series_[i].path == Path::deferred && !of.grant.packed.empty()) {
+        if (series_[i].path == Path::deferred && !of.tolerance.packed.empty()) {
             packed = packedLight(related);
-            of.grant.packed_light = &packed;
+            of.tolerance.packed_light = &packed;
         }
         if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
-            of.grant.blended = &reference->blended;
+            of.tolerance.blended = &reference->blended;
         for (const std::string& failed : {given.failed[i], changed.failed[i]})
-            if (of.held.failed.empty()) of.held.failed = failed;
-        if (of.held.failed.empty()) {
+            if (of.comparison.failed.empty()) of.comparison.failed = failed;
+        if (of.comparison.failed.empty()) {
             Frame back = mappedBack(*changed.frames[i], related.map);
-            of.held = hold(*given.frames[i], back, of.grant);
-            if (!of.held.holds()) {
+            of.comparison = evaluate(*given.frames[i], back, of.tolerance);
+            if (!of.comparison.passes()) {
                 of.given = given.frames[i];
                 of.changed = std::move(back);
             }
         }
-        of.grant.packed_light = of.grant.blended = nullptr;
+        of.tolerance.packed_light = of.tolerance.blended = nullptr;
         result.series.push_back(std::move(of));
     }
     // Visibility among coinciding surfaces is arbitrary.
-    if (relation.alike != Alike::rounding && !relation.reorders) return result;
+    if (relation.equality != Equality::rounding && !relation.reorders) return result;
     const bool many = std::ranges::any_of(
-        result.series, [](const SeriesHeld& of) { return of.held.aside > of.held.most_aside; });
-    if (spoil || !many || tied() <= result.series.front().held.covered / 100) return result;
+        result.series, [](const SeriesResult& of) { return of.comparison.aside > of.comparison.most_aside; });
+    if (spoil || !many || tied() <= result.series.front().comparison.covered / 100) return result;
     result.lacks =
         fmt::format("{} show coinciding surfaces, where either may be visible", counted(tied(), "pixel"));
     result.series.clear();

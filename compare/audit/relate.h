@@ -4,7 +4,7 @@
 
 #include "compare/audit/measure.h"
 #include "compare/audit/relation.h"
-#include "compare/audit/relation_judge.h"
+#include "compare/audit/relation_result.h"
 #include "shared/frame/frame.h"
 
 #include <cstdint>
@@ -18,23 +18,23 @@
 namespace diptych::audit {
 
 // One renderer's two images.
-struct SeriesHeld {
+struct SeriesResult {
     Series series;      // also the reference's: mode scene, in double
     std::string lacks;  // why the relation does not apply; empty if it does
-    Held held;
-    Grant grant;
+    FrameResult comparison;
+    RelationTolerance tolerance;
     std::optional<Frame> given{}, changed{};  // only if broken: with lit, mapped back
 };
 
 // Likely cause of a broken relation, judged by the double-precision reference.
 enum class Blame { none, ours_likely, driver_or_ours, relation };
 
-struct RelationHeld {
+struct RelationResult {
     const Relation* relation = nullptr;
     std::string lacks;  // why it does not apply to this scene; empty if it does
-    std::vector<SeriesHeld> series;
+    std::vector<SeriesResult> series;
 
-    bool holds() const;  // of the paths; the reference only shows the cause
+    bool passes() const;  // of the paths; the reference only shows the cause
     Blame blame(bool cpu) const;
 };
 
@@ -49,7 +49,7 @@ public:
                      std::shared_ptr<PipelineSet> pipelines = nullptr);
 
     // `spoil`: a fault injected into the changed case, for tests.
-    RelationHeld measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
+    RelationResult measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
     // Descriptions of omitted series.
     const std::vector<std::string>& leftOut() const { return chosen_.left_out; }
 
@@ -67,7 +67,8 @@ private:
     // its lit; or the sum of both cases, in the base's pixels.
     Frame packedLight(const Case& of);
     Image packedLight(const Related& related);
-    Grant grantOf(const Relation& relation, const Related& related, const Settings& settings) const;
+    RelationTolerance toleranceOf(const Relation& relation, const Related& related,
+                                  const Settings& settings) const;
 
     Device& device_;
     const Subject& subject_;

@@ -31,18 +31,18 @@ struct Related {
     bool own_base = false;  // the base differs from the original case
 };
 
-// How similar the images must be; RelationMeasurer::grantOf derives the tolerances.
-enum class Alike {
+// How similar the images must be; RelationMeasurer::toleranceOf derives the tolerances.
+enum class Equality {
     bits,     // same arithmetic on the same numbers: bitwise identical
     sums,     // same terms, added in another order
     rounding  // positions equal except for rounding
 };
-std::string_view nameOf(Alike alike);
+std::string_view nameOf(Equality equality);
 
 struct Relation {
     std::string_view name;     // "lights_permuted"
     std::string_view changes;  // "the order of the lights is reversed"
-    Alike alike = Alike::bits;
+    Equality equality = Equality::bits;
     std::string_view because;  // why the images stay this similar
     // Why it does not apply to this scene with its Settings; empty if it does.
     std::string (*lacks)(const Subject&) = nullptr;

@@ -22,15 +22,15 @@ std::string chip(std::string_view verdict) {
     return fmt::format("<span class=\"verdict {}\">{}</span>", verdict == "holds" ? "pass" : "fail", verdict);
 }
 
-std::string seriesCell(const SeriesHeld& of) {
+std::string seriesCell(const SeriesResult& of) {
     return fmt::format("<i class=\"swatch {}\"></i>{}", nameOf(of.series.path), markup(seriesInWords(of)));
 }
 
 // Broken relations come first.
-std::vector<const RelationHeld*> ordered(const RelationAudit& audit) {
-    std::vector<const RelationHeld*> all;
-    for (const RelationHeld& of : audit.relations) all.push_back(&of);
-    const auto rank = [](const RelationHeld* of) {
+std::vector<const RelationResult*> ordered(const RelationAudit& audit) {
+    std::vector<const RelationResult*> all;
+    for (const RelationResult& of : audit.relations) all.push_back(&of);
+    const auto rank = [](const RelationResult* of) {
         const std::string_view verdict = verdictOf(*of);
         return verdict == "broken" ? 0 : verdict == "holds" ? 1 : 2;
     };
@@ -44,23 +44,23 @@ std::string tableOfRelations(const RelationAudit& audit) {
          {"relation", "verdict", "renderer", "error / allowed", "worst pixel", "set aside"})
         out += fmt::format("<th><button type=\"button\">{}</button></th>", name);
     out += "</tr></thead>\n<tbody>";
-    for (const RelationHeld* of : ordered(audit))
-        for (const SeriesHeld& series : of->series) {
+    for (const RelationResult* of : ordered(audit))
+        for (const SeriesResult& series : of->series) {
             if (!series.lacks.empty()) continue;
-            const ChannelHeld* const worst = series.held.worst();
+            const ChannelResult* const worst = series.comparison.worst();
             const double used = worst ? worst->used : 0;
             out +=
                 fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td>{}</td><td>{}</td>", of->relation->name,
                             breakable(of->relation->name), chip(verdictOf(series)), seriesCell(series));
             out += page::numberCell(used, page::number(used)) +
                    fmt::format("<td>{}</td>", markup(worstInWords(series)));
-            const std::uint64_t aside = series.held.aside + series.held.filtered;
+            const std::uint64_t aside = series.comparison.aside + series.comparison.filtered;
             out += page::numberCell(static_cast<double>(aside), std::to_string(aside)) + "</tr>\n";
         }
     return out + "</tbody></table></div>\n";
 }
 
-std::string picturesOf(const RelationHeld& of, const SeriesHeld& series) {
+std::string picturesOf(const RelationResult& of, const SeriesResult& series) {
     if (!series.changed) return {};
     std::string out = "<div class=\"related\">";
     for (const auto& [name, words] :
@@ -71,25 +71,26 @@ std::string picturesOf(const RelationHeld& of, const SeriesHeld& series) {
     return out + "</div>";
 }
 
-std::string channelsOf(const SeriesHeld& series) {
+std::string channelsOf(const SeriesResult& series) {
     std::string out;
-    for (const ChannelHeld& channel : series.held.channels) {
+    for (const ChannelResult& channel : series.comparison.channels) {
         if (channel.beyond == 0) continue;
         out += fmt::format("<li>{}: {} out of tolerance; the worst at {},{}: error {}, allowed {}</li>",
                            debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                            channel.y, page::number(channel.error), page::number(channel.allowed));
     }
-    if (series.held.aside > series.held.most_aside)
+    if (series.comparison.aside > series.comparison.most_aside)
         out += fmt::format("<li>{} show another surface; at most {} may</li>",
-                           counted(series.held.aside, "pixel"), series.held.most_aside);
-    if (series.held.filtered > series.held.most_filtered)
+                           counted(series.comparison.aside, "pixel"), series.comparison.most_aside);
+    if (series.comparison.filtered > series.comparison.most_filtered)
         out += fmt::format("<li>{} filter a texture differently; at most {} may</li>",
-                           counted(series.held.filtered, "pixel"), series.held.most_filtered);
-    if (!series.held.failed.empty()) out += "<li>not drawn: " + markup(series.held.failed) + "</li>";
+                           counted(series.comparison.filtered, "pixel"), series.comparison.most_filtered);
+    if (!series.comparison.failed.empty())
+        out += "<li>not drawn: " + markup(series.comparison.failed) + "</li>";
     return out.empty() ? "" : "<ul>" + out + "</ul>";
 }
 
-std::string sectionOfRelation(const RelationHeld& of, const ReportDevice& device) {
+std::string sectionOfRelation(const RelationResult& of, const ReportDevice& device) {
     const Relation& relation = *of.relation;
     std::string out = fmt::format(
         "<div class=\"box\" id=\"{0}\"><h3>{1} {2}</h3><p>{3}.</p><p class=\"soft small\">{4}.</p>",
@@ -99,13 +100,13 @@ std::string sectionOfRelation(const RelationHeld& of, const ReportDevice& device
     const std::string blame = blameInWords(of, device);
     if (!blame.empty()) out += fmt::format("<p><strong>{}.</strong></p>", markup(blame));
     out += "<ul class=\"soft small\">";
-    for (const SeriesHeld& series : of.series)
-        out +=
-            fmt::format("<li>{}: {}</li>", seriesCell(series),
-                        markup(series.lacks.empty() ? "allowed: " + series.grant.inWords() : series.lacks));
+    for (const SeriesResult& series : of.series)
+        out += fmt::format(
+            "<li>{}: {}</li>", seriesCell(series),
+            markup(series.lacks.empty() ? "allowed: " + series.tolerance.inWords() : series.lacks));
     out += "</ul>";
-    for (const SeriesHeld& series : of.series)
-        if (series.lacks.empty() && !series.held.holds())
+    for (const SeriesResult& series : of.series)
+        if (series.lacks.empty() && !series.comparison.passes())
             out +=
                 fmt::format("<p>{}</p>{}{}", seriesCell(series), channelsOf(series), picturesOf(of, series));
     return out + "</div>\n";
@@ -121,7 +122,7 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">changes that must not change the picture; "
         "{}x{} on {} ({}); {}</p></header>\n",
         markup(audit.scene), page::style, auditStyle,
-        fmt::format("<span class=\"verdict {0}\">{0}</span> ", audit.holds() ? "pass" : "fail"),
+        fmt::format("<span class=\"verdict {0}\">{0}</span> ", audit.passes() ? "pass" : "fail"),
         breakable(audit.scene), audit.settings.size.width, audit.settings.size.height,
         markup(audit.device.name), markup(audit.device.driver), page::isolated(audit.camera));
     out += fmt::format("<div class=\"box says\"><p>{}</p></div>\n", markup(inWords(audit)));
@@ -132,7 +133,7 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
         "Pixels at an edge that show another surface are excluded, and so are textured pixels that a filter "
         "weights differently; the number of both is limited.</p>\n<h2>The relations</h2>\n<div class=\"audit "
         "alone\">";
-    for (const RelationHeld* of : ordered(audit)) out += sectionOfRelation(*of, audit.device);
+    for (const RelationResult* of : ordered(audit)) out += sectionOfRelation(*of, audit.device);
     out += "</div>\n";
     if (!audit.notes.empty()) {
         out += "<h3 class=\"part\">Notes</h3><div class=\"box says\"><ul>";

@@ -17,13 +17,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json jsonOfChannel(const ChannelHeld& of) {
+Json jsonOfChannel(const ChannelResult& of) {
     return {{"name", debugMode(of.mode).name}, {"error", numberOf(of.error)},
             {"allowed", numberOf(of.allowed)}, {"used", numberOf(of.used)},
             {"worst_pixel", {of.x, of.y}},     {"pixels_beyond", of.beyond}};
 }
 
-Json jsonOfSeries(const SeriesHeld& of, const Relation& relation) {
+Json jsonOfSeries(const SeriesResult& of, const Relation& relation) {
     Json changes = Json::object();
     for (const Change& change : of.series.changes) changes[std::string(change.option)] = change.value;
     Json json{{"path", nameOf(of.series.path)}, {"settings", changes}, {"verdict", verdictOf(of)}};
@@ -31,51 +31,53 @@ Json jsonOfSeries(const SeriesHeld& of, const Relation& relation) {
         json["because"] = of.lacks;
         return json;
     }
-    if (!of.held.failed.empty()) json["failed"] = of.held.failed;
-    json["tolerance"] = of.grant.inWords();
-    json["pixels"] = {{"covered", of.held.covered},
-                      {"set_aside", of.held.aside},
-                      {"most_set_aside", of.held.most_aside},
-                      {"filtered_otherwise", of.held.filtered},
-                      {"most_filtered_otherwise", of.held.most_filtered}};
+    if (!of.comparison.failed.empty()) json["failed"] = of.comparison.failed;
+    json["tolerance"] = of.tolerance.inWords();
+    json["pixels"] = {{"covered", of.comparison.covered},
+                      {"set_aside", of.comparison.aside},
+                      {"most_set_aside", of.comparison.most_aside},
+                      {"filtered_otherwise", of.comparison.filtered},
+                      {"most_filtered_otherwise", of.comparison.most_filtered}};
     json["channels"] = Json::array();
-    for (const ChannelHeld& channel : of.held.channels) json["channels"].push_back(jsonOfChannel(channel));
+    for (const ChannelResult& channel : of.comparison.channels)
+        json["channels"].push_back(jsonOfChannel(channel));
     if (of.changed)
         for (const char* shown : {"given", "changed", "used"})
             json["pictures"].push_back(fmt::format("{}-{}.png", pictureStem(relation, of), shown));
     return json;
 }
 
-std::string asideInWords(const SeriesHeld& of) {
+std::string asideInWords(const SeriesResult& of) {
     std::string out;
-    if (of.held.aside > 0)
-        out += fmt::format("; {} at edges excluded (at most {})", counted(of.held.aside, "pixel"),
-                           of.held.most_aside);
-    if (of.held.filtered > 0)
-        out += fmt::format("; {} filtered differently (at most {})", counted(of.held.filtered, "pixel"),
-                           of.held.most_filtered);
+    if (of.comparison.aside > 0)
+        out += fmt::format("; {} at edges excluded (at most {})", counted(of.comparison.aside, "pixel"),
+                           of.comparison.most_aside);
+    if (of.comparison.filtered > 0)
+        out += fmt::format("; {} filtered differently (at most {})", counted(of.comparison.filtered, "pixel"),
+                           of.comparison.most_filtered);
     return out;
 }
 
 }  // namespace
 
-bool RelationAudit::holds() const {
-    return std::ranges::all_of(relations, [](const RelationHeld& of) { return of.holds(); });
+bool RelationAudit::passes() const {
+    return std::ranges::all_of(relations, [](const RelationResult& of) { return of.passes(); });
 }
 
-std::string_view verdictOf(const RelationHeld& held) {
-    const bool any = std::ranges::any_of(held.series, [](const SeriesHeld& of) { return of.lacks.empty(); });
+std::string_view verdictOf(const RelationResult& result) {
+    const bool any =
+        std::ranges::any_of(result.series, [](const SeriesResult& of) { return of.lacks.empty(); });
     if (!any) return "does not apply";
-    return held.holds() ? "holds" : "broken";
+    return result.passes() ? "holds" : "broken";
 }
 
-std::string_view verdictOf(const SeriesHeld& held) {
-    if (!held.lacks.empty()) return "does not apply";
-    return held.held.holds() ? "holds" : "broken";
+std::string_view verdictOf(const SeriesResult& result) {
+    if (!result.lacks.empty()) return "does not apply";
+    return result.comparison.passes() ? "holds" : "broken";
 }
 
-std::string blameInWords(const RelationHeld& held, const ReportDevice& device) {
-    switch (held.blame(device.bitExact())) {
+std::string blameInWords(const RelationResult& result, const ReportDevice& device) {
+    switch (result.blame(device.bitExact())) {
         case Blame::none:
             return {};
         case Blame::relation:
@@ -91,31 +93,31 @@ std::string blameInWords(const RelationHeld& held, const ReportDevice& device) {
     return {};
 }
 
-std::string seriesInWords(const SeriesHeld& held) {
-    return held.series.path == Path::reference ? "reference, double precision" : held.series.words();
+std::string seriesInWords(const SeriesResult& result) {
+    return result.series.path == Path::reference ? "reference, double precision" : result.series.words();
 }
 
-std::string worstInWords(const SeriesHeld& held) {
-    if (!held.held.failed.empty()) return "not drawn: " + held.held.failed;
-    const ChannelHeld* const worst = held.held.worst();
+std::string worstInWords(const SeriesResult& result) {
+    if (!result.comparison.failed.empty()) return "not drawn: " + result.comparison.failed;
+    const ChannelResult* const worst = result.comparison.worst();
     if (!worst) return "equal";
     return fmt::format("{} {}{}, allowed {}, at {},{}", debugMode(worst->mode).name,
-                       page::number(worst->error), held.grant.alike == Alike::bits ? " ULP" : "",
+                       page::number(worst->error), result.tolerance.equality == Equality::bits ? " ULP" : "",
                        page::number(worst->allowed), worst->x, worst->y);
 }
 
-std::string inWords(const RelationHeld& held, const ReportDevice& device) {
-    const Relation& relation = *held.relation;
-    const std::string_view verdict = verdictOf(held);
+std::string inWords(const RelationResult& result, const ReportDevice& device) {
+    const Relation& relation = *result.relation;
+    const std::string_view verdict = verdictOf(result);
     if (verdict == "does not apply")
         return fmt::format("{:<19} does not apply: {}\n", relation.name,
-                           held.lacks.empty() ? "neither path reads the changed input" : held.lacks);
+                           result.lacks.empty() ? "neither path reads the changed input" : result.lacks);
     if (verdict == "holds") {
-        const SeriesHeld* worst = nullptr;
+        const SeriesResult* worst = nullptr;
         double used = -1;
-        for (const SeriesHeld& of : held.series) {
+        for (const SeriesResult& of : result.series) {
             if (!of.lacks.empty() || of.series.path == Path::reference) continue;
-            const ChannelHeld* const channel = of.held.worst();
+            const ChannelResult* const channel = of.comparison.worst();
             if (const double its = channel ? channel->used : 0; its > used) {
                 used = its;
                 worst = &of;
@@ -126,22 +128,22 @@ std::string inWords(const RelationHeld& held, const ReportDevice& device) {
     }
     std::string out =
         fmt::format("{:<19} BROKEN: {}; {}\n", relation.name, relation.changes, relation.because);
-    for (const SeriesHeld& of : held.series) {
+    for (const SeriesResult& of : result.series) {
         if (!of.lacks.empty()) continue;
         out += fmt::format("    {}: {}: {}{}\n", seriesInWords(of), verdictOf(of), worstInWords(of),
                            asideInWords(of));
-        for (const ChannelHeld& channel : of.held.channels)
+        for (const ChannelResult& channel : of.comparison.channels)
             if (channel.beyond > 0)
                 out += fmt::format("        {}: {} out of tolerance, the worst at {},{}: {}, allowed {}\n",
                                    debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                                    channel.y, page::number(channel.error), page::number(channel.allowed));
     }
-    return out + fmt::format("    {}\n", blameInWords(held, device));
+    return out + fmt::format("    {}\n", blameInWords(result, device));
 }
 
 std::string inWords(const RelationAudit& audit) {
     std::size_t hold = 0, broken = 0, silent = 0;
-    for (const RelationHeld& of : audit.relations) {
+    for (const RelationResult& of : audit.relations) {
         const std::string_view verdict = verdictOf(of);
         ++(verdict == "holds" ? hold : verdict == "broken" ? broken : silent);
     }
@@ -151,7 +153,7 @@ std::string inWords(const RelationAudit& audit) {
 
 Json toJson(const RelationAudit& audit) {
     Json json{{"schema", 1},
-              {"verdict", audit.holds() ? "pass" : "fail"},
+              {"verdict", audit.passes() ? "pass" : "fail"},
               {"scene", audit.scene},
               {"camera", audit.camera},
               {"settings", parseOrderedJson(diptych::toJson(audit.settings))},
@@ -159,25 +161,25 @@ Json toJson(const RelationAudit& audit) {
                {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
               {"notes", audit.notes},
               {"relations", Json::array()}};
-    for (const RelationHeld& of : audit.relations) {
+    for (const RelationResult& of : audit.relations) {
         const Relation& relation = *of.relation;
         Json one{{"name", relation.name},
                  {"changes", relation.changes},
-                 {"alike", nameOf(relation.alike)},
+                 {"alike", nameOf(relation.equality)},
                  {"because", relation.because},
                  {"verdict", verdictOf(of)}};
         if (!of.lacks.empty()) one["lacks"] = of.lacks;
         if (const std::string blame = blameInWords(of, audit.device); !blame.empty()) one["blame"] = blame;
         one["series"] = Json::array();
-        for (const SeriesHeld& series : of.series) one["series"].push_back(jsonOfSeries(series, relation));
+        for (const SeriesResult& series : of.series) one["series"].push_back(jsonOfSeries(series, relation));
         json["relations"].push_back(std::move(one));
     }
     return json;
 }
 
-std::string pictureStem(const Relation& relation, const SeriesHeld& held) {
-    std::string stem = fmt::format("{}-{}", relation.name, nameOf(held.series.path));
-    for (const Change& change : held.series.changes)
+std::string pictureStem(const Relation& relation, const SeriesResult& result) {
+    std::string stem = fmt::format("{}-{}", relation.name, nameOf(result.series.path));
+    for (const Change& change : result.series.changes)
         if (change.option == "gbuffer") stem += fmt::format("-{}", change.value);
     return stem;
 }

@@ -16,23 +16,23 @@ namespace diptych::audit {
 inline constexpr const char* relationsManifest = "relations.json";
 
 struct RelationAudit : Audited {
-    std::vector<RelationHeld> relations;
+    std::vector<RelationResult> relations;
 
-    bool holds() const;
+    bool passes() const;
 };
 
-std::string_view verdictOf(const RelationHeld& held);
-std::string_view verdictOf(const SeriesHeld& held);
+std::string_view verdictOf(const RelationResult& result);
+std::string_view verdictOf(const SeriesResult& result);
 // Likely cause; empty if nothing is broken.
-std::string blameInWords(const RelationHeld& held, const ReportDevice& device);
+std::string blameInWords(const RelationResult& result, const ReportDevice& device);
 // "lit 3.1e-08 of 2e-07 at 12,30": the worst pixel; "the same" without a difference.
-std::string worstInWords(const SeriesHeld& held);
+std::string worstInWords(const SeriesResult& result);
 
 // "deferred, gbuffer full"; "reference, in double".
-std::string seriesInWords(const SeriesHeld& held);
+std::string seriesInWords(const SeriesResult& result);
 
 // Terminal text of one relation: its name, verdict and worst pixel; all details if it is broken.
-std::string inWords(const RelationHeld& held, const ReportDevice& device);
+std::string inWords(const RelationResult& result, const ReportDevice& device);
 // Number of relations that hold and that are broken.
 std::string inWords(const RelationAudit& audit);
 
@@ -46,6 +46,6 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
 std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& folder, bool force);
 
 // Stem of a broken series' image files: "moved-deferred-full".
-std::string pictureStem(const Relation& relation, const SeriesHeld& held);
+std::string pictureStem(const Relation& relation, const SeriesResult& result);
 
 }  // namespace diptych::audit

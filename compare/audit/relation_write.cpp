@@ -23,7 +23,7 @@ Image8 shownLit(const Frame& frame, const Frame& given) {
     return channelPicture(mode, frame, scale);
 }
 
-void putPictures(ListedFolder& folder, const std::string& stem, const SeriesHeld& of) {
+void putPictures(ListedFolder& folder, const std::string& stem, const SeriesResult& of) {
     const auto put = [&](const char* name, const Image8& picture) {
         const std::string file = fmt::format("{}-{}.png", stem, name);
         folder.list(file);
@@ -31,15 +31,15 @@ void putPictures(ListedFolder& folder, const std::string& stem, const SeriesHeld
     };
     put("given", shownLit(*of.given, *of.given));
     put("changed", shownLit(*of.changed, *of.given));
-    put("used", errorPicture(of.held.used, 1));
+    put("used", errorPicture(of.comparison.used, 1));
 }
 
 }  // namespace
 
 std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& path, bool force) {
     ListedFolder folder(path, relationsManifest, force);
-    for (const RelationHeld& of : audit.relations)
-        for (const SeriesHeld& series : of.series)
+    for (const RelationResult& of : audit.relations)
+        for (const SeriesResult& series : of.series)
             if (series.changed) putPictures(folder, pictureStem(*of.relation, series), series);
     folder.put("index.html", relationsHtml(audit, folder.files()));
     return folder.finish(toJson(audit));

@@ -12,13 +12,13 @@
 
 namespace diptych::audit {
 
-std::string_view nameOf(Alike alike) {
-    switch (alike) {
-        case Alike::bits:
+std::string_view nameOf(Equality equality) {
+    switch (equality) {
+        case Equality::bits:
             return "bits";
-        case Alike::sums:
+        case Equality::sums:
             return "sums";
-        case Alike::rounding:
+        case Equality::rounding:
             return "rounding";
     }
     return {};
@@ -27,7 +27,7 @@ std::string_view nameOf(Alike alike) {
 std::span<const Relation> relations() {
     static const std::vector<Relation> all = [] {
         std::vector<Relation> made;
-        for (const auto& group : {lightRelations, placeRelations, geometryRelations, wayRelations})
+        for (const auto& group : {lightRelations, placeRelations, geometryRelations, settingRelations})
             std::ranges::move(group(), std::back_inserter(made));
         return made;
     }();

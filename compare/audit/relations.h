@@ -20,7 +20,7 @@ std::vector<const Relation*> relationsOf(std::span<const std::string> names);
 std::vector<Relation> lightRelations();     // lights and everything that emits light
 std::vector<Relation> placeRelations();     // position of the scene, and its camera
 std::vector<Relation> geometryRelations();  // equivalent descriptions of the same surfaces
-std::vector<Relation> wayRelations();       // Settings that must not matter
+std::vector<Relation> settingRelations();   // Settings that must not matter
 
 // Shared reasons why a relation does not apply; empty if it does.
 std::string lacksNone(const Subject& subject);

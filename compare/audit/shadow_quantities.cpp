@@ -64,7 +64,7 @@ Predicted predictCaster(const Subject& subject, const Settings& settings, double
                 "to the scene's size wherever the range begins"};
 }
 
-double usualCaster(const Subject& subject) {
+double originalCaster(const Subject& subject) {
     return std::max(subject.bounds.radius(), 1e-6);
 }
 
@@ -74,7 +74,7 @@ void pushExponent(Case& pushed, const Subject&, double exponent) {
     pushed.settings.evsm_precision = EvsmPrecision::fp32;
 }
 
-double usualExponent(const Subject&) {
+double originalExponent(const Subject&) {
     return 10;
 }
 
@@ -107,7 +107,7 @@ std::vector<Quantity> shadowQuantities() {
              .unit = "m",
              .what = "distance of an additional small shadow caster beyond the scene, towards the sun",
              .magnitudes = ladder(1, 1e8),
-             .usual = usualCaster,
+             .original = originalCaster,
              .lacks = lacksSun,
              .push = pushCaster,
              .variants = {{"shadows", "evsm"}, {"shadows", "msm4"}},
@@ -116,7 +116,7 @@ std::vector<Quantity> shadowQuantities() {
              .unit = "",
              .what = "the positive exponent of 32-bit exponential variance shadow maps",
              .magnitudes = {1, 2, 5, 10, 20, 30, 40, 44, 44.36},
-             .usual = usualExponent,
+             .original = originalExponent,
              .lacks = lacksSun,
              .push = pushExponent,
              .predict = predictExponent},
@@ -124,7 +124,7 @@ std::vector<Quantity> shadowQuantities() {
              .unit = "",
              .what = "the density of haze",
              .magnitudes = ladder(1e-9, 1e9),
-             .usual = usualOne,
+             .original = originalOne,
              .lacks = lacksNothing,
              .push = pushHaze,
              .variants = {{"haze-march-steps", "32"}},

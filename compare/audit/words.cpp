@@ -21,15 +21,15 @@ double numberFrom(const Json& json) {
     return json.is_number() ? json.get<double>() : std::numeric_limits<double>::infinity();
 }
 
-Json jsonOf(const Reach& reach) {
-    Json json{{"last", reach.last}};
-    json["first_beyond"] = reach.broken ? Json(reach.first) : Json(nullptr);
+Json jsonOf(const BreakingPoint& point) {
+    Json json{{"last", point.last}};
+    json["first_beyond"] = point.broken ? Json(point.first) : Json(nullptr);
     return json;
 }
 
-Json jsonOf(const Hold& hold) {
-    if (!hold.usual) return nullptr;
-    return {{"down", jsonOf(hold.down)}, {"up", jsonOf(hold.up)}};
+Json jsonOf(const ValidRange& range) {
+    if (!range.at_original) return nullptr;
+    return {{"down", jsonOf(range.down)}, {"up", jsonOf(range.up)}};
 }
 
 Json jsonOf(const Series& series) {
@@ -50,12 +50,12 @@ Json jsonOf(const QuantityAudit& audit) {
         json["not_pushed"] = audit.lacks;
         return json;
     }
-    json["usual"] = audit.usual;
+    json["usual"] = audit.original;
     json["series"] = Json::array();
     for (std::size_t s = 0; s < audit.series.size(); ++s) {
         Json series = jsonOf(audit.series[s]);
         for (std::size_t c = 0; c < criterionCount; ++c)
-            series["holds"][std::string(criteria[c].name)] = jsonOf(audit.holds[c][s]);
+            series["holds"][std::string(criteria[c].name)] = jsonOf(audit.valid_ranges[c][s]);
         for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
             const Predicted& predicted = audit.predicted[c][s];
             if (predicted.because.empty()) continue;
@@ -94,10 +94,10 @@ std::string magnitudeInWords(double magnitude) {
     return fmt::format("{:.3g}", magnitude);
 }
 
-std::string rangeInWords(const Hold& hold) {
-    if (!hold.usual) return "nowhere";
-    return rangeOf(hold.down.broken ? std::optional(hold.down.last) : std::nullopt,
-                   hold.up.broken ? std::optional(hold.up.last) : std::nullopt);
+std::string rangeInWords(const ValidRange& range) {
+    if (!range.at_original) return "nowhere";
+    return rangeOf(range.down.broken ? std::optional(range.down.last) : std::nullopt,
+                   range.up.broken ? std::optional(range.up.last) : std::nullopt);
 }
 
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit) {
@@ -109,14 +109,14 @@ std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit)
 }
 
 std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
-    const Hold& hold = audit.holds[criterion][series];
+    const ValidRange& range = audit.valid_ranges[criterion][series];
     const Predicted& predicted = audit.predicted[criterion][series];
     if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    if (!hold.usual) return {};  // another error is larger
+    if (!range.at_original) return {};  // another error is larger
     // An upper bound is only refuted by passing beyond it.
-    if (predicted.at_most && hold.up.broken && hold.up.last <= predicted.up) return {};
-    return agrees(hold.up, predicted.up, true, last) && agrees(hold.down, predicted.down, false, first);
+    if (predicted.at_most && range.up.broken && range.up.last <= predicted.up) return {};
+    return agrees(range.up, predicted.up, true, last) && agrees(range.down, predicted.down, false, first);
 }
 
 std::string inWords(const QuantityAudit& audit) {
@@ -126,13 +126,13 @@ std::string inWords(const QuantityAudit& audit) {
     std::string out =
         fmt::format("{}: {}; {} to {}{}, here {}\n", quantity.name, quantity.what,
                     magnitudeInWords(audit.steps.front().magnitude),
-                    magnitudeInWords(audit.steps.back().magnitude), unit, magnitudeInWords(audit.usual));
+                    magnitudeInWords(audit.steps.back().magnitude), unit, magnitudeInWords(audit.original));
     out += fmt::format("    {:<36} {:<22} {:<22} {:<22} {}\n", "", "error < 1e-3", "error < 1e-2",
                        "not visible", "finite");
     for (std::size_t s = 0; s < audit.series.size(); ++s) {
         out += fmt::format("    {:<36}", audit.series[s].words());
         for (std::size_t c = 0; c < criterionCount; ++c) {
-            const std::string range = rangeInWords(audit.holds[c][s]);
+            const std::string range = rangeInWords(audit.valid_ranges[c][s]);
             out += c + 1 < criterionCount ? fmt::format(" {:<22}", range) : " " + range;
         }
         out += "\n";
@@ -173,7 +173,7 @@ std::string inWords(const Requirement& requirement) {
 
 Json toJson(const Step& step) {
     Json json{{"magnitude", step.magnitude}, {"covered", step.covered}};
-    if (step.truth_moved) json["truth_moved"] = numberOf(*step.truth_moved);
+    if (step.reference_moved) json["truth_moved"] = numberOf(*step.reference_moved);
     if (!step.failed.empty()) json["failed"] = step.failed;
     json["outcomes"] = Json::array();
     for (const Outcome& outcome : step.outcomes) {
@@ -194,7 +194,7 @@ Step stepFromJson(const Json& json) {
     Step step;
     step.magnitude = json.at("magnitude");
     step.covered = json.at("covered");
-    if (json.contains("truth_moved")) step.truth_moved = numberFrom(json["truth_moved"]);
+    if (json.contains("truth_moved")) step.reference_moved = numberFrom(json["truth_moved"]);
     step.failed = json.value("failed", "");
     for (const Json& one : json.at("outcomes")) {
         Outcome outcome;

@@ -19,7 +19,7 @@ nlohmann::ordered_json numberOf(double value);
 std::string magnitudeInWords(double magnitude);
 
 // Range in which a criterion is met: "1e-6 to 3.2e5", "up to 3.2e5", "whole range", "not at all".
-std::string rangeInWords(const Hold& hold);
+std::string rangeInWords(const ValidRange& range);
 // The same for a prediction; `audit` gives the range of magnitudes tried. Empty without a prediction.
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
 

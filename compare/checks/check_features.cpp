@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -131,11 +132,16 @@ bool isDeep(const Scene& scene, const TextureSlot& slot) {
     return imageOf(scene, slot).deep();
 }
 
+// Integers are scaled to [0, 1]; floats are not scaled.
 template <class Texel>
 float leastAlphaOf(const std::vector<Texel>& rgba) {
-    Texel least = std::numeric_limits<Texel>::max();
-    for (std::size_t i = 3; least > 0 && i < rgba.size(); i += 4) least = std::min(least, rgba[i]);
-    return static_cast<float>(least) / static_cast<float>(std::numeric_limits<Texel>::max());
+    constexpr Texel one = std::is_integral_v<Texel> ? std::numeric_limits<Texel>::max() : Texel{1};
+    Texel least = one;
+    for (std::size_t i = 3; i < rgba.size(); i += 4) least = std::min(least, rgba[i]);
+    return static_cast<float>(least) / static_cast<float>(one);
+}
+float leastAlphaOf(const TextureImage& image) {
+    return std::min({leastAlphaOf(image.rgba), leastAlphaOf(image.rgba16), leastAlphaOf(image.rgba32)});
 }
 
 // Whether flat shading differs from smooth shading.
@@ -199,10 +205,7 @@ float CheckSentences::leastAlpha(const Primitive& primitive) {
         least *= std::ranges::min(primitive.colors, {}, [](const glm::vec4& c) { return c.a; }).a;
     if (!readsSlot(m, gpu::SLOT_base_color)) return least;
     const auto [known, isNew] = least_alpha_.emplace(textureOf(scene_, m.base_color_texture).image, 1.0f);
-    if (isNew) {
-        const TextureImage& image = imageOf(scene_, m.base_color_texture);
-        known->second = image.rgba16.empty() ? leastAlphaOf(image.rgba) : leastAlphaOf(image.rgba16);
-    }
+    if (isNew) known->second = leastAlphaOf(imageOf(scene_, m.base_color_texture));
     return least * known->second;
 }
 
@@ -214,6 +217,21 @@ std::string CheckSentences::ofMask(const Primitive& primitive) {
                      "The cut-out follows the outline in the texture (alpha {:.3g}); the background shows "
                      "through.",
                      cutoff);
+}
+
+std::string CheckSentences::ofBlending(const Primitive& primitive) {
+    const Material& m = materialOf(materials_, primitive);
+    const bool transmits = !m.unlit && m.transmission > 0;
+    return leastAlpha(primitive) >= 1 && !transmits
+               ? "Blended, but its alpha is 1 everywhere: nothing behind it shows through."
+               : "Transparent: surfaces behind it show through, more where its alpha is lower.";
+}
+
+std::string CheckSentences::ofMorphTargets(const Instance& instance) {
+    const std::string targets = counted(primitiveOf(scene_, instance).targets.size(), "morph target");
+    return instance.weights < 0
+               ? fmt::format("Its {} have weight 0 at this time: the mesh as modelled.", targets)
+               : fmt::format("Deformed by its {}: no vertex is out of place.", targets);
 }
 
 std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
@@ -245,7 +263,7 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
         case CheckFeature::alpha_mask:
             return ofMask(primitive);
         case CheckFeature::blend:
-            return "Transparent in the file, drawn opaque here: its whole shape is filled.";
+            return ofBlending(primitive);
         case CheckFeature::double_sided:
             return "It is also visible from behind, lit by the lights on that side.";
         case CheckFeature::mirrored:
@@ -260,10 +278,9 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
                           }) +
                    ". Gradients run without steps.";
         case CheckFeature::skin:
-            return "In bind pose and complete: no vertex is out of place.";
+            return "Follows its joints: no vertex is left behind and no part is torn off.";
         case CheckFeature::morph:
-            return fmt::format("Drawn without its {}: the mesh as modelled.",
-                               counted(primitive.targets.size(), "morph target"));
+            return ofMorphTargets(instance);
         case CheckFeature::flat:
             return "The mesh has no normals: its triangles are flat, with hard edges between them.";
         case CheckFeature::orientation:

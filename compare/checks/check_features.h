@@ -70,6 +70,8 @@ public:
 private:
     float leastAlpha(const Primitive& primitive);
     std::string ofMask(const Primitive& primitive);
+    std::string ofBlending(const Primitive& primitive);
+    std::string ofMorphTargets(const Instance& instance);
 
     const Scene& scene_;
     const std::vector<Material>& materials_;

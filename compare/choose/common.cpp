@@ -24,9 +24,9 @@ double logMean(const std::vector<double>& times) {
 
 class CommonSearch {
 public:
-    CommonSearch(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
-                 const CommonOptions& options)
-        : own_(own), labOf_(labOf), options_(options), budget_(options.budget) {}
+    CommonSearch(std::span<const Choice* const> own,
+                 const std::function<Evaluator&(std::size_t)>& evaluatorOf, const CommonOptions& options)
+        : own_(own), evaluatorOf_(evaluatorOf), options_(options), budget_(options.budget) {}
 
     CommonChoice run() {
         propose();
@@ -39,7 +39,7 @@ public:
             std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
         }
         while (!fit.empty()) {
-            raceFor(contendersOf(fit));
+            raceFor(finalistsOf(fit));
             // The race may show some to be slower than before.
             std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
             if (std::ranges::count(fit, *found_.chosen) > 0) break;
@@ -122,7 +122,7 @@ private:
     }
 
     void judgeIn(std::size_t scene) {
-        Lab* lab = nullptr;
+        Evaluator* evaluator = nullptr;
         for (CommonCandidate& candidate : all()) {
             const Candidate* known = nullptr;
             for (const Candidate& own : own_[scene]->candidates)
@@ -132,8 +132,8 @@ private:
                 in = {*known->judged, known->ms()};
                 continue;
             }
-            if (!lab) lab = &labOf_(scene);
-            in.judged = lab->judge(candidate.settings);
+            if (!evaluator) evaluator = &evaluatorOf_(scene);
+            in.judged = evaluator->judge(candidate.settings);
             ++found_.judged;
         }
     }
@@ -169,7 +169,7 @@ private:
             for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
         }
         inEachScene(0.5, 0.7, "times for all scenes", [&](std::size_t scene) {
-            const std::vector<double> times = labOf_(scene).time(frames, order);
+            const std::vector<double> times = evaluatorOf_(scene).time(frames, order);
             found_.timings += times.size();
             std::vector<std::vector<double>> of(which.size());
             for (std::size_t at = 0; at < order.size(); ++at) of[order[at]].push_back(times[at]);
@@ -181,29 +181,29 @@ private:
 
     // Candidates to race. Without an error budget, only those with the least worst error. The fastest, if
     // there are too many.
-    std::vector<std::size_t> contendersOf(std::vector<std::size_t> fit) {
+    std::vector<std::size_t> finalistsOf(std::vector<std::size_t> fit) {
         if (!budget_.isForSpeed()) {
             double least = std::numeric_limits<double>::infinity();
             for (const std::size_t i : fit) least = std::min(least, worstError(i));
             std::erase_if(fit, [&](std::size_t i) { return worstError(i) > least * alikeErrors; });
         }
-        if (fit.size() > options_.most_contenders && !timed_) timeAll(fit);
+        if (fit.size() > options_.most_finalists && !timed_) timeAll(fit);
         std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return sumOfLogs(i); });
-        fit.resize(std::min(fit.size(), std::max<std::size_t>(options_.most_contenders, 1)));
+        fit.resize(std::min(fit.size(), std::max<std::size_t>(options_.most_finalists, 1)));
         return fit;
     }
 
-    void raceFor(const std::vector<std::size_t>& contenders) {
-        const std::size_t n = contenders.size();
+    void raceFor(const std::vector<std::size_t>& finalists) {
+        const std::size_t n = finalists.size();
         std::vector<Settings> frames;
-        for (const std::size_t i : contenders) frames.push_back(all()[i].settings);
-        // By scene, contender, round: log times. Behind the contenders: the scene's own choice.
+        for (const std::size_t i : finalists) frames.push_back(all()[i].settings);
+        // By scene, finalist, round: log times. Behind the finalists: the scene's own choice.
         std::vector<std::vector<std::vector<double>>> rounds(own_.size());
         const auto draw = [&](std::span<const std::size_t> order) {
             std::vector<double> logs(order.size(), 0.0);
             inEachScene(0.7, 1, "finalists of all scenes", [&](std::size_t scene) {
                 std::vector<Settings> drawn = frames;
-                // Each round starts and ends with the scene's own choice, unless it is a contender.
+                // Each round starts and ends with the scene's own choice, unless it is a finalist.
                 const bool chose = own_[scene]->chosen && ownPlace(scene, frames) == n;
                 if (chose)
                     drawn.push_back(withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings));
@@ -215,7 +215,7 @@ private:
                                 order.begin() + static_cast<std::ptrdiff_t>(at + 2 * n));
                     if (chose) with.push_back(n);
                 }
-                const std::vector<double> times = labOf_(scene).time(drawn, with);
+                const std::vector<double> times = evaluatorOf_(scene).time(drawn, with);
                 found_.timings += times.size();
                 rounds[scene].resize(n + 1);
                 for (std::size_t round = 0; round < with.size() / one; ++round) {
@@ -232,21 +232,21 @@ private:
             for (double& log : logs) log = std::exp(log);
             return logs;
         };
-        const Standings result = tellApart(n, draw, options_.rounds, options_.rounds);
-        found_.sure = result.sure;
-        found_.chosen = contenders[result.winner];
+        const Ranking result = rankByTime(n, draw, options_.rounds, options_.rounds);
+        found_.significant = result.significant;
+        found_.chosen = finalists[result.winner];
         found_.ties.clear();
         std::optional<std::size_t> second;
         for (std::size_t k = 0; k < n; ++k) {
-            CommonCandidate& candidate = all()[contenders[k]];
-            candidate.standing = result.standings[k];
+            CommonCandidate& candidate = all()[finalists[k]];
+            candidate.race_time = result.finalists[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
                 candidate.scenes[scene].ms = std::exp(mean(rounds[scene][k]));
             if (k == result.winner) continue;
-            if (!candidate.standing->isSlower()) found_.ties.push_back(contenders[k]);
-            if (!second || candidate.standing->ratio < result.standings[*second].ratio) second = k;
+            if (!candidate.race_time->isSlower()) found_.ties.push_back(finalists[k]);
+            if (!second || candidate.race_time->ratio < result.finalists[*second].ratio) second = k;
         }
-        found_.runner_up = second ? std::optional(contenders[*second]) : std::nullopt;
+        found_.runner_up = second ? std::optional(finalists[*second]) : std::nullopt;
         found_.slower.assign(own_.size(), std::nullopt);
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
@@ -256,10 +256,10 @@ private:
                                        : slowdown(rounds[scene][result.winner], rounds[scene][place]);
         }
     }
-    // Index of the scene's own choice in `contenders`; their count if it is not there.
-    std::size_t ownPlace(std::size_t scene, const std::vector<Settings>& contenders) const {
+    // Index of the scene's own choice in `finalists`; their count if it is not there.
+    std::size_t ownPlace(std::size_t scene, const std::vector<Settings>& finalists) const {
         const Settings own = withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings);
-        return static_cast<std::size_t>(std::ranges::find(contenders, own) - contenders.begin());
+        return static_cast<std::size_t>(std::ranges::find(finalists, own) - finalists.begin());
     }
 
     static double mean(const std::vector<double>& values) {
@@ -272,10 +272,10 @@ private:
         double squares = 0;
         for (const double ratio : ratios) squares += (ratio - middle) * (ratio - middle);
         const auto n = static_cast<double>(ratios.size());
-        const double half = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
-                                              : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
-                                                    std::sqrt(squares / (n - 1) / n);
-        return {std::exp(middle), std::exp(middle - half), std::exp(middle + half)};
+        const double half_width = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
+                                                    : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
+                                                          std::sqrt(squares / (n - 1) / n);
+        return {std::exp(middle), std::exp(middle - half_width), std::exp(middle + half_width)};
     }
 
     void forgetRace() {
@@ -283,7 +283,7 @@ private:
         found_.runner_up.reset();
         found_.ties.clear();
         found_.slower.clear();
-        found_.sure = false;
+        found_.significant = false;
     }
 
     void findNearest() {
@@ -298,7 +298,7 @@ private:
     }
 
     std::span<const Choice* const> own_;
-    const std::function<Lab&(std::size_t)>& labOf_;
+    const std::function<Evaluator&(std::size_t)>& evaluatorOf_;
     const CommonOptions& options_;
     const Budget& budget_;
     bool backwards_ = false, timed_ = false;
@@ -307,9 +307,10 @@ private:
 
 }  // namespace
 
-CommonChoice chooseForAll(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
+CommonChoice chooseForAll(std::span<const Choice* const> own,
+                          const std::function<Evaluator&(std::size_t)>& evaluatorOf,
                           const CommonOptions& options) {
-    return CommonSearch(own, labOf, options).run();
+    return CommonSearch(own, evaluatorOf, options).run();
 }
 
 }  // namespace diptych::choose

@@ -20,9 +20,9 @@ struct CommonOptions {
     Budget budget;  // for every scene
     // Maximum candidates; those that most scenes propose come first.
     std::size_t most_candidates = 16;
-    // Maximum contenders in the race, the fastest by earlier times.
-    std::size_t most_contenders = 6;
-    // Rounds of the race. Each renders every contender twice in each scene.
+    // Maximum finalists in the race, the fastest by earlier times.
+    std::size_t most_finalists = 6;
+    // Rounds of the race. Each renders every finalist twice in each scene.
     int rounds = 4;
     // Called before each long step with its description and the fraction done, approximate.
     std::function<void(double, std::string_view)> progress = {};
@@ -35,11 +35,11 @@ struct InScene {
 };
 
 struct CommonCandidate {
-    Settings settings;                   // without a camera
-    std::size_t proposed_by = 0;         // count of scenes
-    std::vector<InScene> scenes{};       // in order of the choices
-    bool fits = false;                   // within the budget in every scene
-    std::optional<Standing> standing{};  // race result; geometric means over all scenes
+    Settings settings;                        // without a camera
+    std::size_t proposed_by = 0;              // count of scenes
+    std::vector<InScene> scenes{};            // in order of the choices
+    bool fits = false;                        // within the budget in every scene
+    std::optional<FinalistTime> race_time{};  // race result; geometric means over all scenes
 };
 
 // Time of the joint choice over that of the scene's own choice, with a 95 % confidence interval.
@@ -52,7 +52,7 @@ struct CommonChoice {
     std::size_t left_out = 0;
     std::optional<std::size_t> chosen, runner_up;
     std::vector<std::size_t> ties;  // not significantly slower than the chosen one
-    bool sure = false;
+    bool significant = false;
     // By scene; empty if the scene has no choice of its own.
     std::vector<std::optional<Slowdown>> slower;
     // If nothing fits: the nearest candidate, and the scene with its largest miss.
@@ -61,9 +61,10 @@ struct CommonChoice {
     std::size_t judged = 0, timings = 0;
 };
 
-// `own`: choices of at least one scene for this budget. `labOf`: evaluator of a scene by index, valid
+// `own`: choices of at least one scene for this budget. `evaluatorOf`: evaluator of a scene by index, valid
 // until the next call. Throws what evaluators throw.
-CommonChoice chooseForAll(std::span<const Choice* const> own, const std::function<Lab&(std::size_t)>& labOf,
+CommonChoice chooseForAll(std::span<const Choice* const> own,
+                          const std::function<Evaluator&(std::size_t)>& evaluatorOf,
                           const CommonOptions& options);
 
 }  // namespace diptych::choose

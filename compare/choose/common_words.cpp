@@ -29,10 +29,10 @@ std::string slowdownInWords(const std::optional<Slowdown>& slower) {
                        longerInWords(slower->ratio, slower->low, slower->high));
 }
 
-std::string commonStanding(const CommonReport& report, std::size_t i) {
-    const Standing& standing = *report.choice.candidates[i].standing;
+std::string commonFinalist(const CommonReport& report, std::size_t i) {
+    const FinalistTime& race_time = *report.choice.candidates[i].race_time;
     return fmt::format("{}: over all scenes {}", report.words[i],
-                       longerInWords(standing.ratio, standing.low, standing.high));
+                       longerInWords(race_time.ratio, race_time.low, race_time.high));
 }
 
 nlohmann::ordered_json commonJson(const CommonReport& report) {
@@ -60,21 +60,17 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
                   {"fits", candidate.fits},
                   {"proposed_by", candidate.proposed_by},
                   {"scenes", std::move(scenes)}};
-        if (candidate.standing)
-            json["race"] = {{"ratio", candidate.standing->ratio},
-                            {"low", candidate.standing->low},
-                            {"high", candidate.standing->high},
-                            {"rounds", candidate.standing->rounds}};
+        if (candidate.race_time)
+            json["race"] = {{"ratio", candidate.race_time->ratio},
+                            {"low", candidate.race_time->low},
+                            {"high", candidate.race_time->high},
+                            {"rounds", candidate.race_time->rounds}};
         candidates.push_back(std::move(json));
     }
-    Json json{{"chosen", place(choice.chosen)},
-              {"runner_up", place(choice.runner_up)},
-              {"nearest", place(choice.nearest)},
-              {"ties", choice.ties},
-              {"sure", choice.sure},
-              {"left_out", choice.left_out},
-              {"judged", choice.judged},
-              {"frames_timed", choice.timings},
+    Json json{{"chosen", place(choice.chosen)},   {"runner_up", place(choice.runner_up)},
+              {"nearest", place(choice.nearest)}, {"ties", choice.ties},
+              {"sure", choice.significant},       {"left_out", choice.left_out},
+              {"judged", choice.judged},          {"frames_timed", choice.timings},
               {"seconds", report.seconds}};
     json["settings"] =
         choice.chosen ? parseOrderedJson(toJson(choice.candidates[*choice.chosen].settings)) : Json();
@@ -105,13 +101,13 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
     }
     if (choice.chosen) {
         if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
-            lines.push_back("runner-up: " + commonStanding(report, *choice.runner_up));
+            lines.push_back("runner-up: " + commonFinalist(report, *choice.runner_up));
         for (const std::size_t i : choice.ties)
-            lines.push_back("not measurably slower: " + commonStanding(report, i));
-        if (choice.sure)
+            lines.push_back("not measurably slower: " + commonFinalist(report, i));
+        if (choice.significant)
             lines.push_back(fmt::format(
                 "significant: every other finalist is slower over all scenes, at {:.0f} % confidence",
-                100 * toldApartConfidence));
+                100 * rankingConfidence));
     }
     const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
     lines.push_back(fmt::format(

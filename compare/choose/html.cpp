@@ -72,12 +72,12 @@ std::string candidateRow(const ChoiceReport& report, std::size_t i) {
     } else {
         out += "<td class=\"n\" data-value=\"inf\"></td><td class=\"n\" data-value=\"inf\"></td>";
     }
-    std::string fate = fateInWords(candidate.fate);
+    std::string status = statusInWords(candidate.status);
     if (i == report.choice.chosen)
-        fate = "chosen";
+        status = "chosen";
     else if (std::ranges::count(report.choice.ties, i) > 0)
-        fate = "tied with the best";
-    return out + fmt::format("<td>{}</td></tr>\n", fate);
+        status = "tied with the best";
+    return out + fmt::format("<td>{}</td></tr>\n", status);
 }
 
 // The chosen candidate first, then raced ones, then judged ones; each group by time.
@@ -86,7 +86,7 @@ std::string candidateTable(const ChoiceReport& report) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
         const Candidate& candidate = report.choice.candidates[i];
-        return std::tuple(i != report.choice.chosen, !candidate.standing, !candidate.judged,
+        return std::tuple(i != report.choice.chosen, !candidate.race_time, !candidate.judged,
                           candidate.log_ms);
     });
     std::string out =
@@ -114,8 +114,8 @@ std::string sceneSection(const ChoiceReport& report, bool titled) {
         choicePlot(report, PlotPlace::page) +
         "<p class=\"soft small\">A bar is the 99 % confidence interval of a candidate's time divided by the "
         "fastest one's. The line is the smallest error that is possible within a time.</p></div></div>\n";
-    if (report.deciders) {
-        const std::vector<std::string> lines = inWords(*report.deciders);
+    if (report.sensitivities) {
+        const std::vector<std::string> lines = inWords(*report.sensitivities);
         out += fmt::format("<h3 class=\"part\">{}</h3><div class=\"box says\">{}</div>\n",
                            markup(lines.front()), listOf({lines.begin() + 1, lines.end()}));
     }

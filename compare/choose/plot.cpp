@@ -33,9 +33,9 @@ public:
     std::string svg(PlotPlace place) const {
         std::string out = axes_.axes(report_.figure + " against the reference") + limits() + frontLine();
         const bool file = place == PlotPlace::file;
-        for (const bool raced : {false, true})  // contenders on top
+        for (const bool raced : {false, true})  // finalists on top
             for (const std::size_t i : drawn_)
-                if ((choice_.candidates[i].fate == Fate::raced) == raced) out += point(i, file);
+                if ((choice_.candidates[i].status == CandidateStatus::raced) == raced) out += point(i, file);
         out += names() + legend();
         return plotElement(
             plotWidth, plotHeight,
@@ -44,11 +44,11 @@ public:
     }
 
 private:
-    // Confidence interval of a contender's time, ms; a missing end is 0.
+    // Confidence interval of a finalist's time, ms; a missing end is 0.
     std::pair<double, double> intervalOf(const Candidate& candidate) const {
-        const double best = candidate.ms() / candidate.standing->ratio;
+        const double best = candidate.ms() / candidate.race_time->ratio;
         const auto known = [&](double ratio) { return std::isfinite(ratio) ? best * ratio : 0.0; };
-        return {known(candidate.standing->low), known(candidate.standing->high)};
+        return {known(candidate.race_time->low), known(candidate.race_time->high)};
     }
     static std::vector<std::size_t> drawn(const Choice& choice) {
         std::vector<std::size_t> all;
@@ -61,7 +61,7 @@ private:
         for (const std::size_t i : drawn_) {
             const Candidate& candidate = choice_.candidates[i];
             all.push_back(candidate.ms());
-            if (!candidate.standing) continue;
+            if (!candidate.race_time) continue;
             const auto [low, high] = intervalOf(candidate);
             all.insert(all.end(), {low, high});
         }
@@ -116,16 +116,16 @@ private:
     std::string point(std::size_t i, bool file) const {
         const Candidate& candidate = choice_.candidates[i];
         const double px = x(candidate.ms()), py = y(candidate.judged->error);
-        const bool raced = candidate.fate == Fate::raced;
+        const bool raced = candidate.status == CandidateStatus::raced;
         const std::string words =
             fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report_.words[i], candidate.ms(), report_.figure,
-                        candidate.judged->error, fateInWords(candidate.fate));
+                        candidate.judged->error, statusInWords(candidate.status));
         std::string out = fmt::format(
             "<g class=\"point {}{}\" data-row=\"{}\"{}><title>{}</title>", nameOf(candidate.settings.path),
             raced ? " best" : "", i + 1,
             file ? "" : fmt::format(" tabindex=\"0\" role=\"img\" aria-label=\"{}\"", markup(words)),
             markup(words));
-        if (candidate.standing) {
+        if (candidate.race_time) {
             const auto [low, up] = intervalOf(candidate);
             if (low > 0 && up > low)
                 out += fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
@@ -180,7 +180,7 @@ private:
                                    svgNumber(at - 10), svgNumber(up), svgNumber(at + 9), svgNumber(up));
             });
         const auto isDrawn = [&](const auto& what) { return std::ranges::any_of(drawn_, what); };
-        if (isDrawn([&](std::size_t i) { return choice_.candidates[i].fate == Fate::raced; }))
+        if (isDrawn([&](std::size_t i) { return choice_.candidates[i].status == CandidateStatus::raced; }))
             entry("finalist, 99 % interval", "best", [](double at, double up) {
                 return fmt::format("<path class=\"bar\" d=\"M{0} {1}V{2}M{0} {3}H{4}M{4} {1}V{2}\"/>",
                                    svgNumber(at - 9), svgNumber(up - 4), svgNumber(up + 4), svgNumber(up),

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/choose/common.h"
-#include "compare/choose/deciders.h"
 #include "compare/choose/search.h"
+#include "compare/choose/sensitivity.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>
@@ -17,18 +17,18 @@
 namespace diptych::choose {
 
 // Check of the chosen Settings from a held-out camera.
-struct UnseenCamera {
+struct HeldOutCamera {
     std::string camera;
     double error = 0;
     bool holds = true;  // within the error budget; without one, at most 1.5 times the chosen error
 };
 
 // --explain-choice: scene properties that decide between the paths.
-struct DecidersReport {
+struct SensitivityReport {
     std::string chosen, other;            // descriptions of both paths' Settings
     std::string chosen_path, other_path;  // names
     bool other_fits = true;               // whether the other path is within the budget
-    Deciders deciders;
+    Sensitivities sensitivities;
 };
 
 struct ChoiceReport {
@@ -41,9 +41,9 @@ struct ChoiceReport {
     Choice choice;
     // By candidate: description of its Settings, and the command that renders it.
     std::vector<std::string> words, commands;
-    std::vector<UnseenCamera> unseen;  // other cameras of the scene
+    std::vector<HeldOutCamera> held_out;  // other cameras of the scene
     std::vector<std::string> notes{};
-    std::optional<DecidersReport> deciders{};
+    std::optional<SensitivityReport> sensitivities{};
     double seconds = 0;
 };
 
@@ -74,13 +74,13 @@ std::string inWords(const CommonReport& report, const ChoiceReport& first);
 std::string longerInWords(double ratio, double low, double high);
 // Time, error and memory of one candidate.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
-const char* fateInWords(Fate fate);
+const char* statusInWords(CandidateStatus status);
 // Reasons, alternatives and significance, or how far the budget is missed. One line each, not indented.
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);
 std::vector<std::string> reasonsInWords(const CommonReport& report, const ChoiceReport& first);
 // A line on both Settings, then the three most relevant properties, indented by two spaces.
-std::vector<std::string> inWords(const DecidersReport& report);
-nlohmann::ordered_json toJson(const DecidersReport& report);
+std::vector<std::string> inWords(const SensitivityReport& report);
+nlohmann::ordered_json toJson(const SensitivityReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);
 // The report of one scene, or { "scenes": [...], "all": {...} } with the joint choice as "settings".
 nlohmann::ordered_json toJson(const Choices& choices);

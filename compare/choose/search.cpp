@@ -27,7 +27,7 @@ constexpr double hopeless = 1.5;
 constexpr double worthNoticing = 0.02;
 // The other path is improved only while its best is within this factor of the overall best.
 constexpr double worthImproving = 3;
-constexpr std::size_t contenders = 3;
+constexpr std::size_t finalists = 3;
 constexpr double worthTimingAgain = 1.15;
 
 // Effect of a change on its path's first candidate. An unknown effect is measured alone before it is
@@ -40,8 +40,8 @@ struct Effect {
 
 class Search {
 public:
-    Search(std::span<const Settings> table, Lab& lab, const SearchOptions& options)
-        : lab_(lab), options_(options), budget_(options.budget) {
+    Search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options)
+        : evaluator_(evaluator), options_(options), budget_(options.budget) {
         for (const Settings& settings : table) all_.push_back({.settings = settings});
         known_ = all_.size();
     }
@@ -53,17 +53,17 @@ public:
             for (const auto& [path, first] : firsts_) improve(path);
         }
         for (Candidate& each : all_)
-            each.fate = !each.judged                            ? Fate::slower
-                        : missOf(*each.judged, {}, budget_) > 0 ? Fate::misses
-                        : missBy(each) > 0                      ? Fate::too_slow
-                                                                : Fate::fits;
+            each.status = !each.judged                            ? CandidateStatus::slower
+                          : missOf(*each.judged, {}, budget_) > 0 ? CandidateStatus::misses
+                          : missBy(each) > 0                      ? CandidateStatus::too_slow
+                                                                  : CandidateStatus::fits;
         timeBestAgain();
         if (!found_.chosen) findNearest();
         found_.candidates = std::move(all_);
         for (const auto& shown : {found_.chosen, bestOfOtherPath(found_, budget_)})
             if (shown) {
                 Candidate& candidate = found_.candidates[*shown];
-                candidate.passes = lab_.profile(candidate.settings);
+                candidate.passes = evaluator_.profile(candidate.settings);
             }
         return std::move(found_);
     }
@@ -74,7 +74,7 @@ private:
     }
     void judge(std::size_t i) {
         if (all_[i].judged) return;
-        all_[i].judged = lab_.judge(all_[i].settings);
+        all_[i].judged = evaluator_.judge(all_[i].settings);
         ++found_.judged;
     }
     // Times two frames per candidate, in an order and its reverse. A candidate with known time, if any,
@@ -93,7 +93,7 @@ private:
             order.push_back(k);
         }
         for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
-        const std::vector<double> times = lab_.time(frames, order);
+        const std::vector<double> times = evaluator_.time(frames, order);
         std::vector<double> logs(which.size(), 0.0);
         for (std::size_t at = 0; at < times.size(); ++at)
             logs[order[at]] += 0.5 * std::log(std::max(times[at], 1e-9));
@@ -287,7 +287,7 @@ private:
         while (true) {
             std::vector<std::size_t> fit;
             for (std::size_t i = 0; i < all_.size(); ++i)
-                if (all_[i].fate == Fate::fits) fit.push_back(i);
+                if (all_[i].status == CandidateStatus::fits) fit.push_back(i);
             if (fit.empty()) return;
             std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return rank(i); });
             const Candidate& best = all_[fit.front()];
@@ -295,40 +295,40 @@ private:
                 return budget_.isForSpeed() ? all_[i].ms() > worthTimingAgain * best.ms()
                                             : all_[i].judged->error > alikeErrors * best.judged->error;
             });
-            fit.resize(std::min(fit.size(), contenders));
+            fit.resize(std::min(fit.size(), finalists));
             timeAgain(fit);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
-            // The fastest contender exceeds the time budget, so all do.
-            for (const std::size_t i : fit) all_[i].fate = Fate::too_slow;
+            // The fastest finalist exceeds the time budget, so all do.
+            for (const std::size_t i : fit) all_[i].status = CandidateStatus::too_slow;
             found_.chosen.reset();
             found_.runner_up.reset();
             found_.ties.clear();
-            found_.sure = false;
+            found_.significant = false;
         }
     }
     void timeAgain(const std::vector<std::size_t>& which) {
         std::vector<Settings> frames;
         for (const std::size_t i : which) frames.push_back(all_[i].settings);
         say(0.9, "the finalists again");
-        const Standings result = tellApart(which.size(), [&](std::span<const std::size_t> order) {
+        const Ranking result = rankByTime(which.size(), [&](std::span<const std::size_t> order) {
             for (const std::size_t k : order) ++all_[which[k]].timings;
-            return lab_.time(frames, order);
+            return evaluator_.time(frames, order);
         });
         found_.timings += result.draws;
-        found_.sure = result.sure;
+        found_.significant = result.significant;
         found_.chosen = which[result.winner];
-        found_.ms = result.standings[result.winner].ms;
+        found_.ms = result.finalists[result.winner].ms;
         // Shift earlier times to the device's current speed.
         const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
         if (std::abs(shift) >= worthShifting)
             for (Candidate& each : all_) each.log_ms += shift;
         for (std::size_t k = 0; k < which.size(); ++k) {
             const std::size_t i = which[k];
-            all_[i].fate = Fate::raced;
-            all_[i].standing = result.standings[k];
+            all_[i].status = CandidateStatus::raced;
+            all_[i].race_time = result.finalists[k];
             if (k == result.winner) continue;
-            if (!all_[i].standing->isSlower()) found_.ties.push_back(i);
-            if (!found_.runner_up || all_[i].standing->ratio < all_[*found_.runner_up].standing->ratio)
+            if (!all_[i].race_time->isSlower()) found_.ties.push_back(i);
+            if (!found_.runner_up || all_[i].race_time->ratio < all_[*found_.runner_up].race_time->ratio)
                 found_.runner_up = i;
         }
     }
@@ -340,7 +340,7 @@ private:
         if (found_.nearest) found_.ms = all_[*found_.nearest].ms();
     }
 
-    Lab& lab_;
+    Evaluator& evaluator_;
     const SearchOptions& options_;
     const Budget& budget_;
     std::vector<Candidate> all_;
@@ -353,7 +353,7 @@ private:
 }  // namespace
 
 double Candidate::ms() const {
-    if (standing) return standing->ms;
+    if (race_time) return race_time->ms;
     return timings > 0 ? std::exp(log_ms) : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -368,8 +368,8 @@ double missOf(const Judged& judged, std::optional<double> ms, const Budget& budg
     return miss;
 }
 
-Choice search(std::span<const Settings> table, Lab& lab, const SearchOptions& options) {
-    return Search(table, lab, options).run();
+Choice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options) {
+    return Search(table, evaluator, options).run();
 }
 
 std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& budget) {

@@ -4,8 +4,8 @@
 // help. Last, times the best few until the fastest is significantly faster.
 #pragma once
 
+#include "compare/choose/ranking.h"
 #include "compare/choose/table.h"
-#include "compare/choose/told_apart.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 
@@ -37,12 +37,12 @@ struct Judged {
 };
 
 // Evaluates candidates: on a device, or from recorded times.
-class Lab {
+class Evaluator {
 public:
-    Lab() = default;
-    Lab(const Lab&) = delete;
-    Lab& operator=(const Lab&) = delete;
-    virtual ~Lab() = default;
+    Evaluator() = default;
+    Evaluator(const Evaluator&) = delete;
+    Evaluator& operator=(const Evaluator&) = delete;
+    virtual ~Evaluator() = default;
     virtual Judged judge(const Settings& settings) = 0;
     // Renders frames[order[i]] for each i; returns the times, ms.
     virtual std::vector<double> time(std::span<const Settings> frames,
@@ -64,7 +64,7 @@ struct SearchOptions {
     std::function<void(double, std::string_view)> progress = {};
 };
 
-enum class Fate {
+enum class CandidateStatus {
     slower,    // timed, slower than the best; not judged
     misses,    // exceeds the error or memory
     too_slow,  // exceeds the time
@@ -74,14 +74,14 @@ enum class Fate {
 
 struct Candidate {
     Settings settings;
-    Fate fate = Fate::slower;
+    CandidateStatus status = CandidateStatus::slower;
     std::optional<Judged> judged{};
-    double log_ms = 0;                   // mean of its log times, ms
-    std::size_t timings = 0;             // 0: log_ms is not valid
-    std::vector<PassTime> passes{};      // of the chosen one and the other path's best
-    std::optional<Standing> standing{};  // if raced
-    double ms() const;                   // NaN without timings
-    bool isFit() const { return fate == Fate::fits || fate == Fate::raced; }
+    double log_ms = 0;                        // mean of its log times, ms
+    std::size_t timings = 0;                  // 0: log_ms is not valid
+    std::vector<PassTime> passes{};           // of the chosen one and the other path's best
+    std::optional<FinalistTime> race_time{};  // if raced
+    double ms() const;                        // NaN without timings
+    bool isFit() const { return status == CandidateStatus::fits || status == CandidateStatus::raced; }
 };
 
 // Largest relative excess over the budget; 0: within it. `ms`: empty to ignore time.
@@ -92,7 +92,7 @@ struct Choice {
     std::optional<std::size_t> chosen;
     std::optional<std::size_t> runner_up;  // second fastest in the race
     std::vector<std::size_t> ties;         // not significantly slower than the chosen one
-    bool sure = false;                     // the chosen one is significantly faster than all it raced
+    bool significant = false;              // the chosen one is significantly faster than all it raced
     std::optional<std::size_t> nearest;    // if nothing fits
     std::size_t judged = 0, timings = 0;
     double ms = 0;  // of the chosen or nearest one
@@ -100,7 +100,7 @@ struct Choice {
 
 // `table`: at least one candidate. The first of each path is the base of its changes. Throws what the
 // evaluator throws.
-Choice search(std::span<const Settings> table, Lab& lab, const SearchOptions& options);
+Choice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options);
 
 // Best fitting candidate of the other path: the fastest, or the most accurate without an error budget.
 std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& budget);

@@ -23,7 +23,7 @@ std::size_t placeOf(const Change& change) {
     };
 #define X(option, values) \
     if (has(option, values)) return place;
-    DIPTYCH_USUAL_CHANGES(X)
+    DIPTYCH_DEFAULT_CHANGES(X)
 #undef X
     return unusual;
 }

@@ -19,7 +19,7 @@ struct Change {
 };
 
 // Options and values; "*" is any. Most relevant first: the table drops the last ones if it is full.
-#define DIPTYCH_USUAL_CHANGES(X)                                                                       \
+#define DIPTYCH_DEFAULT_CHANGES(X)                                                                     \
     X("assign", "every,tiled,clustered")      /* light lists cost time and save it with many lights */ \
     X("gbuffer", "compact,standard,full")     /* bytes per pixel or normal error */                    \
     X("size", "*")                            /* fewer pixels: less time, more error */                \

@@ -22,9 +22,10 @@ std::string percent(double ratio) {
     return fmt::format("{:.1f} %", 100 * (ratio - 1));
 }
 
-std::string standingOf(const ChoiceReport& report, std::size_t i) {
-    const Standing& standing = *report.choice.candidates[i].standing;
-    return fmt::format("{}: {}", report.words[i], longerInWords(standing.ratio, standing.low, standing.high));
+std::string finalistWords(const ChoiceReport& report, std::size_t i) {
+    const FinalistTime& race_time = *report.choice.candidates[i].race_time;
+    return fmt::format("{}: {}", report.words[i],
+                       longerInWords(race_time.ratio, race_time.low, race_time.high));
 }
 
 std::vector<std::string> missesInWords(const ChoiceReport& report) {
@@ -48,10 +49,10 @@ std::vector<std::string> missesInWords(const ChoiceReport& report) {
     return lines;
 }
 
-void addUnseen(const ChoiceReport& report, std::vector<std::string>& lines) {
-    if (report.unseen.empty())
+void addHeldOut(const ChoiceReport& report, std::vector<std::string>& lines) {
+    if (report.held_out.empty())
         lines.push_back(std::string("not checked from another camera: the scene has no other"));
-    for (const UnseenCamera& camera : report.unseen)
+    for (const HeldOutCamera& camera : report.held_out)
         lines.push_back(fmt::format(
             "checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera, report.figure,
             camera.error, camera.holds ? "" : ", over the budget: name both cameras with --camera"));
@@ -88,25 +89,27 @@ std::string whyInWords(const ChoiceReport& report) {
 
 // "12 drawn and no better"
 std::string fatesInWords(const Choice& choice) {
-    std::map<Fate, std::size_t> counts;
-    for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
+    std::map<CandidateStatus, std::size_t> counts;
+    for (const Candidate& candidate : choice.candidates) ++counts[candidate.status];
     std::vector<std::string> words;
-    for (const Fate fate : {Fate::raced, Fate::fits, Fate::too_slow, Fate::misses, Fate::slower})
-        if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], fateInWords(fate)));
+    for (const CandidateStatus status :
+         {CandidateStatus::raced, CandidateStatus::fits, CandidateStatus::too_slow, CandidateStatus::misses,
+          CandidateStatus::slower})
+        if (counts[status] > 0) words.push_back(fmt::format("{} {}", counts[status], statusInWords(status)));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-const char* nameOf(Fate fate) {
-    switch (fate) {
-        case Fate::slower:
+const char* nameOf(CandidateStatus status) {
+    switch (status) {
+        case CandidateStatus::slower:
             return "slower";
-        case Fate::misses:
+        case CandidateStatus::misses:
             return "misses";
-        case Fate::too_slow:
+        case CandidateStatus::too_slow:
             return "too slow";
-        case Fate::fits:
+        case CandidateStatus::fits:
             return "fits";
-        case Fate::raced:
+        case CandidateStatus::raced:
             return "raced";
     }
     return "";
@@ -117,17 +120,17 @@ nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
     Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
               {"words", report.words[i]},
               {"command", report.commands[i]},
-              {"fate", nameOf(candidate.fate)},
+              {"fate", nameOf(candidate.status)},
               {"frames_timed", candidate.timings}};
     json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
     json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
     json["first_camera_error"] = Json();  // schema 1 key, unused
     json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
-    if (candidate.standing)
-        json["race"] = {{"ratio", candidate.standing->ratio},
-                        {"low", candidate.standing->low},
-                        {"high", candidate.standing->high},
-                        {"rounds", candidate.standing->rounds}};
+    if (candidate.race_time)
+        json["race"] = {{"ratio", candidate.race_time->ratio},
+                        {"low", candidate.race_time->low},
+                        {"high", candidate.race_time->high},
+                        {"rounds", candidate.race_time->rounds}};
     return json;
 }
 
@@ -147,17 +150,17 @@ std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     return text;
 }
 
-const char* fateInWords(Fate fate) {
-    switch (fate) {
-        case Fate::slower:
+const char* statusInWords(CandidateStatus status) {
+    switch (status) {
+        case CandidateStatus::slower:
             return "slower, error not measured";
-        case Fate::misses:
+        case CandidateStatus::misses:
             return "over the error or memory budget";
-        case Fate::too_slow:
+        case CandidateStatus::too_slow:
             return "too slow";
-        case Fate::fits:
+        case CandidateStatus::fits:
             return "no better";
-        case Fate::raced:
+        case CandidateStatus::raced:
             return "timed against each other";
     }
     return "";
@@ -168,13 +171,13 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
     if (!choice.chosen) return missesInWords(report);
     std::vector<std::string> lines{whyInWords(report)};
     if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
-        lines.push_back("runner-up: " + standingOf(report, *choice.runner_up));
+        lines.push_back("runner-up: " + finalistWords(report, *choice.runner_up));
     for (const std::size_t i : choice.ties)
-        lines.push_back("not measurably slower: " + standingOf(report, i));
-    if (choice.sure)
+        lines.push_back("not measurably slower: " + finalistWords(report, i));
+    if (choice.significant)
         lines.push_back(fmt::format("significant: every other finalist is slower, at {:.0f} % confidence",
-                                    100 * toldApartConfidence));
-    addUnseen(report, lines);
+                                    100 * rankingConfidence));
+    addHeldOut(report, lines);
     return lines;
 }
 
@@ -200,8 +203,8 @@ std::string inWords(const ChoiceReport& report) {
     if (const auto shown = choice.chosen ? choice.chosen : choice.nearest)
         text += fmt::format("    {}\n", figuresInWords(report, *shown));
     for (const std::string& line : reasonsInWords(report)) text += "  " + line + "\n";
-    if (report.deciders)
-        for (const std::string& line : inWords(*report.deciders)) text += "  " + line + "\n";
+    if (report.sensitivities)
+        for (const std::string& line : inWords(*report.sensitivities)) text += "  " + line + "\n";
     text += fmt::format("  {}: {}\n  {} compared, {} timed, {:.1f} s\n",
                         counted(choice.candidates.size(), "candidate"), fatesInWords(choice),
                         counted(choice.judged, "picture"), counted(choice.timings, "frame"), report.seconds);
@@ -212,11 +215,11 @@ std::string inWords(const ChoiceReport& report) {
 
 nlohmann::ordered_json toJson(const ChoiceReport& report) {
     const Choice& choice = report.choice;
-    Json ties = Json::array(), candidates = Json::array(), unseen = Json::array();
+    Json ties = Json::array(), candidates = Json::array(), held_out = Json::array();
     for (const std::size_t i : choice.ties) ties.push_back(i);
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(jsonOf(report, i));
-    for (const UnseenCamera& camera : report.unseen)
-        unseen.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
+    for (const HeldOutCamera& camera : report.held_out)
+        held_out.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
     const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
     const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
     Json json{
@@ -236,10 +239,10 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["runner_up"] = place(choice.runner_up);
     json["nearest"] = place(choice.nearest);
     json["ties"] = std::move(ties);
-    json["sure"] = choice.sure;
+    json["sure"] = choice.significant;
     json["why"] = whyInWords(report);
-    if (report.deciders) json["deciders"] = toJson(*report.deciders);
-    json["unseen_cameras"] = std::move(unseen);
+    if (report.sensitivities) json["deciders"] = toJson(*report.sensitivities);
+    json["unseen_cameras"] = std::move(held_out);
     json["judged"] = choice.judged;
     json["estimated"] = 0;  // schema 1 key, unused: every image is judged from all cameras
     json["frames_timed"] = choice.timings;

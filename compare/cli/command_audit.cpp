@@ -8,7 +8,7 @@
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
@@ -103,7 +103,7 @@ public:
                 "errors");
         audit::Measurer measurer(opened_.device(), subject,
                                  [&](const std::string& step) { say(options_, step); });
-        KeptFolder kept(opened_.folder(), "audit", keyOf(measurer, subject));
+        CheckpointFolder kept(opened_.folder(), "audit", keyOf(measurer, subject));
         if (kept.isRenewed())
             note(options_,
                  "the results of an interrupted audit belong to another scene, device or Settings; starting "
@@ -127,7 +127,7 @@ public:
         for (const auto& [name, magnitude] : options_.audit.required)
             for (const audit::QuantityAudit& quantity : audit_.quantities)
                 if (quantity.quantity->name == name)
-                    audit_.requirements.push_back(audit::judge(quantity, magnitude));
+                    audit_.requirements.push_back(audit::evaluate(quantity, magnitude));
         checkValidation(opened_.device());
         stage.at(0.98, "write");
         if (audit_.kept > 0)
@@ -162,7 +162,7 @@ private:
     }
 
     void measure(const audit::Quantity& quantity, const audit::Subject& subject, audit::Measurer& measurer,
-                 const KeptFolder& kept, const Stage& stage) {
+                 const CheckpointFolder& kept, const Stage& stage) {
         const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // plus some in between
         double done = 0;
         std::vector<double> required;
@@ -208,7 +208,7 @@ private:
         }
     }
 
-    static std::optional<audit::Step> keptStep(const KeptFolder& kept, const std::string& name,
+    static std::optional<audit::Step> keptStep(const CheckpointFolder& kept, const std::string& name,
                                                std::size_t series) {
         const Json json = kept.find(name);
         if (json.is_null()) return {};

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 // The renderer's image of the charts under one lamp type. A missing image is an error without a lamp;
 // under a lamp it means that the renderer does not support that type.
 external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const external::Renderer& renderer) {
-    external::Shown shown{lamp, external::truthUnder(charts, lamp), {}, {}};
+    external::Shown shown{lamp, external::referenceUnder(charts, lamp), {}, {}};
     const Scene scene = external::chartsUnder(charts, lamp);
     Settings settings = external::chartSettings(lamp);
     SceneViews views(scene);
@@ -37,10 +37,10 @@ external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const exter
     return shown;
 }
 
-Json grantsOf(const std::vector<external::Deviation>& deviations) {
-    Json granted = Json::object();
-    for (const external::Deviation& deviation : deviations) granted.update(deviation.grant);
-    return granted;
+Json correctionsOf(const std::vector<external::Deviation>& deviations) {
+    Json corrections = Json::object();
+    for (const external::Deviation& deviation : deviations) corrections.update(deviation.correction);
+    return corrections;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ Json grantsOf(const std::vector<external::Deviation>& deviations) {
 int runCalibrate(const Options& options) {
     refuseOut(options);
     const external::Renderer renderer = external::readRendererFile(options.scenes.front());
-    const std::vector<std::string> granted = external::inWords(renderer.granted);
+    const std::vector<std::string> corrections = external::inWords(renderer.corrections);
     Progress progress(progressOutput(options));
     const Stage stage(progress, "calibrate");
     const Scene charts = loadScene("builtin:calibration");
@@ -61,29 +61,31 @@ int runCalibrate(const Options& options) {
     }
     const std::vector<external::Deviation> deviations = external::deviationsOf(charts, pictures);
     progress.wipe();
-    const Json grants = grantsOf(deviations);
+    const Json corrections_found = correctionsOf(deviations);
     if (options.json) {
         Json json{{"schema", 1},
                   {"renderer", renderer.file.string()},
                   {"verdict", deviations.empty() ? "pass" : "fail"},
-                  {"granted_already", granted},
+                  {"granted_already", corrections},
                   {"deviations", Json::array()},
-                  {"granted", grants}};
+                  {"granted", corrections_found}};
         for (const external::Deviation& one : deviations)
-            json["deviations"].push_back({{"name", one.name}, {"words", one.words}, {"grant", one.grant}});
+            json["deviations"].push_back(
+                {{"name", one.name}, {"words", one.words}, {"grant", one.correction}});
         printOut("{}\n", jsonText(json));
     } else if (!options.quiet) {
         std::string out;
-        for (const std::string& line : granted) out += fmt::format("granted {}\n", line);
+        for (const std::string& line : corrections) out += fmt::format("granted {}\n", line);
         for (const external::Deviation& one : deviations)
             out += fmt::format("FAIL {}: {}{}\n", one.name, one.words,
-                               one.grant.empty() ? "; no input correction exists for it" : "");
+                               one.correction.empty() ? "; no input correction exists for it" : "");
         if (deviations.empty()) out += "pass: it interprets its inputs as Diptych does\n";
-        if (!grants.empty())
+        if (!corrections_found.empty())
             out += fmt::format(
                 "to correct its inputs, add to {}{}: \"granted\": {}\n", renderer.file.string(),
-                granted.empty() ? "" : ", on top of the present \"granted\" (factors multiply, offsets add)",
-                grants.dump());
+                corrections.empty() ? ""
+                                    : ", on top of the present \"granted\" (factors multiply, offsets add)",
+                corrections_found.dump());
         printColored(options, out);
     }
     return deviations.empty() ? 0 : 1;

@@ -83,7 +83,7 @@ Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours,
             fmt::format("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem));
     for (const std::string& line : attempt.frame->notes)
         if (std::ranges::count(ours.notes, line) == 0) note(options, line);
-    return lentChannels(*attempt.frame, ours, drawing, render);
+    return substituteChannels(*attempt.frame, ours, drawing, render);
 }
 
 int explainScene(const Options& options) {

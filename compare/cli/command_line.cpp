@@ -308,7 +308,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     for (const std::string& scene : options.scenes) refuseLineBreak(scene);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
-    options.runs = parsed.runs.value_or(usualRuns(options.command));
+    options.runs = parsed.runs.value_or(defaultRuns(options.command));
     if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: must be 0 or more", options.runs));
     if (options.picture.exposure &&
         !(*options.picture.exposure > 0 && std::isfinite(*options.picture.exposure)))

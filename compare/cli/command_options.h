@@ -48,7 +48,7 @@ struct ParsedOptions {
 };
 
 // Default of --runs. Low where times only accompany images or verdicts.
-constexpr int usualRuns(std::string_view command) {
+constexpr int defaultRuns(std::string_view command) {
     return command == "bench" || command == "tradeoff" ? 5 : 2;
 }
 

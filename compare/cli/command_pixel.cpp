@@ -60,22 +60,22 @@ int runPixel(const Options& options) {
     SceneViews views(scene);
     Renderer renderer(device, views);
     const std::vector<Rule> rules = rulesOfScene(compare.rules, where);
-    const PixelStory story = pixelStory(renderer, views,
-                                        {.x = options.pixel->x,
-                                         .y = options.pixel->y,
-                                         .baseline = settings[1],
-                                         .test = settings[2],
-                                         .reference = settings[0],
-                                         .device = reportDevice(device),
-                                         .rules = rules,
-                                         .light_differs = compare.light_differs,
-                                         .progress = stage.part(0.1, 1)});
+    const PixelBreakdown breakdown = pixelBreakdown(renderer, views,
+                                                    {.x = options.pixel->x,
+                                                     .y = options.pixel->y,
+                                                     .baseline = settings[1],
+                                                     .test = settings[2],
+                                                     .reference = settings[0],
+                                                     .device = reportDevice(device),
+                                                     .rules = rules,
+                                                     .light_differs = compare.light_differs,
+                                                     .progress = stage.part(0.1, 1)});
     checkValidation(device);
     wipeProgress();
     if (options.json)
-        printOut("{}\n", jsonText(toJson(story)));
+        printOut("{}\n", jsonText(toJson(breakdown)));
     else if (!options.quiet)
-        printColored(options, inWords(story));
+        printColored(options, inWords(breakdown));
     return 0;
 }
 

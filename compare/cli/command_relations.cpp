@@ -35,7 +35,7 @@ int runRelations(const Options& options, const Settings& settings) {
     for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
     if (options.json) printText(json);
     opened.print((opened.folder() / "index.html").string() + "\n");
-    return audited.holds() ? 0 : 1;
+    return audited.passes() ? 0 : 1;
 }
 
 }  // namespace diptych::cli

@@ -11,9 +11,9 @@
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/run/version.h"
-#include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/measure.h"
+#include "compare/tradeoff/sensitivity.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/contract/debug_mode.h"
@@ -82,13 +82,13 @@ double weightOf(const Settings& settings) {
 
 // Timed frames in each timing block of a row. The first block runs when the row is rendered, the others
 // after all rows.
-std::vector<int> visitsOf(int runs) {
+std::vector<int> blockSizes(int runs) {
     constexpr int most = 5;  // each block allocates the row's images again
     const int at_once = std::max(4, (runs + most - 1) / most);
-    std::vector<int> visits{std::min((runs + 1) / 2, at_once)};
-    for (int left = runs - visits.front(); left > 0; left -= visits.back())
-        visits.push_back(std::min(left, at_once));
-    return visits;
+    std::vector<int> blocks{std::min((runs + 1) / 2, at_once)};
+    for (int left = runs - blocks.front(); left > 0; left -= blocks.back())
+        blocks.push_back(std::min(left, at_once));
+    return blocks;
 }
 
 class Sweep {
@@ -105,7 +105,7 @@ public:
                                 [&](const Settings& row) { return drawingProblem(device_, row); });
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
-        tradeoff_.given = truthFor(options.settings, sweep_.rows);
+        tradeoff_.given = referenceFor(options.settings, sweep_.rows);
         tradeoff_.reference = referenceSettings(tradeoff_.given);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;
@@ -121,7 +121,7 @@ public:
         stage.at(loading, "upload");
         SceneViews views(scene);
         if (options_.grid.empty())
-            sweep_ = rowsThatAreFelt(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
+            sweep_ = sensitiveRows(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
         tradeoff_.skips = sweep_.skips;
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);
@@ -170,20 +170,20 @@ private:
     void measure(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                  const Stage& stage) {
         const TradeoffTable table(tradeoff_, sweep_.rows, terminalColumns(stdout), options_.verbose);
-        const std::vector<int> visits = visitsOf(options_.runs);
+        const std::vector<int> blocks = blockSizes(options_.runs);
         double all = 0, done = 0;
         for (const Settings& row : sweep_.rows) all += weightOf(row);
         if (prints()) print(table.head());
         for (const Settings& settings : sweep_.rows) {
             const double from = done / all;
             done += weightOf(settings);
-            std::optional<TradeoffRow> kept = state.find(settings, references.frames.size(), visits.size());
+            std::optional<TradeoffRow> kept = state.find(settings, references.frames.size(), blocks.size());
             if (kept) {
                 ++tradeoff_.kept;
                 tradeoff_.rows.push_back(std::move(*kept));
             } else {
                 RenderOptions render = renderOptions(options_);
-                render.runs = visits.front();
+                render.runs = blocks.front();
                 render.progress = stage.part(from, done / all);
                 MeasuredRow measured = measureRow(renderer, settings, references, render);
                 tradeoff_.cost.drawing += measured.row.drawing_ms;
@@ -240,21 +240,21 @@ private:
     void timeAgain(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                    const Stage& stage) {
         constexpr std::size_t atOnce = 6;  // rows with allocated images
-        const std::vector<int> visits = visitsOf(options_.runs);
+        const std::vector<int> blocks = blockSizes(options_.runs);
         double all = 0, done = 0;
         for (const TradeoffRow& row : tradeoff_.rows)
             all += weightOf(row.settings) *
-                   static_cast<double>(visits.size() - row.cameras.front().visits.size());
+                   static_cast<double>(blocks.size() - row.cameras.front().blocks.size());
         std::mt19937 random(1);
-        for (std::size_t visit = 1; visit < visits.size(); ++visit) {
+        for (std::size_t block = 1; block < blocks.size(); ++block) {
             std::vector<TradeoffRow*> round;
             for (TradeoffRow& row : tradeoff_.rows)
-                if (row.cameras.front().visits.size() == visit) round.push_back(&row);
+                if (row.cameras.front().blocks.size() == block) round.push_back(&row);
             std::ranges::shuffle(round, random);
             for (std::size_t at = 0; at < round.size(); at += atOnce) {
                 const auto rows = std::span(round).subspan(at, std::min(atOnce, round.size() - at));
                 RenderOptions render = renderOptions(options_);
-                render.runs = visits[visit];
+                render.runs = blocks[block];
                 double before = 0;
                 const double from = done / all;
                 for (const TradeoffRow* row : rows) {
@@ -291,7 +291,7 @@ int runTradeoff(const Options& words) {
     checkTradeoffOptions(options);
     const Settings& given = options.settings;
     const SweepRows sweep =
-        makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
+        makeSweepRows(given, options.grid.empty() ? defaultGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are measured in lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are measured in lit");
     if (options.scenes.size() == 1 && options.shard.empty()) return Sweep(options, sweep).run();

@@ -6,7 +6,7 @@
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/scene_items.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/folders.h"
@@ -226,7 +226,7 @@ private:
     const PictureChoice picture_;
     const CompareOptions compare_;
     const SceneItems items_;
-    KeptFolder kept_;
+    CheckpointFolder kept_;
     const RenderOptions render_;
     Progress progress_;
     Device device_;

@@ -69,7 +69,7 @@ const std::vector<std::vector<SurfaceChange>> otherSurfaces{
 
 // Renders the view of `plain` with the accepted changes; empty if there are none. A change is accepted if
 // it brings lit closer to the other renderer by at least half of its effect, the criterion of
-// unsaid_settings.h.
+// undeclared_settings.h.
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
     const auto lit = [](const Frame& frame) -> const Image& {
@@ -122,7 +122,7 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
         if (!file) again[0] = drawing.renderer.draw(left.settings, render);
         if (!external) again[1] = drawing.renderer.draw(right.settings, render);
     }
-    if (external) again[1] = lentChannels(right, again[0] ? *again[0] : left, drawing.renderer, render);
+    if (external) again[1] = substituteChannels(right, again[0] ? *again[0] : left, drawing.renderer, render);
     if (file && left.scene.empty()) again[0] = asOurs(left, right);
     const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
     ExplainedPictures of{right.scene, left.name, right.name};
@@ -177,8 +177,8 @@ void addExplanations(const Options& options, Device& device, Report& report, con
     checkValidation(device);
 }
 
-Frame lentChannels(const Frame& external, const Frame& plain, Renderer& renderer,
-                   const RenderOptions& options) {
+Frame substituteChannels(const Frame& external, const Frame& plain, Renderer& renderer,
+                         const RenderOptions& options) {
     const std::optional<Frame> nearer = drawnNearer(external, plain, renderer, options);
     const Frame& ours = nearer ? *nearer : plain;
     Frame frame = external;

@@ -29,7 +29,7 @@ std::vector<std::string> explainWords(const std::string& scene, const Settings& 
 // does not declare come from `ours`, so lit differences are attributed to lighting. Tries other skin
 // normals (--skin-normals) and widened roughness (--spec-aa), and takes the channels that bring lit
 // closer.
-Frame lentChannels(const Frame& external, const Frame& ours, Renderer& renderer,
-                   const RenderOptions& options);
+Frame substituteChannels(const Frame& external, const Frame& ours, Renderer& renderer,
+                         const RenderOptions& options);
 
 }  // namespace diptych::cli

@@ -80,7 +80,7 @@ struct Options {
     bool debug_given = false;                        // by --debug
     bool heat = false;                               // --heat: shows the light count, overriding --debug
     std::vector<int> channels;                       // debug modes, ascending; empty: all supported
-    int runs = 5;                                    // timed frames; default: usualRuns()
+    int runs = 5;                                    // timed frames; default: defaultRuns()
     Twice twice = Twice::lit;                        // compare
     PictureChoice picture;
     std::filesystem::path match_exposure;  // image that sets the exposure; empty: none
@@ -122,7 +122,7 @@ struct Options {
     SubmitOptions submit;
     std::filesystem::path since;  // compare, merge: an earlier report; empty: none
     bool probe = false;           // devices: run the probes of compare/probe
-    std::string grid;             // tradeoff, choose: a file or JSON; empty: usualGrids()
+    std::string grid;             // tradeoff, choose: a file or JSON; empty: defaultGrids()
 };
 
 // Animation time, s, of image `frame` of --frames, counted from 0.

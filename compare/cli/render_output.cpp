@@ -69,10 +69,10 @@ std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vecto
 }
 
 void noteIgnored(const Options& options) {
-    const Settings &given = options.settings, usual;
+    const Settings &given = options.settings, defaults;
     for (const Field& field : settingFields()) {
         const std::string_view why = ignoredBecause(given, field.option);
-        if (!why.empty() && given.valueOf(field.option) != usual.valueOf(field.option))
+        if (!why.empty() && given.valueOf(field.option) != defaults.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }
 }

@@ -3,13 +3,13 @@
 
 #include "compare/choose/table.h"
 #include "compare/cli/commands.h"
-#include "compare/cli/scene_lab.h"
+#include "compare/cli/scene_evaluator.h"
 #include "compare/cli/scene_variations.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
 #include "compare/run/command_text.h"
-#include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
+#include "compare/tradeoff/sensitivity.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
 
@@ -47,9 +47,10 @@ std::size_t figureOf(const std::string& name) {
 std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
                                     const Scene& scene) {
     const Settings& given = options.settings;
-    tradeoff::SweepRows sweep = tradeoff::makeSweepRows(
-        given, options.grid.empty() ? tradeoff::usualGrids(given) : tradeoff::readGrids(options.grid, given));
-    if (options.grid.empty()) sweep = tradeoff::rowsThatAreFelt(sweep, view.lights, &scene);
+    tradeoff::SweepRows sweep =
+        tradeoff::makeSweepRows(given, options.grid.empty() ? tradeoff::defaultGrids(given)
+                                                            : tradeoff::readGrids(options.grid, given));
+    if (options.grid.empty()) sweep = tradeoff::sensitiveRows(sweep, view.lights, &scene);
     sweep = tradeoff::withoutRefused(std::move(sweep), given,
                                      [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
@@ -82,25 +83,25 @@ std::vector<std::string> allCameras(const Scene& scene) {
 }
 
 // The scene's cameras that are not in `cameras`. `cameras` has indices or names, as on the command line.
-std::vector<std::string> unseenCameras(const Scene& scene, const std::vector<std::string>& cameras) {
-    std::vector<std::string> unseen;
+std::vector<std::string> heldOutCameras(const Scene& scene, const std::vector<std::string>& cameras) {
+    std::vector<std::string> held_out;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         if (std::ranges::count(cameras, std::to_string(i)) == 0 &&
             std::ranges::count(cameras, scene.cameras[i].name) == 0)
-            unseen.push_back(std::to_string(i));
-    return unseen;
+            held_out.push_back(std::to_string(i));
+    return held_out;
 }
 
 }  // namespace
 
-struct SceneChooser::Held {
-    Held(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
+struct SceneChooser::LoadedScene {
+    LoadedScene(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
         : where(std::move(name)), scene(std::move(read)), views(scene), renderer(device, views, pipelines) {}
     std::string where;
     Scene scene;
     SceneViews views;
     Renderer renderer;
-    std::optional<SceneLab> lab{};
+    std::optional<SceneEvaluator> evaluator{};
 };
 
 SceneChooser::SceneChooser(const Options& options)
@@ -114,51 +115,52 @@ SceneChooser::SceneChooser(const Options& options)
 
 SceneChooser::~SceneChooser() = default;
 
-SceneChooser::Held& SceneChooser::hold(const std::string& scene, const Stage& progress) {
-    if (held_ && held_->where == scene) return *held_;
-    if (held_)
-        if (const auto before = references_.find(held_->where); before != references_.end())
+SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const Stage& progress) {
+    if (loaded_ && loaded_->where == scene) return *loaded_;
+    if (loaded_)
+        if (const auto before = references_.find(loaded_->where); before != references_.end())
             for (const auto& errors : before->second.errors) errors->release();
-    held_.reset();
-    held_ = std::make_unique<Held>(scene, loadShown(scene, options_.settings, progress), device_, pipelines_);
+    loaded_.reset();
+    loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, options_.settings, progress), device_,
+                                            pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        held_->lab.emplace(held_->renderer, references->second, figure_, renderOptions(options_));
-    return *held_;
+        loaded_->evaluator.emplace(loaded_->renderer, references->second, figure_, renderOptions(options_));
+    return *loaded_;
 }
 
 ChoiceReport SceneChooser::choose(const std::string& where) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, where);
-    Held& held = hold(where, stage.part(0, 0.05));
+    LoadedScene& loaded = load(where, stage.part(0, 0.05));
     const std::vector<std::string> cameras =
-        options_.camera_given ? options_.cameras : allCameras(held.scene);
+        options_.camera_given ? options_.cameras : allCameras(loaded.scene);
     Settings given = options_.settings;
     given.camera = cameras.front();
     Options asked = options_;
     asked.settings = given;
     const std::vector<Settings> candidates =
-        candidatesFor(asked, device_, held.views.at(viewRequest(given)), held.scene);
+        candidatesFor(asked, device_, loaded.views.at(viewRequest(given)), loaded.scene);
 
     ChoiceReport report;
     report.scene = where;
-    report.notes = held.scene.notes;
+    report.notes = loaded.scene.notes;
     report.given = given;
     report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
     report.figure = tradeoff::errorFigures.at(figure_).title;
     report.figure_name = tradeoff::errorFigures.at(figure_).name;
     report.device = reportDevice(device_);
 
-    const Settings truth = tradeoff::truthFor(given, candidates);
+    const Settings truth = tradeoff::referenceFor(given, candidates);
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
     const tradeoff::ReferenceFrames& references =
         references_
-            .insert_or_assign(where, tradeoff::drawReferenceFrames(held.renderer, truth, cameras,
+            .insert_or_assign(where, tradeoff::drawReferenceFrames(loaded.renderer, truth, cameras,
                                                                    pictureChoice(options_), drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
-    tradeoff::addNotes(report.notes, references, candidates, held.views.at(viewRequest(given)).needs);
-    held.lab.emplace(held.renderer, references, figure_, renderOptions(options_));
+    tradeoff::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
+    loaded.evaluator.emplace(loaded.renderer, references, figure_, renderOptions(options_));
 
     SearchOptions search;
     search.budget = report.budget;
@@ -175,7 +177,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     };
     const Stage searching = stage.part(0.2, 0.95);
     search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
-    report.choice = choose::search(tableOf(candidates), *held.lab, search);
+    report.choice = choose::search(tableOf(candidates), *loaded.evaluator, search);
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
@@ -183,20 +185,20 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
-    held.lab->release();  // frees memory for other evaluators
+    loaded.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
-        for (const std::string& camera : unseenCameras(held.scene, cameras))
-            report.unseen.push_back(fromUnseen(held, truth, report, camera));
+        for (const std::string& camera : heldOutCameras(loaded.scene, cameras))
+            report.held_out.push_back(atHeldOut(loaded, truth, report, camera));
     if (options_.choose.explain && report.choice.chosen)
-        report.deciders = decidersOf(held, report, stage.part(0.95, 1));
+        report.sensitivities = sensitivityOf(loaded, report, stage.part(0.95, 1));
     checkValidation(device_);
     report.seconds = secondsSince(start);
     progress_.wipe();
     return report;
 }
 
-std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
-                                                       const Stage& progress) {
+std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,
+                                                             const Stage& progress) {
     const choose::Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
@@ -219,27 +221,28 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
             for (Settings& each : compared)
                 if (field.option.starts_with("transparency"))
                     each.set(field.option, options_.settings.valueOf(field.option));
-    const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
+    const VariedScene varied{device_, pipelines_, loaded.views, loaded.renderer, references, compared};
     constexpr int rounds = 5;
-    return DecidersReport{
-        report.words[*choice.chosen],
-        report.words[*other],
-        std::string(nameOf(chosen_path)),
-        std::string(nameOf(compared[1].path)),
-        fits,
-        findDeciders(drawAsIs(varied), propertiesOf(varied), rounds,
-                     [&](double done, std::string_view what) { progress.at(done, std::string(what)); })};
+    return SensitivityReport{report.words[*choice.chosen],
+                             report.words[*other],
+                             std::string(nameOf(chosen_path)),
+                             std::string(nameOf(compared[1].path)),
+                             fits,
+                             analyzeSensitivity(drawAsIs(varied), propertiesOf(varied), rounds,
+                                                [&](double done, std::string_view what) {
+                                                    progress.at(done, std::string(what));
+                                                })};
 }
 
-UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,
+HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
                                       const std::string& camera) {
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = {};
     const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
-        held.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
-    SceneLab lab(held.renderer, references, figure_, drawing);
+        loaded.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
+    SceneEvaluator evaluator(loaded.renderer, references, figure_, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
-    const double error = lab.judge(chosen.settings).error;
+    const double error = evaluator.judge(chosen.settings).error;
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
     return {page::cameraTitle(references.frames.front()), error, error <= most};
 }
@@ -256,10 +259,10 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     CommonOptions common;
     common.budget = reports.front().budget;
     common.progress = [&](double done, std::string_view what) { stage.at(done, std::string(what)); };
-    const std::function<Lab&(std::size_t)> labOf = [&](std::size_t scene) -> Lab& {
-        return *hold(reports[scene].scene, Stage()).lab;
+    const std::function<Evaluator&(std::size_t)> evaluatorOf = [&](std::size_t scene) -> Evaluator& {
+        return *load(reports[scene].scene, Stage()).evaluator;
     };
-    all.choice = choose::chooseForAll(own, labOf, common);
+    all.choice = choose::chooseForAll(own, evaluatorOf, common);
     Settings given = options_.settings;
     given.camera.clear();
     for (CommonCandidate& candidate : all.choice.candidates) {

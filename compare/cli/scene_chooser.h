@@ -29,12 +29,13 @@ public:
     choose::CommonReport chooseForAll(const std::vector<choose::ChoiceReport>& reports);
 
 private:
-    struct Held;  // a scene, read and uploaded
-    Held& hold(const std::string& scene, const Stage& progress);
-    choose::UnseenCamera fromUnseen(Held& held, const Settings& truth, const choose::ChoiceReport& report,
-                                    const std::string& camera);
-    std::optional<choose::DecidersReport> decidersOf(Held& held, const choose::ChoiceReport& report,
-                                                     const Stage& progress);
+    struct LoadedScene;  // a scene, read and uploaded
+    LoadedScene& load(const std::string& scene, const Stage& progress);
+    choose::HeldOutCamera atHeldOut(LoadedScene& loaded, const Settings& truth,
+                                    const choose::ChoiceReport& report, const std::string& camera);
+    std::optional<choose::SensitivityReport> sensitivityOf(LoadedScene& loaded,
+                                                           const choose::ChoiceReport& report,
+                                                           const Stage& progress);
 
     const Options& options_;
     const std::size_t figure_;
@@ -42,7 +43,7 @@ private:
     Device device_;
     std::shared_ptr<PipelineSet> pipelines_;
     std::map<std::string, tradeoff::ReferenceFrames> references_;  // key: scene
-    std::unique_ptr<Held> held_;
+    std::unique_ptr<LoadedScene> loaded_;
 };
 
 }  // namespace diptych::cli

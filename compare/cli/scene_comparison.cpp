@@ -105,7 +105,7 @@ void drawExternals(const Scene& scene, const SceneView& view, const Settings& se
             drawn.errors.push_back({scene.name,
                                     fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
                                                 renderer.file.string(), attempt.problem),
-                                    renderer.name, std::move(attempt.said)});
+                                    renderer.name, std::move(attempt.output)});
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/scene_variations.h"
 
-#include "compare/cli/scene_lab.h"
+#include "compare/cli/scene_evaluator.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
@@ -49,12 +49,12 @@ struct MadeScene {
           views(scene),
           renderer(of.device, views, of.pipelines),
           viewpoints(std::move(from)),
-          lab(renderer, viewpoints, 0, {}) {}
+          evaluator(renderer, viewpoints, 0, {}) {}
     Scene scene;
     SceneViews views;
     Renderer renderer;
     tradeoff::ReferenceFrames viewpoints;
-    SceneLab lab;
+    SceneEvaluator evaluator;
 };
 
 // Sums over all cameras.
@@ -134,10 +134,10 @@ private:
     // The same scene with other Settings on both paths.
     std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
         return [this_of = of_, value, settings] {
-            const auto lab =
-                std::make_shared<SceneLab>(this_of.renderer, this_of.references, 0, RenderOptions());
-            return Variation{value, [lab, settings](std::span<const std::size_t> order) {
-                                 return lab->time(settings, order);
+            const auto evaluator =
+                std::make_shared<SceneEvaluator>(this_of.renderer, this_of.references, 0, RenderOptions());
+            return Variation{value, [evaluator, settings](std::span<const std::size_t> order) {
+                                 return evaluator->time(settings, order);
                              }};
         };
     }
@@ -151,7 +151,7 @@ private:
             const auto made = std::make_shared<MadeScene>(make(of.views.scene()), of, viewpoints);
             const double value = valueOf(*made, settings);
             return Variation{value, [made, settings](std::span<const std::size_t> order) {
-                                 return made->lab.time(settings, order);
+                                 return made->evaluator.time(settings, order);
                              }};
         };
     }
@@ -304,9 +304,9 @@ private:
 }  // namespace
 
 DrawInOrder drawAsIs(const VariedScene& of) {
-    const auto lab = std::make_shared<SceneLab>(of.renderer, of.references, 0, RenderOptions());
-    return [lab, settings = of.settings](std::span<const std::size_t> order) {
-        return lab->time(settings, order);
+    const auto evaluator = std::make_shared<SceneEvaluator>(of.renderer, of.references, 0, RenderOptions());
+    return [evaluator, settings = of.settings](std::span<const std::size_t> order) {
+        return evaluator->time(settings, order);
     };
 }
 

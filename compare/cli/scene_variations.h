@@ -2,7 +2,7 @@
 // Measures properties of a scene that may decide between the paths, and varies them.
 #pragma once
 
-#include "compare/choose/deciders.h"
+#include "compare/choose/sensitivity.h"
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/measure.h"
 #include "shared/frame/settings.h"

@@ -3,7 +3,7 @@
 
 #include "compare/cli/commands.h"
 #include "compare/cli/scene_items.h"
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/listed_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
@@ -164,7 +164,7 @@ int finish(const Options& options, const fs::path& folder, const shards::Manifes
 int tradeoffMany(const Options& options, const fs::path& folder,
                  const std::function<void(const Options&)>& sweep) {
     const SceneItems items = itemsOf(options, {options.settings});
-    KeptFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
+    CheckpointFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
     if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});

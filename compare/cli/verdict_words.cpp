@@ -17,8 +17,8 @@ namespace {
 class WordList {
 public:
     template <class T>
-    void add(const char* option, const T& value, const T& usual) {
-        if (value != usual) put(option, value);
+    void add(const char* option, const T& value, const T& defaults) {
+        if (value != defaults) put(option, value);
     }
     template <class T>
     void add(const char* option, const std::optional<T>& value) {
@@ -59,15 +59,15 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
     WordList words;
     words.add("--tolerances", options.tolerances.string(), std::string());
     if (options.command == "diff") {
-        const PictureDiffOptions &diff = options.diff, usual;
-        words.add("--metric", diff.metric, usual.metric);
-        if (std::isfinite(diff.tolerance)) words.add("--tolerance", diff.tolerance, usual.tolerance);
+        const PictureDiffOptions &diff = options.diff, defaults;
+        words.add("--metric", diff.metric, defaults.metric);
+        if (std::isfinite(diff.tolerance)) words.add("--tolerance", diff.tolerance, defaults.tolerance);
         words.add("--warn", diff.warn);
         words.add("--failing", diff.failing);
         for (const std::string& name : diff.names) words.words.insert(words.words.end(), {"--map", name});
         words.add("--blur", diff.blur, 0.0);
         words.add("--shift", diff.shift, 0);
-        words.add("--ppd", diff.flip.pixels_per_degree, usual.flip.pixels_per_degree);
+        words.add("--ppd", diff.flip.pixels_per_degree, defaults.flip.pixels_per_degree);
         words.add("--start-exposure", diff.flip.start_exposure);
         words.add("--stop-exposure", diff.flip.stop_exposure);
         words.add("--exposures", diff.flip.exposures);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int blockSide = 8;
 constexpr std::size_t mostLightsOfBlock = 3;
-constexpr double leastAccount = 0.05, toldApart = 0.02;
+constexpr double leastAccount = 0.05, equalAccounts = 0.02;
 constexpr double mostLeft = 0.1;
 
 using Color = std::array<double, 3>;
@@ -75,7 +75,7 @@ private:
             if (best == accounts.end() || !(*best >= leastAccount * all)) break;
             std::vector<std::size_t> alike;
             for (std::size_t light = 0; light < accounts.size(); ++light)
-                if (accounts[light] >= (1 - toldApart) * *best) alike.push_back(light);
+                if (accounts[light] >= (1 - equalAccounts) * *best) alike.push_back(light);
             take(static_cast<std::size_t>(best - accounts.begin()), alike, sizes);
         }
         return sizes;

@@ -3,7 +3,7 @@
 // Renders a frame only if the lighting Settings differ from the last ones.
 #pragma once
 
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "compare/render/channel_shading.h"
 #include "compare/render/renderer.h"
 #include "shared/frame/frame.h"

@@ -20,7 +20,7 @@ constexpr std::array knownConventions{
     Convention{"multiscatter", "energy", "multiple scattering between microfacets, as a gain of the lobe"},
     Convention{"multiscatter", "fdez", "multiple scattering between microfacets, as a separate lobe"},
 };
-// The same threshold as for other undeclared Settings (unsaid_settings.cpp).
+// The same threshold as for other undeclared Settings (undeclared_settings.cpp).
 constexpr double worthHaving = 0.5;
 
 bool hasTwice(const std::vector<Convention>& some) {
@@ -43,18 +43,18 @@ Settings withConventions(Settings said, const std::vector<Convention>& conventio
 
 std::vector<Convention> nearestConventions(const Settings& said, const ConventionTrial& trial) {
     const Image plain = trial.draw(said);
-    std::vector<Convention> felt;
+    std::vector<Convention> effective;
     for (const Convention& each : knownConventions)
         if (said.valueOf(each.option) == Settings().valueOf(each.option) &&
             !sameBits(trial.draw(withConventions(said, {each})), plain))
-            felt.push_back(each);
+            effective.push_back(each);
     std::vector<Convention> best;
     Image nearest = plain;
     double least = trial.distance(plain);
-    for (std::size_t subset = 1; subset < std::size_t{1} << felt.size(); ++subset) {
+    for (std::size_t subset = 1; subset < std::size_t{1} << effective.size(); ++subset) {
         std::vector<Convention> some;
-        for (std::size_t i = 0; i < felt.size(); ++i)
-            if ((subset >> i & 1) != 0) some.push_back(felt[i]);
+        for (std::size_t i = 0; i < effective.size(); ++i)
+            if ((subset >> i & 1) != 0) some.push_back(effective[i]);
         if (hasTwice(some)) continue;
         Image picture = trial.draw(withConventions(said, some));
         const double distance = trial.distance(picture);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/device_shares.h"
 
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "compare/metrics/channel.h"
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"

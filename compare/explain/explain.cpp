@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/explain.h"
 
+#include "compare/explain/ablation.h"
 #include "compare/explain/channel_lighting.h"
 #include "compare/explain/explained_sides.h"
 #include "compare/explain/frame_images.h"
 #include "compare/explain/light_shares.h"
 #include "compare/explain/shapley.h"
-#include "compare/explain/swaps.h"
-#include "compare/explain/unsaid_settings.h"
+#include "compare/explain/undeclared_settings.h"
 #include "compare/metrics/flip.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -94,40 +94,40 @@ std::vector<Share> descending(std::vector<Share> shares, double sign) {
     return shares;
 }
 
-// The results of swapping the causes.
-struct SwapResults {
+// The results of taking the causes.
+struct AblationResults {
     Shares shares;
     std::vector<std::vector<double>> maps;  // of each cause, as Cause::map: one value per pixel
     std::vector<double> flip;               // of each cause, as Cause::flip
 };
 
-// Swaps every subset of the causes, or those of sampled orders. `lit`: the baseline's. Stores the
+// Takes every subset of the causes, or those of sampled orders. `lit`: the baseline's. Stores the
 // unexplained remainder and FLIP in `found`.
-SwapResults swapCauses(Swaps& swaps, const Image& lit, const Stage& progress, Explanation& found) {
-    const int count = static_cast<int>(swaps.causes().size());
+AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progress, Explanation& found) {
+    const int count = static_cast<int>(ablation.causes().size());
     const bool exact = count <= mostExactCauses;
     const std::vector<SubsetWeights> subsets =
         exact ? exactWeights(count) : sampledWeights(count, sampledOrderCount, 1);
-    SwapResults results;
-    results.maps.assign(swaps.causes().size(), std::vector<double>(lit.pixels()));
-    results.flip.resize(swaps.causes().size());
+    AblationResults results;
+    results.maps.assign(ablation.causes().size(), std::vector<double>(lit.pixels()));
+    results.flip.resize(ablation.causes().size());
     std::map<Subset, double> values;
     const Subset all = (Subset{1} << count) - 1;
     for (std::size_t s = 0; s < subsets.size(); ++s) {
         progress.at(static_cast<double>(s) / static_cast<double>(subsets.size()), "swap causes");
         const Subset subset = subsets[s].subset;
         const std::vector<double>& weights = subsets[s].weight;
-        const Image swapped = swaps.lit(subset);
-        const std::vector<double> errors = errorsOf(swapped, lit);
-        const double error = meanOf(errors), felt = hdrFlip(lit, swapped).mean;
+        const Image ablated = ablation.lit(subset);
+        const std::vector<double> errors = errorsOf(ablated, lit);
+        const double error = meanOf(errors), flip = hdrFlip(lit, ablated).mean;
         values[subset] = -error;
-        if (subset == 0) found.flip = felt;
+        if (subset == 0) found.flip = flip;
         if (subset == all) {
             found.unexplained = error;
             found.unexplained_map = imageOf(errors, lit);
-            found.flip_unexplained = felt;
+            found.flip_unexplained = flip;
         }
-        for (std::size_t i = 0; i < results.flip.size(); ++i) results.flip[i] -= weights[i] * felt;
+        for (std::size_t i = 0; i < results.flip.size(); ++i) results.flip[i] -= weights[i] * flip;
         tbb::parallel_for(std::size_t{0}, results.maps.size(), [&](std::size_t i) {
             const double weight = weights[i];
             for (std::size_t p = 0; p < errors.size(); ++p) results.maps[i][p] -= weight * errors[p];
@@ -139,8 +139,8 @@ SwapResults swapCauses(Swaps& swaps, const Image& lit, const Stage& progress, Ex
 }
 
 // A cause with its share.
-Cause sharedCause(const Swap& swap, const SwapResults& results, std::size_t i, const Scene& scene,
-                  const ExplainedSides& sides, LightShares& lights) {
+Cause sharedCause(const AblationCause& cause, const AblationResults& results, std::size_t i,
+                  const Scene& scene, const ExplainedSides& sides, LightShares& lights) {
     const Shares& shares = results.shares;
     const std::vector<double>& map = results.maps[i];
     const Image& lit = sides.lit(0);
@@ -150,8 +150,8 @@ Cause sharedCause(const Swap& swap, const SwapResults& results, std::size_t i, c
         std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
     const auto width = static_cast<std::size_t>(lit.width);
     const Image& ids = channelOf(sides.frame(0), gpu::DEBUG_material_id);
-    return {swap.title(),
-            swap.shows,
+    return {cause.title(),
+            cause.shows,
             shares.share[i],
             shares.interval[i],
             shares.alone[i],
@@ -161,7 +161,7 @@ Cause sharedCause(const Swap& swap, const SwapResults& results, std::size_t i, c
             static_cast<int>(worst / width),
             results.flip[i],
             descending(byMaterial(map, ids, scene), sign),
-            descending(lights.of(swap, map), sign),
+            descending(lights.of(cause, map), sign),
             imageOf(map, lit)};
 }
 
@@ -186,21 +186,21 @@ std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size
 }
 
 // Stores the causes, the dominant one at each pixel, and interacting pairs in `found`.
-void rank(const SwapResults& results, const Swaps& swaps, const Scene& scene, const ExplainedSides& sides,
-          LightShares& lights, Explanation& found) {
+void rank(const AblationResults& results, const Ablation& ablation, const Scene& scene,
+          const ExplainedSides& sides, LightShares& lights, Explanation& found) {
     const Shares& shares = results.shares;
-    std::vector<std::size_t> order(swaps.causes().size());
+    std::vector<std::size_t> order(ablation.causes().size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order,
                              [&](std::size_t a, std::size_t b) { return shares.share[a] > shares.share[b]; });
     // Removes Settings without effect.
     std::erase_if(order, [&](std::size_t i) {
-        const bool felt = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
-        if (!felt) found.inert.push_back(swaps.causes()[i].title());
-        return !felt;
+        const bool has_effect = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
+        if (!has_effect) found.without_effect.push_back(ablation.causes()[i].title());
+        return !has_effect;
     });
     for (const std::size_t i : order)
-        found.causes.push_back(sharedCause(swaps.causes()[i], results, i, scene, sides, lights));
+        found.causes.push_back(sharedCause(ablation.causes()[i], results, i, scene, sides, lights));
     for (std::size_t p = 0; p < found.dominant.pixels(); ++p) {
         double best = 0;
         for (std::size_t k = 0; k < order.size(); ++k)
@@ -238,12 +238,12 @@ Explanation explain(Device& device, Renderer& renderer, const Scene& scene, cons
     found.reproduction = {sides.reproduction(0), sides.reproduction(1)};
     if (found.distance > 0) {
         sides.findExposure();
-        const std::vector<UnsaidSetting> unsaid = unsaidSettings(sides, lighting);
-        if (!unsaid.empty()) sides.believe(unsaid.back().settings, lighting);
-        Swaps swaps(sides, lighting, scene, unsaid);
-        found.inert = swaps.inert();
-        LightShares lights(sides, lighting, swaps);
-        rank(swapCauses(swaps, a, progress, found), swaps, scene, sides, lights, found);
+        const std::vector<UndeclaredSetting> undeclared = undeclaredSettings(sides, lighting);
+        if (!undeclared.empty()) sides.believe(undeclared.back().settings, lighting);
+        Ablation ablation(sides, lighting, scene, undeclared);
+        found.without_effect = ablation.without_effect();
+        LightShares lights(sides, lighting, ablation);
+        rank(ablate(ablation, a, progress, found), ablation, scene, sides, lights, found);
         found.lights_drawn = lights.drawn();
         found.lights_left_out = lights.leftOut();
     }

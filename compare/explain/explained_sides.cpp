@@ -3,7 +3,7 @@
 
 #include "compare/explain/exposure.h"
 #include "compare/explain/frame_images.h"
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
 
 #include <cmath>
@@ -17,12 +17,12 @@ ExplainedSides::ExplainedSides(const Frame& baseline, const Frame& test, Channel
     for (std::size_t side = 0; side < 2; ++side) {
         const Image& own = own_.at(side) = lighting.lit(settings_.at(side), allChannelsOf(side));
         const Image& all = lit(side);
-        Image& rest = rest_.at(side) = Image(all.width, all.height, 3);
+        Image& residual = residual_.at(side) = Image(all.width, all.height, 3);
         double sum = 0, off = 0;
         for (std::size_t i = 0; i < all.data.size(); ++i) {
             const double value = all.data[i], left = value - own.data[i];
             if (!std::isfinite(left)) continue;
-            rest.data[i] = static_cast<float>(left);
+            residual.data[i] = static_cast<float>(left);
             sum += std::abs(value);
             off += std::abs(left);
         }
@@ -34,11 +34,11 @@ const Image& ExplainedSides::lit(std::size_t side) const {
     return side == 1 && exposure_ != 1 ? unexposed_ : channelOf(frame(side), gpu::DEBUG_lit);
 }
 
-bool ExplainedSides::restsDiffer() const {
-    return !sameBits(rest_[0], rest_[1]);
+bool ExplainedSides::residualsDiffer() const {
+    return !sameBits(residual_[0], residual_[1]);
 }
 
-std::string ExplainedSides::restName() const {
+std::string ExplainedSides::residualName() const {
     const auto either = [&](const auto& is) { return is(frame(0).settings) || is(frame(1).settings); };
     if (either([](const Settings& s) { return s.msaa > 1; })) return "samples of a pixel";
     if (either([](const Settings& s) { return s.assign == Assignment::per_object; }))
@@ -51,7 +51,7 @@ bool ExplainedSides::haveTerms() const {
 }
 
 void ExplainedSides::findExposure() {
-    if (!restsDiffer()) return;
+    if (!residualsDiffer()) return;
     const bool terms = haveTerms();
     const auto factor = [&](std::size_t side) {
         return commonFactor(lit(side), terms ? sumOfTerms(frame(side)) : own_.at(side));
@@ -63,13 +63,13 @@ void ExplainedSides::findExposure() {
     unexposed_ = lit(1);
     exposure_ = static_cast<float>(*found);
     for (float& value : unexposed_.data) value /= exposure_;
-    rest_[1] = differenceOf(lit(1), own_[1]);
+    residual_[1] = differenceOf(lit(1), own_[1]);
 }
 
 void ExplainedSides::believe(const Settings& settings, ChannelLighting& lighting) {
     settings_[1] = settings;
     own_[1] = lighting.lit(settings, allChannelsOf(1));
-    rest_[1] = differenceOf(lit(1), own_[1]);
+    residual_[1] = differenceOf(lit(1), own_[1]);
 }
 
 }  // namespace diptych

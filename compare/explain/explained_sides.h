@@ -26,10 +26,10 @@ public:
     // lit, W x H x 3; the test's is divided by exposure().
     const Image& lit(std::size_t side) const;
     // lit minus our lighting of the side's channels, W x H x 3; 0 where not finite.
-    const Image& rest(std::size_t side) const { return rest_.at(side); }
-    bool restsDiffer() const;
+    const Image& residual(std::size_t side) const { return residual_.at(side); }
+    bool residualsDiffer() const;
     // Name of the residual if its source is known; empty: unexplained.
-    std::string restName() const;
+    std::string residualName() const;
     // Relative size of a side's residual, as Explanation::reproduction.
     double reproduction(std::size_t side) const { return reproduction_.at(side); }
     // Whether both Frames have the terms of lit.
@@ -46,7 +46,7 @@ public:
 private:
     const std::array<const Frame*, 2> frames_;
     std::array<Settings, 2> settings_;
-    std::array<Image, 2> own_, rest_;  // our lighting of each side's channels, and the residual
+    std::array<Image, 2> own_, residual_;  // our lighting of each side's channels, and the residual
     std::array<double, 2> reproduction_{};
     float exposure_ = 1;
     Image unexposed_;  // the test's lit without exposure; empty if there is none

@@ -33,7 +33,7 @@ struct Cause {
     double alone = 0, last = 0;  // effect of swapping it alone; effect of swapping it last
     double worst = 0;            // the largest share of a pixel, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
-    // Its share of the mean HDR-FLIP, by the same orders of swaps. All shares and
+    // Its share of the mean HDR-FLIP, by the same orders. All shares and
     // Explanation::flip_unexplained sum to Explanation::flip.
     double flip = 0;
     std::vector<MaterialShare> materials;  // of the baseline's pixels; descending
@@ -58,8 +58,8 @@ struct DeviceShare {
 };
 
 struct Explanation {
-    // The mean of |test - baseline| of lit over pixels and components, W/(sr m^2): before any swap, and
-    // after swapping all causes.
+    // The mean of |test - baseline| of lit over pixels and components, W/(sr m^2): before any cause is taken,
+    // and after swapping all causes.
     double distance = 0, unexplained = 0;
     double flip = 0, flip_unexplained = 0;  // the same for mean HDR-FLIP
     std::vector<Cause> causes;              // descending by share
@@ -69,8 +69,8 @@ struct Explanation {
     // lit, as a fraction of the mean of lit.
     std::array<double, 2> reproduction{};
     std::size_t nonfinite = 0;  // pixels of lit that are NaN or infinite on a side; they count as equal
-    std::size_t subsets = 0, frames = 0;  // numbers of relit subsets, and of frames rendered for Settings
-    std::vector<std::string> inert;       // names of differences that change no pixel
+    std::size_t subsets = 0, frames = 0;      // numbers of relit subsets, and of frames rendered for Settings
+    std::vector<std::string> without_effect;  // names of differences that change no pixel
     // Numbers of lights rendered alone for Cause::lights, and of those omitted as too many; 0: none.
     std::size_t lights_drawn = 0, lights_left_out = 0;
     // W x H x 1: index into `causes` of the largest share at the pixel; -1 where no cause brings lit

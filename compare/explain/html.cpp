@@ -114,8 +114,9 @@ std::string remarks(const Explanation& e, const ExplainedPictures& of) {
         lines.emplace_back(
             "With every cause swapped, lit still differs: the rest comes from something that no channel and "
             "no Setting describes");
-    if (!e.inert.empty())
-        lines.push_back(fmt::format("Differs without an effect on any pixel: {}", fmt::join(e.inert, ", ")));
+    if (!e.without_effect.empty())
+        lines.push_back(
+            fmt::format("Differs without an effect on any pixel: {}", fmt::join(e.without_effect, ", ")));
     if (const std::string line = reproductionLine(e, of); !line.empty()) lines.push_back(line);
     if (const std::string line = lightsLine(e); !line.empty()) lines.push_back(line);
     if (e.nonfinite > 0)

@@ -3,7 +3,7 @@
 
 #include "compare/explain/by_light.h"
 #include "compare/explain/frame_images.h"
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "shared/scene/lights/casters.h"
 #include "shared/scene/model/luminance.h"
 
@@ -59,26 +59,29 @@ std::vector<std::vector<float>> partsOfDifference(const std::vector<Image>& a, c
 
 }  // namespace
 
-std::vector<LightShare> LightShares::of(const Swap& cause, const std::vector<double>& map) {
-    const LightingStages::Stage* const stage = swaps_.stageOf(cause);
-    if (stage ? !stage->lights : cause.kind != Swap::Kind::setting || !isOfLights(cause.name)) return {};
+std::vector<LightShare> LightShares::of(const AblationCause& cause, const std::vector<double>& map) {
+    const LightingComponents::Component* const component = ablation_.componentOf(cause);
+    if (component ? !component->lights
+                  : cause.kind != AblationCause::Kind::setting || !isOfLights(cause.name))
+        return {};
     const Settings& test = sides_.settings(1);
     const std::vector<Light> lights = lighting_.under(test).lights();
     const std::vector<std::size_t> places = drawnLights(lights, cause.name, map.size());
     if (places.empty()) return {};
     std::vector<std::vector<float>> parts;
-    if (stage) {
+    if (component) {
         Settings lit_by = test;
-        if (*stage->lights == LightChange::seen) lit_by.shadows = Shadows::off;
-        const std::vector<Image> alone = lightsAlone(lit_by, places, stage);
-        const Image change = LightingStages::directLight(*stage, LightingStages::change(*stage));
-        parts = lightsOfChange(change, alone, *stage->lights);
+        if (*component->lights == LightChange::seen) lit_by.shadows = Shadows::off;
+        const std::vector<Image> alone = lightsAlone(lit_by, places, component);
+        const Image change =
+            LightingComponents::directLight(*component, LightingComponents::change(*component));
+        parts = lightsOfChange(change, alone, *component->lights);
     } else {
         Settings without = test;
         without.set(cause.name, sides_.settings(0).valueOf(cause.name));
-        const std::vector<Image> swapped = lightsAlone(without, places, nullptr);
+        const std::vector<Image> ablated = lightsAlone(without, places, nullptr);
         // Last, so that the next cause can use its frame.
-        parts = partsOfDifference(lightsAlone(test, places, nullptr), swapped);
+        parts = partsOfDifference(lightsAlone(test, places, nullptr), ablated);
     }
     std::vector<LightShare> shares;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -124,12 +127,12 @@ std::vector<std::size_t> LightShares::drawnLights(const std::vector<Light>& ligh
 
 // Each light's own contribution on the test's surfaces under some Settings.
 std::vector<Image> LightShares::lightsAlone(const Settings& settings, const std::vector<std::size_t>& places,
-                                            const LightingStages::Stage* stage) {
+                                            const LightingComponents::Component* component) {
     ChannelShading& shading = lighting_.under(settings);
     std::vector<Image> alone;
     for (const std::size_t place : places) {
         const LightChannels adds = shading.light(allChannelsOf(1), place);
-        alone.push_back(stage ? LightingStages::directLight(*stage, adds) : sumOfLobes(adds));
+        alone.push_back(component ? LightingComponents::directLight(*component, adds) : sumOfLobes(adds));
     }
     return alone;
 }

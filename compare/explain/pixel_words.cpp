@@ -106,19 +106,19 @@ std::vector<std::string> stepRow(const PixelStep& step) {
             because};
 }
 
-std::string lightTitle(const PixelStory& story, std::size_t light) {
-    const PixelLightFacts& facts = story.lights.at(light);
+std::string lightTitle(const PixelBreakdown& breakdown, std::size_t light) {
+    const PixelLightFacts& facts = breakdown.lights.at(light);
     return fmt::format("light {}, {}{}", light, facts.kind,
                        facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
 }
 
-std::string titleOf(const PixelStory& story, const PixelTerm& term) {
+std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
     switch (term.kind) {
         case PixelTerm::Kind::light:
-            return lightTitle(story, term.lights.front());
+            return lightTitle(breakdown, term.lights.front());
         case PixelTerm::Kind::other_lights:
             return counted(term.lights.size(),
-                           term.lights.size() == story.lights.size() ? "light" : "other light");
+                           term.lights.size() == breakdown.lights.size() ? "light" : "other light");
         case PixelTerm::Kind::environment:
             return "environment";
         case PixelTerm::Kind::ambient:
@@ -148,8 +148,8 @@ bool isNothing(const PixelTerm& term) {
     return dark(term.values[0]) && dark(term.values[1]) && (!term.reference || dark(*term.reference));
 }
 
-std::string lightWords(const PixelStory& story, const PixelTerm& term) {
-    const PixelLightFacts& facts = story.lights.at(term.lights.front());
+std::string lightWords(const PixelBreakdown& breakdown, const PixelTerm& term) {
+    const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
     std::string words;
     const auto say = [&](const std::string& what) {
         words += fmt::format("{}{}", words.empty() ? "" : ", ", what);
@@ -159,22 +159,22 @@ std::string lightWords(const PixelStory& story, const PixelTerm& term) {
                         std::isfinite(facts.range) ? fmt::format(" (range {:.4g} m)", facts.range) : ""));
     if (facts.casts) say("casts a shadow");
     for (std::size_t side = 0; side < 2; ++side)
-        if (story.lists_known.at(side) && !facts.listed.at(side))
-            say(fmt::format("not in the list of {}", story.names.at(side)));
+        if (breakdown.lists_known.at(side) && !facts.listed.at(side))
+            say(fmt::format("not in the list of {}", breakdown.names.at(side)));
     return words;
 }
 
-std::vector<std::string> termRow(const PixelStory& story, const PixelTerm& term) {
+std::vector<std::string> termRow(const PixelBreakdown& breakdown, const PixelTerm& term) {
     std::vector<std::span<const double>> values{term.values[0], term.values[1]};
     if (term.reference) values.emplace_back(*term.reference);
     // The residual is computed here, so more digits would be meaningless.
     const bool derived = term.kind == PixelTerm::Kind::residual;
     const Digits digits(derived ? std::span(values).first(1) : std::span(values).first(2));
-    std::string words = term.kind == PixelTerm::Kind::light ? lightWords(story, term) : "";
+    std::string words = term.kind == PixelTerm::Kind::light ? lightWords(breakdown, term) : "";
     if (term.uncertainty > 0)
         words +=
             fmt::format("{}uncertainty of the reference {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
-    return {titleOf(story, term),
+    return {titleOf(breakdown, term),
             digits(values[0]),
             digits(values[1]),
             values.size() > 2 ? digits(values[2]) : "-",
@@ -182,45 +182,45 @@ std::vector<std::string> termRow(const PixelStory& story, const PixelTerm& term)
             words};
 }
 
-std::vector<std::size_t> listOf(const PixelStory& story, std::size_t side) {
+std::vector<std::size_t> listOf(const PixelBreakdown& breakdown, std::size_t side) {
     std::vector<std::size_t> listed;
-    for (std::size_t i = 0; i < story.lights.size(); ++i)
-        if (story.lights[i].listed.at(side)) listed.push_back(i);
+    for (std::size_t i = 0; i < breakdown.lights.size(); ++i)
+        if (breakdown.lights[i].listed.at(side)) listed.push_back(i);
     return listed;
 }
 
-std::string listWords(const PixelStory& story) {
-    const std::array known{story.lists_known[0], story.lists_known[1]};
-    const std::array lists{listOf(story, 0), listOf(story, 1)};
+std::string listWords(const PixelBreakdown& breakdown) {
+    const std::array known{breakdown.lists_known[0], breakdown.lists_known[1]};
+    const std::array lists{listOf(breakdown, 0), listOf(breakdown, 1)};
     const bool same = known[0] && known[1] && lists[0] == lists[1];
     std::string text;
     for (std::size_t side = 0; side < (same ? 1u : 2u); ++side) {
-        const Settings& settings = story.settings.at(side);
+        const Settings& settings = breakdown.settings.at(side);
         if (known.at(side))
             text += fmt::format("{} {} of {} (--assign {}){}{}\n",
-                                same ? "both paths evaluate" : story.names.at(side) + " evaluates",
-                                lists.at(side).size(), counted(story.lights.size(), "light"),
+                                same ? "both paths evaluate" : breakdown.names.at(side) + " evaluates",
+                                lists.at(side).size(), counted(breakdown.lights.size(), "light"),
                                 nameOf(settings.assign), lists.at(side).empty() ? "" : ": ",
                                 fmt::join(lists.at(side), ", "));
         else if (settings.assign == Assignment::per_object)
-            text +=
-                fmt::format("{} evaluates the object's lights (--assign per_object)\n", story.names.at(side));
+            text += fmt::format("{} evaluates the object's lights (--assign per_object)\n",
+                                breakdown.names.at(side));
         else
             text += fmt::format("{}: its light list is unknown: the length read differs from light_count\n",
-                                story.names.at(side));
+                                breakdown.names.at(side));
     }
     return text;
 }
 
-std::string termsText(const PixelStory& story) {
+std::string termsText(const PixelBreakdown& breakdown) {
     Columns columns;
-    columns.add({"term, W/(sr m^2)", story.names[0], story.names[1], "reference", "difference", ""});
+    columns.add({"term, W/(sr m^2)", breakdown.names[0], breakdown.names[1], "reference", "difference", ""});
     std::vector<std::size_t> dark;
-    for (const PixelTerm& term : story.terms) {
+    for (const PixelTerm& term : breakdown.terms) {
         if (term.kind == PixelTerm::Kind::light && isNothing(term))
             dark.push_back(term.lights.front());
         else
-            columns.add(termRow(story, term));
+            columns.add(termRow(breakdown, term));
     }
     std::string text = columns.text(0, columns.size());
     if (!dark.empty()) {
@@ -236,33 +236,33 @@ double worstOf(const std::array<double, 3>& v) {
 }
 
 // Why lit is not the sum of its terms, for a path (0, 1) or the reference (2).
-std::string residualReason(const PixelStory& story, std::size_t side, const PixelTerm& residual) {
+std::string residualReason(const PixelBreakdown& breakdown, std::size_t side, const PixelTerm& residual) {
     const double left = worstOf(side < 2 ? residual.values.at(side) : residual.reference.value());
     if (left == 0) return "0";
-    if (left <= story.residual_rounding.at(side))
+    if (left <= breakdown.residual_rounding.at(side))
         return fmt::format("{:.2g}, within {} ({:.2g} at most)", left,
                            side < 2 ? "the rounding of float32 sums" : "its uncertainty",
-                           story.residual_rounding.at(side));
-    if (side < 2 && story.settings.at(side).msaa > 1)
+                           breakdown.residual_rounding.at(side));
+    if (side < 2 && breakdown.settings.at(side).msaa > 1)
         return fmt::format("{:.2g}: lit is the mean of {} samples, the terms are of the first", left,
-                           story.settings.at(side).msaa);
-    if (side == 2 && story.mode == ReferenceMode::scene)
+                           breakdown.settings.at(side).msaa);
+    if (side == 2 && breakdown.mode == ReferenceMode::scene)
         return fmt::format("{:.2g}: lit is the mean over the pixel, the terms are of its centre", left);
     return fmt::format("{:.2g}, more than the {:.2g} that rounding explains", left,
-                       story.residual_rounding.at(side));
+                       breakdown.residual_rounding.at(side));
 }
 
-std::string residualText(const PixelStory& story) {
-    const PixelTerm& residual = story.terms.back();
-    return fmt::format("lit minus the sum: {}: {}; {}: {}; reference: {}\n", story.names[0],
-                       residualReason(story, 0, residual), story.names[1], residualReason(story, 1, residual),
-                       residualReason(story, 2, residual));
+std::string residualText(const PixelBreakdown& breakdown) {
+    const PixelTerm& residual = breakdown.terms.back();
+    return fmt::format("lit minus the sum: {}: {}; {}: {}; reference: {}\n", breakdown.names[0],
+                       residualReason(breakdown, 0, residual), breakdown.names[1],
+                       residualReason(breakdown, 1, residual), residualReason(breakdown, 2, residual));
 }
 
-std::string howTermsWereMade(const PixelStory& story) {
-    const std::size_t all = story.lights.size(), alone = story.drawn_alone;
+std::string howTermsWereMade(const PixelBreakdown& breakdown) {
+    const std::size_t all = breakdown.lights.size(), alone = breakdown.drawn_alone;
     if (all == 0) return "no lights\n";
-    for (const Settings& settings : story.settings)
+    for (const Settings& settings : breakdown.settings)
         if (settings.assign == Assignment::per_object)
             return "--assign per_object: spherical harmonics combine all lights, so the lights are one "
                    "term\n";
@@ -275,24 +275,26 @@ std::string howTermsWereMade(const PixelStory& story) {
     return text + (alone < all ? fmt::format("; the other {} together\n", all - alone) : "\n");
 }
 
-const PixelStep* stepOf(const PixelStory& story, gpu::uint mode) {
-    for (const PixelStep& step : story.steps)
+const PixelStep* stepOf(const PixelBreakdown& breakdown, gpu::uint mode) {
+    for (const PixelStep& step : breakdown.steps)
         if (step.mode->number == static_cast<int>(mode)) return &step;
     return nullptr;
 }
 
-std::string headline(const PixelStory& story) {
-    std::string text = fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", story.scene,
-                                   story.camera.empty() ? "" : ", ", story.camera, story.x, story.y,
-                                   story.size.width, story.size.height, story.names[1], story.names[0]);
-    if (!story.shown)
-        return text + (story.blended ? "background: no opaque surface, only blended fragments\n"
-                                     : "background: no surface\n");
-    const PixelStep* const ids = stepOf(story, gpu::DEBUG_material_id);
-    text += fmt::format("material {}{}", story.material,
-                        story.material_name.empty() ? "" : fmt::format(", \"{}\"", story.material_name));
-    if (ids && ids->differs) text += fmt::format(" (missing or different in {})", story.names[1]);
-    const auto& p = story.position;
+std::string headline(const PixelBreakdown& breakdown) {
+    std::string text =
+        fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", breakdown.scene,
+                    breakdown.camera.empty() ? "" : ", ", breakdown.camera, breakdown.x, breakdown.y,
+                    breakdown.size.width, breakdown.size.height, breakdown.names[1], breakdown.names[0]);
+    if (!breakdown.shown)
+        return text + (breakdown.blended ? "background: no opaque surface, only blended fragments\n"
+                                         : "background: no surface\n");
+    const PixelStep* const ids = stepOf(breakdown, gpu::DEBUG_material_id);
+    text +=
+        fmt::format("material {}{}", breakdown.material,
+                    breakdown.material_name.empty() ? "" : fmt::format(", \"{}\"", breakdown.material_name));
+    if (ids && ids->differs) text += fmt::format(" (missing or different in {})", breakdown.names[1]);
+    const auto& p = breakdown.position;
     return text + fmt::format("; at {:.6g}, {:.6g}, {:.6g} m\n", p[0], p[1], p[2]);
 }
 
@@ -303,10 +305,10 @@ std::string against(std::span<const double> a, std::span<const double> b) {
     return fmt::format("{} against {}", digits(b), digits(a));
 }
 
-std::string verdictLine(const PixelStory& story) {
+std::string verdictLine(const PixelBreakdown& breakdown) {
     std::vector<std::string> beyond;
     std::size_t compared = 0;
-    for (const PixelStep& step : story.steps) {
+    for (const PixelStep& step : breakdown.steps) {
         compared += step.isCompared();
         if (step.isCompared() && step.beyond) beyond.emplace_back(step.mode->name);
     }
@@ -317,8 +319,8 @@ std::string verdictLine(const PixelStory& story) {
 
 }  // namespace
 
-std::string firstDifference(const PixelStory& story) {
-    const auto [step, term] = story.first();
+std::string firstDifference(const PixelBreakdown& breakdown) {
+    const auto [step, term] = breakdown.first();
     if (step)
         return fmt::format(
             "the first step that differs by more than rounding: {} ({}, {:.3g} in its metric, {}, "
@@ -329,35 +331,38 @@ std::string firstDifference(const PixelStory& story) {
         return fmt::format(
             "the first step that differs by more than rounding: {} ({} W/(sr m^2), relative difference "
             "{:.3g}; the surfaces are the same)",
-            titleOf(story, *term), against(term->values[0], term->values[1]), term->difference);
+            titleOf(breakdown, *term), against(term->values[0], term->values[1]), term->difference);
     return "no step differs by more than rounding";
 }
 
-std::string inWords(const PixelStory& story) {
+std::string inWords(const PixelBreakdown& breakdown) {
     Columns steps;
-    steps.add({"step", story.names[0], story.names[1], "reference", "difference", "tolerance", "because"});
+    steps.add(
+        {"step", breakdown.names[0], breakdown.names[1], "reference", "difference", "tolerance", "because"});
     std::size_t before = 1;  // rows before the lights
-    for (const PixelStep& step : story.steps) {
+    for (const PixelStep& step : breakdown.steps) {
         const int mode = step.mode->number;
         // In the background only lit and material_id have meaning.
-        if (!story.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id)) continue;
+        if (!breakdown.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id))
+            continue;
         steps.add(stepRow(step));
         before += !isAfterTerms(mode);
     }
-    std::string text = headline(story) + steps.text(0, before);
-    if (story.shown)
-        text += listWords(story) + howTermsWereMade(story) + termsText(story) + residualText(story);
+    std::string text = headline(breakdown) + steps.text(0, before);
+    if (breakdown.shown)
+        text += listWords(breakdown) + howTermsWereMade(breakdown) + termsText(breakdown) +
+                residualText(breakdown);
     text += steps.text(before, steps.size());
     std::vector<std::string_view> differing;
-    for (const PixelStep& step : story.steps)
+    for (const PixelStep& step : breakdown.steps)
         if (step.differs) differing.push_back(step.mode->name);
-    text += fmt::format("{}\n", firstDifference(story));
+    text += fmt::format("{}\n", firstDifference(breakdown));
     if (differing.size() > 1)
         text += fmt::format("{} channels differ: {}\n", differing.size(), fmt::join(differing, ", "));
-    return text + verdictLine(story);
+    return text + verdictLine(breakdown);
 }
 
-nlohmann::ordered_json toJson(const PixelStory& story) {
+nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
     const auto numbers = [](std::span<const double> values) {
         Json list = Json::array();
         for (const double v : values) list.push_back(finiteOrNull(v));
@@ -367,7 +372,7 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
         return value.empty() ? Json(nullptr) : numbers(value);
     };
     Json steps = Json::array(), lights = Json::array(), terms = Json::array();
-    for (const PixelStep& step : story.steps) {
+    for (const PixelStep& step : breakdown.steps) {
         Json one{{"number", step.mode->number},         {"name", step.mode->name},
                  {"metric", nameOf(step.mode->metric)}, {"baseline", orNull(step.values[0])},
                  {"test", orNull(step.values[1])},      {"reference", orNull(step.reference)}};
@@ -381,8 +386,8 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
         one["because"] = step.tolerance.because;
         steps.push_back(std::move(one));
     }
-    for (std::size_t i = 0; i < story.lights.size(); ++i) {
-        const PixelLightFacts& facts = story.lights[i];
+    for (std::size_t i = 0; i < breakdown.lights.size(); ++i) {
+        const PixelLightFacts& facts = breakdown.lights[i];
         Json one{{"light", i},
                  {"name", facts.name},
                  {"kind", facts.kind},
@@ -391,10 +396,10 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
                  {"casts", facts.casts}};
         for (std::size_t side = 0; side < 2; ++side)
             one[side == 0 ? "in_baseline_list" : "in_test_list"] =
-                story.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
+                breakdown.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
         lights.push_back(std::move(one));
     }
-    for (const PixelTerm& term : story.terms)
+    for (const PixelTerm& term : breakdown.terms)
         terms.push_back({{"kind", nameOf(term.kind)},
                          {"lights", term.lights},
                          {"baseline", numbers(term.values[0])},
@@ -403,33 +408,34 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
                          {"uncertainty", term.uncertainty},
                          {"difference", finiteOrNull(term.difference)},
                          {"differs", term.differs}});
-    const auto [step, term] = story.first();
+    const auto [step, term] = breakdown.first();
     Json first = nullptr;
     if (step) first = step->mode->name;
     if (term)
         first = term->kind == PixelTerm::Kind::light ? fmt::format("light {}", term->lights.front())
                                                      : std::string(nameOf(term->kind));
-    return {{"schema", 1},
-            {"scene", story.scene},
-            {"camera", story.camera},
-            {"pixel", {story.x, story.y}},
-            {"size", {story.size.width, story.size.height}},
-            {"baseline", story.names[0]},
-            {"test", story.names[1]},
-            {"settings",
-             {parseOrderedJson(toJson(story.settings[0])), parseOrderedJson(toJson(story.settings[1]))}},
-            {"background", !story.shown},
-            {"blended", story.blended},
-            {"material",
-             story.shown ? Json{{"id", story.material}, {"name", story.material_name}} : Json(nullptr)},
-            {"position", story.shown ? numbers(story.position) : Json(nullptr)},
-            {"steps", std::move(steps)},
-            {"lights", std::move(lights)},
-            {"drawn_alone", story.drawn_alone},
-            {"terms", std::move(terms)},
-            {"residual_rounding", numbers(story.residual_rounding)},
-            {"first_difference", std::move(first)},
-            {"summary", firstDifference(story)}};
+    return {
+        {"schema", 1},
+        {"scene", breakdown.scene},
+        {"camera", breakdown.camera},
+        {"pixel", {breakdown.x, breakdown.y}},
+        {"size", {breakdown.size.width, breakdown.size.height}},
+        {"baseline", breakdown.names[0]},
+        {"test", breakdown.names[1]},
+        {"settings",
+         {parseOrderedJson(toJson(breakdown.settings[0])), parseOrderedJson(toJson(breakdown.settings[1]))}},
+        {"background", !breakdown.shown},
+        {"blended", breakdown.blended},
+        {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
+                                     : Json(nullptr)},
+        {"position", breakdown.shown ? numbers(breakdown.position) : Json(nullptr)},
+        {"steps", std::move(steps)},
+        {"lights", std::move(lights)},
+        {"drawn_alone", breakdown.drawn_alone},
+        {"terms", std::move(terms)},
+        {"residual_rounding", numbers(breakdown.residual_rounding)},
+        {"first_difference", std::move(first)},
+        {"summary", firstDifference(breakdown)}};
 }
 
 }  // namespace diptych

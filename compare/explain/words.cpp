@@ -112,8 +112,9 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
                               "rest comes from something that no channel and no Setting describes"
                             : "unexplained");
     for (const CausePair& pair : e.pairs) text += pairLine(e, pair) + "\n";
-    if (!e.inert.empty())
-        text += fmt::format("differs without an effect on any pixel: {}\n", fmt::join(e.inert, ", "));
+    if (!e.without_effect.empty())
+        text +=
+            fmt::format("differs without an effect on any pixel: {}\n", fmt::join(e.without_effect, ", "));
     if (const std::string line = reproductionLine(e, of); !line.empty()) text += line + "\n";
     if (const std::string line = lightsLine(e); !line.empty()) text += line + "\n";
     return text + fmt::format("{} shaded from {}\n",
@@ -165,7 +166,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"flip_unexplained", e.flip_unexplained},
             {"pairs", std::move(pairs)},
             {"devices", std::move(devices)},
-            {"inert", e.inert},
+            {"inert", e.without_effect},
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
             {"lights_drawn", e.lights_drawn},

@@ -86,10 +86,10 @@ public:
     }
 
 private:
-    using Grant = nlohmann::ordered_json;
+    using Correction = nlohmann::ordered_json;
 
-    void say(std::string name, std::string words, Grant grant = Grant::object()) {
-        found_.push_back({std::move(name), std::move(words), std::move(grant)});
+    void say(std::string name, std::string words, Correction correction = Correction::object()) {
+        found_.push_back({std::move(name), std::move(words), std::move(correction)});
     }
 
     int idOf(const std::string& material) const {
@@ -105,7 +105,7 @@ private:
         return all;
     }
 
-    // written(): pixel value of a chart; told(): expected radiance.
+    // written(): pixel value of a chart; expected(): radiance.
     std::optional<glm::dvec3> written(Lamp lamp, const std::string& chart) const {
         const Shown& shown = *pictures_.at(lamp);
         if (shown.picture.empty()) return {};
@@ -115,8 +115,8 @@ private:
         const std::optional<glm::dvec3> value = written(lamp, chart);
         return value ? std::optional(response_->radiance(*value)) : std::nullopt;
     }
-    glm::dvec3 told(Lamp lamp, const std::string& chart) const {
-        const ChartTruth& truth = pictures_.at(lamp)->truth;
+    glm::dvec3 expected(Lamp lamp, const std::string& chart) const {
+        const ChartReference& truth = pictures_.at(lamp)->truth;
         return shownBy(truth.ids, idOf(chart), truth.lit, Placement()).value_or(glm::dvec3(0));
     }
 
@@ -147,14 +147,14 @@ private:
             say("aspect", fmt::format("pixels are {:.3g} times as wide as high", aspect));
         if (std::abs(found->shift.x) > named_shift || std::abs(found->shift.y) > named_shift) {
             // Corrections apply to the projection, so a flip of the image reverses the shift.
-            const auto grant = [](double shift, bool turned) {
+            const auto correction = [](double shift, bool turned) {
                 return std::round(-100 * (turned ? -shift : shift)) / 100;
             };
-            Grant by = Grant::object();
+            Correction by = Correction::object();
             if (std::abs(found->shift.x) > named_shift)
-                by["shift_x"] = grant(found->shift.x, found->mirrored);
+                by["shift_x"] = correction(found->shift.x, found->mirrored);
             if (std::abs(found->shift.y) > named_shift)
-                by["shift_y"] = grant(found->shift.y, found->upside_down);
+                by["shift_y"] = correction(found->shift.y, found->upside_down);
             say("shift",
                 fmt::format("the picture is {:.2f} pixels too far right and {:.2f} too far down",
                             found->shift.x, found->shift.y),
@@ -209,14 +209,14 @@ private:
         // Uses the first lamp that lights the neighbouring white face.
         for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot}) {
             const auto white = radiance(lamp, "white"), data = radiance(lamp, "data texture");
-            const double white_told = luminous(told(lamp, "white"));
-            if (!white || !data || luminous(*white) < named_dark * white_told) continue;
+            const double white_expected = luminous(expected(lamp, "white"));
+            if (!white || !data || luminous(*white) < named_dark * white_expected) continue;
             // The metal's reflectance does not depend on how the texture is decoded.
             const double metallic = 128.0 / 255, other = linearFromSrgb(metallic);
-            const double as_told = luminous(told(lamp, "data texture")) / white_told;
-            const double metal = (as_told - (1 - metallic)) / metallic;
+            const double expected_ratio = luminous(expected(lamp, "data texture")) / white_expected;
+            const double metal = (expected_ratio - (1 - metallic)) / metallic;
             // The ground truth includes the distance of near lamps for both faces.
-            const std::array candidates{as_told, 1 - other + other * metal};
+            const std::array candidates{expected_ratio, 1 - other + other * metal};
             if (nearest(luminous(*data) / luminous(*white), candidates) == 1)
                 say("data_textures_srgb", "data textures are decoded from sRGB; they are linear");
             break;
@@ -237,7 +237,7 @@ private:
     // White face under a lamp: measured over expected radiance.
     std::optional<double> partOf(Lamp lamp) const {
         const auto shown = radiance(lamp, "white");
-        return shown ? std::optional(luminous(*shown) / luminous(told(lamp, "white"))) : std::nullopt;
+        return shown ? std::optional(luminous(*shown) / luminous(expected(lamp, "white"))) : std::nullopt;
     }
 
     void findLamps() {
@@ -338,7 +338,7 @@ Settings chartSettings(Lamp lamp) {
     return settings;
 }
 
-ChartTruth truthUnder(const Scene& charts, Lamp lamp) {
+ChartReference referenceUnder(const Scene& charts, Lamp lamp) {
     Settings settings = chartSettings(lamp);
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;

@@ -30,15 +30,15 @@ Scene chartsUnder(const Scene& charts, Lamp lamp);
 Settings chartSettings(Lamp lamp);
 
 // Expected lit and material_id, by the reference. lit excludes the environment's light.
-struct ChartTruth {
+struct ChartReference {
     Image lit, ids;
 };
-ChartTruth truthUnder(const Scene& charts, Lamp lamp);
+ChartReference referenceUnder(const Scene& charts, Lamp lamp);
 
 // An image of the charts, or the reason for its absence.
 struct Shown {
     Lamp lamp = Lamp::none;
-    ChartTruth truth;
+    ChartReference truth;
     Image picture;  // empty: missing
     std::string problem{};
 };
@@ -50,10 +50,10 @@ struct Shown {
 //   a white face per light    light_factor, point_factor, ..., no_point_lights, ...
 //   five faces                environment_rotation, environment_mirrored, ldr_environment,
 //                             environment_factor, no_environment
-// `grant`: members of "granted" that correct it; empty if nothing does.
+// `correction`: members of "granted" that correct it; empty if nothing does.
 struct Deviation {
     std::string name, words;
-    nlohmann::ordered_json grant = nlohmann::ordered_json::object();
+    nlohmann::ordered_json correction = nlohmann::ordered_json::object();
 };
 
 // `pictures`: one per lamp, Lamp::none required. Detects deviations above 0.15 degrees of field of view,

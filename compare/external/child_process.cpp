@@ -123,10 +123,10 @@ struct Lifeline {
     std::optional<Descriptor> ours, supervisors;
 };
 
-// Keeps the last most_said bytes; returns the number of dropped ones.
+// Keeps the last largest_output bytes; returns the number of dropped ones.
 std::size_t addToEnd(std::string& text, std::string_view more) {
     text.append(more);
-    const std::size_t over = text.size() - std::min(text.size(), most_said);
+    const std::size_t over = text.size() - std::min(text.size(), largest_output);
     text.erase(0, over);
     return over;
 }
@@ -140,13 +140,13 @@ bool readInto(Ended& ended, const Pipe& pipe, bool error) {
         if (count < 0) return errno == EAGAIN;
         if (count == 0) return false;
         const std::string_view more(bytes, static_cast<std::size_t>(count));
-        ended.unsaid += addToEnd(ended.said, more);
+        ended.omitted += addToEnd(ended.output, more);
         if (error) addToEnd(ended.warned, more);
     }
 }
 
 // The supervisor's report.
-struct Told {
+struct Outcome {
     int failed = 0;  // errno of a failed start
     int status = 0;  // of waitpid()
 };
@@ -209,22 +209,22 @@ void keepOnly(int& lifeline, int& report) {
     ::signal(SIGCHLD, SIG_DFL);
     ::prctl(PR_SET_NAME, "diptych-run");
     ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-    Told told;
+    Outcome outcome;
     pid_t process = 0;
-    told.failed = plan.start(process);
+    outcome.failed = plan.start(process);
     keepOnly(lifeline, report);
-    if (told.failed == 0) {
+    if (outcome.failed == 0) {
         pollfd watched[2] = {{handleOf(process), POLLIN, 0}, {lifeline, POLLIN, 0}};
-        if (watched[0].fd < 0) told.failed = errno;
-        while (told.failed == 0 && ::poll(watched, 2, -1) < 0 && errno == EINTR) {
+        if (watched[0].fd < 0) outcome.failed = errno;
+        while (outcome.failed == 0 && ::poll(watched, 2, -1) < 0 && errno == EINTR) {
         }
         // Before waitpid(): until then the group's number cannot be reused.
         ::kill(-process, SIGKILL);
-        ::waitpid(process, &told.status, 0);
+        ::waitpid(process, &outcome.status, 0);
         killAllBelow();
     }
-    const ssize_t written = ::write(report, &told, sizeof told);
-    ::_exit(written == sizeof told ? 0 : 1);
+    const ssize_t written = ::write(report, &outcome, sizeof outcome);
+    ::_exit(written == sizeof outcome ? 0 : 1);
 }
 
 // Reads output until the supervisor ends or the time is over. The end of the output is no criterion: a
@@ -272,15 +272,15 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
         }
         check(failed, "pidfd_open");
     }
-    Told told{0, SIGKILL};  // if the supervisor was killed
-    const ssize_t count = ::read(report.output->number(), &told, sizeof told);
-    if (count == sizeof told && told.failed != 0)
+    Outcome outcome{0, SIGKILL};  // if the supervisor was killed
+    const ssize_t count = ::read(report.output->number(), &outcome, sizeof outcome);
+    if (count == sizeof outcome && outcome.failed != 0)
         throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
-                                             oneLine(folder.string()), std::strerror(told.failed)));
+                                             oneLine(folder.string()), std::strerror(outcome.failed)));
     readInto(ended, output, false);
     readInto(ended, error, true);
-    if (WIFEXITED(told.status)) ended.code = WEXITSTATUS(told.status);
-    if (WIFSIGNALED(told.status)) ended.signal = WTERMSIG(told.status);
+    if (WIFEXITED(outcome.status)) ended.code = WEXITSTATUS(outcome.status);
+    if (WIFSIGNALED(outcome.status)) ended.signal = WTERMSIG(outcome.status);
     ended.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return ended;
 }

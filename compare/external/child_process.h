@@ -14,16 +14,16 @@ struct Ended {
     int code = -1;           // exit code; -1: ended by a signal
     int signal = 0;          // that signal; 0: none
     bool timed_out = false;  // exceeded its time and was killed
-    // The last bytes of stdout and stderr, at most most_said, unmodified; and the number of bytes before
+    // The last bytes of stdout and stderr, at most largest_output, unmodified; and the number of bytes before
     // them.
-    std::string said;
-    std::size_t unsaid = 0;
+    std::string output;
+    std::size_t omitted = 0;
     std::string warned;  // the last bytes of stderr
     double ms = 0;
 
     bool well() const { return code == 0 && !timed_out; }
 };
-inline constexpr std::size_t most_said = 16 * 1024;
+inline constexpr std::size_t largest_output = 16 * 1024;
 
 // Runs arguments[0], found in PATH if it has no slash, with `arguments`; no shell is involved. The working
 // directory is `folder`, stdin is empty. Kills everything that the program started, in any group or

@@ -80,16 +80,17 @@ void turnRound(Image& image, bool rows, bool columns) {
 }
 
 // Applies the input corrections to the pixels.
-void readAsGranted(Frame& frame, const Granted& granted) {
+void correctFrame(Frame& frame, const InputCorrections& corrections) {
     for (auto& [mode, image] : frame.channels) {
-        if (granted.upside_down || granted.mirrored) turnRound(image, granted.upside_down, granted.mirrored);
+        if (corrections.upside_down || corrections.mirrored)
+            turnRound(image, corrections.upside_down, corrections.mirrored);
         // Transfer curve and primaries apply to radiance only.
         if (mode != static_cast<int>(gpu::DEBUG_lit)) continue;
-        if (granted.transfer == Transfer::srgb)
+        if (corrections.transfer == Transfer::srgb)
             for (float& value : image.data)
                 value = static_cast<float>(linearFromSrgb(std::max(0.0, double{value})));
-        if (granted.primaries == Primaries::display_p3) convert(image, rec709_from_p3);
-        if (granted.primaries == Primaries::rec2020) convert(image, rec709_from_rec2020);
+        if (corrections.primaries == Primaries::display_p3) convert(image, rec709_from_p3);
+        if (corrections.primaries == Primaries::rec2020) convert(image, rec709_from_rec2020);
     }
 }
 
@@ -122,13 +123,14 @@ timespec writtenAt(const fs::path& file) {
 
 // How the renderer failed, and the last line of its output.
 std::string problemOf(const std::string& how, const Ended& ended) {
-    const std::vector<std::string> lines = linesOf(ended.said);
+    const std::vector<std::string> lines = linesOf(ended.output);
     return lines.empty() ? how : fmt::format("{}: {}", how, lines.back());
 }
 
 }  // namespace
 
-Frame readPicture(const fs::path& file, const fs::path& after, const Granted& granted, const Size& size) {
+Frame readPicture(const fs::path& file, const fs::path& after, const InputCorrections& corrections,
+                  const Size& size) {
     const timespec then = writtenAt(after), now = writtenAt(file);
     if (std::pair(now.tv_sec, now.tv_nsec) < std::pair(then.tv_sec, then.tv_nsec))
         throw std::runtime_error("its picture is older than its job");
@@ -147,7 +149,7 @@ Frame readPicture(const fs::path& file, const fs::path& after, const Granted& gr
                                              frame.settings.size.width, frame.settings.size.height,
                                              size.width, size.height));
     checkFinite(frame);
-    readAsGranted(frame, granted);
+    correctFrame(frame, corrections);
     return frame;
 }
 
@@ -163,10 +165,10 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
     Ended ended;
     try {
         ended = runProgram(argumentsOf(renderer, job), renderer.folder, renderer.timeout);
-        attempt.said = ended.said;
+        attempt.output = ended.output;
         if (const std::string how = howItEnded(ended, renderer.timeout); !how.empty())
             throw std::runtime_error(problemOf(how, ended));
-        Frame picture = readPicture(job.picture, job.file, renderer.granted, settings.size);
+        Frame picture = readPicture(job.picture, job.file, renderer.corrections, settings.size);
         Frame frame = describedFrame(scene, view, settings);
         frame.name = renderer.name;
         frame.settings.path = Path::reference;
@@ -175,7 +177,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         frame.origin.external = true;
         frame.origin.left_out = std::move(picture.origin.left_out);
         std::erase(frame.origin.left_out, "A");  // pixel coverage
-        frame.origin.granted = inWords(renderer.granted);
+        frame.origin.granted = inWords(renderer.corrections);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.granted)
             frame.notes.push_back(fmt::format("{}: correction {}", renderer.name, line));

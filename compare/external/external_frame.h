@@ -17,7 +17,7 @@ namespace diptych::external {
 struct Attempt {
     std::optional<Frame> frame;
     std::string problem;  // one line: "exited with 3: last line of output"
-    std::string said;     // end of the output, several lines
+    std::string output;   // end of the output, several lines
 };
 
 // Writes a job for the view into a temporary folder, runs the renderer and reads its image. The Frame has
@@ -28,9 +28,9 @@ struct Attempt {
 Attempt drawExternally(const Renderer& renderer, const Scene& scene, const SceneView& view,
                        const Settings& settings);
 
-// Reads the pixels of `file` and applies `granted`. Throws std::runtime_error, one line without the file's
-// name, if they do not match the request. `after`: a file written before the renderer started.
+// Reads the pixels of `file` and applies `corrections`. Throws std::runtime_error, one line without the
+// file's name, if they do not match the request. `after`: a file written before the renderer started.
 Frame readPicture(const std::filesystem::path& file, const std::filesystem::path& after,
-                  const Granted& granted, const Size& size);
+                  const InputCorrections& corrections, const Size& size);
 
 }  // namespace diptych::external

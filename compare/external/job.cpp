@@ -31,21 +31,21 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // The view with a corrected field of view.
-View toldView(const View& view, const Granted& granted) {
-    View told = view;
-    const double yfov = view.camera.yfov + glm::radians(granted.fov_offset);
-    told.camera.yfov = std::clamp(yfov, glm::radians(0.01), glm::radians(179.9));
-    return told;
+View passedView(const View& view, const InputCorrections& corrections) {
+    View passed = view;
+    const double yfov = view.camera.yfov + glm::radians(corrections.fov_offset);
+    passed.camera.yfov = std::clamp(yfov, glm::radians(0.01), glm::radians(179.9));
+    return passed;
 }
 
 // OpenGL clip space, as in glTF: y up, depth -1 at the near plane, 1 at the far plane.
-glm::dmat4 clipFromView(const View& view, const Granted& granted) {
+glm::dmat4 clipFromView(const View& view, const InputCorrections& corrections) {
     const Camera& camera = view.camera;
     const double aspect = static_cast<double>(view.width) / view.height;
     const double n = camera.near, f = camera.far;
     // A pixel is 2 / size in NDC. With perspective, w is the view depth, so the shift goes into the z
     // column.
-    const double x = 2 * granted.shift_x / view.width, y = -2 * granted.shift_y / view.height;
+    const double x = 2 * corrections.shift_x / view.width, y = -2 * corrections.shift_y / view.height;
     glm::dmat4 clip(0.0);
     if (camera.orthographic) {
         clip[0][0] = 1 / (camera.ymag * aspect);
@@ -69,7 +69,7 @@ glm::dmat4 viewFromWorld(const View& view) {
     return matrix;
 }
 
-Json cameraJson(const View& view, const Granted& granted) {
+Json cameraJson(const View& view, const InputCorrections& corrections) {
     Json json = jsonOf(cameraOf(view));
     json.erase("choice");
     json["projection"] = view.camera.orthographic ? "orthographic" : "perspective";
@@ -77,26 +77,26 @@ Json cameraJson(const View& view, const Granted& granted) {
     json["ymag"] = view.camera.orthographic ? Json(view.camera.ymag) : Json(nullptr);
     json["aspect"] = static_cast<double>(view.width) / view.height;
     json["view_from_world"] = listOf(viewFromWorld(view));
-    json["clip_from_view"] = listOf(clipFromView(view, granted));
+    json["clip_from_view"] = listOf(clipFromView(view, corrections));
     return json;
 }
 
-double factorOf(LightKind kind, const Granted& granted) {
+double factorOf(LightKind kind, const InputCorrections& corrections) {
     switch (kind) {
         case LightKind::point:
-            return granted.point_factor;
+            return corrections.point_factor;
         case LightKind::spot:
-            return granted.spot_factor;
+            return corrections.spot_factor;
         case LightKind::directional:
-            return granted.directional_factor;
+            return corrections.directional_factor;
         default:
-            return granted.area_factor;
+            return corrections.area_factor;
     }
 }
 
-std::vector<Light> toldLights(std::vector<Light> lights, const Granted& granted) {
+std::vector<Light> passedLights(std::vector<Light> lights, const InputCorrections& corrections) {
     for (Light& light : lights)
-        light.intensity = static_cast<float>(light.intensity * factorOf(light.kind, granted));
+        light.intensity = static_cast<float>(light.intensity * factorOf(light.kind, corrections));
     return lights;
 }
 
@@ -130,26 +130,26 @@ public:
           view_(view),
           settings_(settings),
           renderer_(renderer),
-          granted_(renderer.granted) {}
+          corrections_(renderer.corrections) {}
 
     Job write() {
         Job job;
         job.file = folder_ / "job.json";
         job.picture = folder_ / "picture.exr";
-        SceneView told = view_;
-        told.view = toldView(view_.view, granted_);
-        told.lights = toldLights(view_.lights, granted_);
+        SceneView passed = view_;
+        passed.view = passedView(view_.view, corrections_);
+        passed.lights = passedLights(view_.lights, corrections_);
         const Json json{{"schema", 1},
                         {"software", softwareName},
                         {"version", versionName()},
                         {"renderer", renderer_.name},
-                        {"scene", scene(told, job.notes)},
+                        {"scene", scene(passed, job.notes)},
                         {"time", settings_.time},
                         {"size", {settings_.size.width, settings_.size.height}},
                         {"samples", settings_.msaa},
-                        {"camera", cameraJson(told.view, granted_)},
-                        {"lights", lightsJson(told.lights)},
-                        {"rig", rig(told, job.notes)},
+                        {"camera", cameraJson(passed.view, corrections_)},
+                        {"lights", lightsJson(passed.lights)},
+                        {"rig", rig(passed, job.notes)},
                         {"environment", environment(view_.environment, "environment.exr")},
                         {"background", background()},
                         {"ambient", {settings_.ambient.r, settings_.ambient.g, settings_.ambient.b}},
@@ -169,18 +169,18 @@ public:
     }
 
 private:
-    Json scene(const SceneView& told, std::vector<std::string>& notes) const {
+    Json scene(const SceneView& passed, std::vector<std::string>& notes) const {
         const bool copied = renderer_.posed || !isFile(scene_.name);
         Json json{{"name", scene_.name},
                   {"file", copied ? (folder_ / "scene.glb").string() : fs::absolute(scene_.name).string()},
                   {"copy", copied},
                   {"animation", settings_.animation}};
-        if (copied) put("scene.glb", sceneGltf(scene_, told, settings_.skin_normals), "scene.glb", notes);
+        if (copied) put("scene.glb", sceneGltf(scene_, passed, settings_.skin_normals), "scene.glb", notes);
         return json;
     }
 
-    Json rig(const SceneView& told, std::vector<std::string>& notes) const {
-        put("rig.glb", rigGltf(told), "rig.glb", notes);
+    Json rig(const SceneView& passed, std::vector<std::string>& notes) const {
+        put("rig.glb", rigGltf(passed), "rig.glb", notes);
         return {{"file", (folder_ / "rig.glb").string()}};
     }
 
@@ -196,12 +196,12 @@ private:
     Json environment(const Environment* light, const char* name) const {
         if (!light) return nullptr;
         const fs::path file = folder_ / name;
-        const Image mirrored = granted_.environment_mirrored ? fromRightToLeft(light->radiance) : Image();
+        const Image mirrored = corrections_.environment_mirrored ? fromRightToLeft(light->radiance) : Image();
         writeExr(file, {{{"R", "G", "B"}, mirrored.empty() ? &light->radiance : &mirrored}});
         return {{"file", file.string()},
                 {"mapping", "lat-long"},
-                {"rotation_degrees", double{settings_.env_rotation} + granted_.environment_rotation},
-                {"intensity", double{settings_.ibl_intensity} * granted_.environment_factor}};
+                {"rotation_degrees", double{settings_.env_rotation} + corrections_.environment_rotation},
+                {"intensity", double{settings_.ibl_intensity} * corrections_.environment_factor}};
     }
 
     // Our images are 0 without a surface, and those pixels are not compared.
@@ -217,7 +217,7 @@ private:
     const SceneView& view_;
     const Settings& settings_;
     const Renderer& renderer_;
-    const Granted& granted_;
+    const InputCorrections& corrections_;
 };
 
 }  // namespace

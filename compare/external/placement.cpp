@@ -122,19 +122,19 @@ std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& pic
 
 std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks,
                                        const Image& picture) {
-    std::vector<Mark> told;
+    std::vector<Mark> expected;
     for (const int material : marks)
-        if (const std::optional<Mark> mark = markOf(ids, material)) told.push_back(*mark);
+        if (const std::optional<Mark> mark = markOf(ids, material)) expected.push_back(*mark);
     std::optional<Placement> best;
     constexpr double step = 1.02;  // scale step: 4 pixels at the edge of a 400 pixel image
     for (const bool upside_down : {false, true})
         for (const bool mirrored : {false, true})
             for (double scale = 0.5; scale < 2.05; scale *= step) {
                 Placement guess{upside_down, mirrored, glm::dvec2(scale), glm::dvec2(0), 0};
-                std::optional<Placement> found = fitted(told, picture, guess);
+                std::optional<Placement> found = fitted(expected, picture, guess);
                 if (found)
-                    found = fitted(told, picture, *found);  // search windows around the refined
-                                                            // positions
+                    found = fitted(expected, picture, *found);  // search windows around the refined
+                                                                // positions
                 if (found && (!best || found->residual < best->residual)) best = found;
             }
     constexpr double most = 1;  // pixels; squares sampled at pixel centres have an error of 0.1

@@ -19,9 +19,9 @@ struct Placement {
     glm::dvec2 scale{1}, shift{0};
     double residual = 0;  // RMS of the marks' position errors, pixels
 
-    glm::dvec2 operator()(const glm::dvec2& told) const {
-        return {(mirrored ? -told.x : told.x) * scale.x + shift.x,
-                (upside_down ? -told.y : told.y) * scale.y + shift.y};
+    glm::dvec2 operator()(const glm::dvec2& expected) const {
+        return {(mirrored ? -expected.x : expected.x) * scale.x + shift.x,
+                (upside_down ? -expected.y : expected.y) * scale.y + shift.y};
     }
 };
 

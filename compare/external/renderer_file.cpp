@@ -33,40 +33,40 @@ std::string_view wordOf(const std::pair<std::string_view, E> (&names)[N], E valu
 }
 
 // Input corrections: numbers and flags.
-struct NumberGrant {
+struct NumberCorrection {
     std::string_view name;
-    double Granted::*value;
+    double InputCorrections::*value;
     double neutral, least, most;
     std::string_view words;  // {}: the number
 };
 constexpr double largest_factor = 1e6;
-constexpr NumberGrant numbers[] = {
-    {"point_factor", &Granted::point_factor, 1, 0, largest_factor,
+constexpr NumberCorrection numbers[] = {
+    {"point_factor", &InputCorrections::point_factor, 1, 0, largest_factor,
      "it receives point lights {} times as bright"},
-    {"spot_factor", &Granted::spot_factor, 1, 0, largest_factor,
+    {"spot_factor", &InputCorrections::spot_factor, 1, 0, largest_factor,
      "it receives spot lights {} times as bright"},
-    {"directional_factor", &Granted::directional_factor, 1, 0, largest_factor,
+    {"directional_factor", &InputCorrections::directional_factor, 1, 0, largest_factor,
      "it receives directional lights {} times as bright"},
-    {"area_factor", &Granted::area_factor, 1, 0, largest_factor,
+    {"area_factor", &InputCorrections::area_factor, 1, 0, largest_factor,
      "it receives area lights {} times as bright"},
-    {"environment_factor", &Granted::environment_factor, 1, 0, largest_factor,
+    {"environment_factor", &InputCorrections::environment_factor, 1, 0, largest_factor,
      "it receives an environment {} times as bright"},
-    {"environment_rotation", &Granted::environment_rotation, 0, -360, 360,
+    {"environment_rotation", &InputCorrections::environment_rotation, 0, -360, 360,
      "it receives an environment rotated by {} degrees more"},
-    {"fov_offset", &Granted::fov_offset, 0, -90, 90, "it receives a field of view {} degrees wider"},
-    {"shift_x", &Granted::shift_x, 0, -1e3, 1e3, "it receives a projection {} pixels further right"},
-    {"shift_y", &Granted::shift_y, 0, -1e3, 1e3, "it receives a projection {} pixels further down"}};
+    {"fov_offset", &InputCorrections::fov_offset, 0, -90, 90, "it receives a field of view {} degrees wider"},
+    {"shift_x", &InputCorrections::shift_x, 0, -1e3, 1e3, "it receives a projection {} pixels further right"},
+    {"shift_y", &InputCorrections::shift_y, 0, -1e3, 1e3, "it receives a projection {} pixels further down"}};
 
-struct FlagGrant {
+struct FlagCorrection {
     std::string_view name;
-    bool Granted::*value;
+    bool InputCorrections::*value;
     std::string_view words;
 };
-constexpr FlagGrant flags[] = {
-    {"environment_mirrored", &Granted::environment_mirrored,
+constexpr FlagCorrection flags[] = {
+    {"environment_mirrored", &InputCorrections::environment_mirrored,
      "it receives the environment mirrored, left for right"},
-    {"upside_down", &Granted::upside_down, "its picture is read from the bottom up"},
-    {"mirrored", &Granted::mirrored, "its picture is read from right to left"}};
+    {"upside_down", &InputCorrections::upside_down, "its picture is read from the bottom up"},
+    {"mirrored", &InputCorrections::mirrored, "its picture is read from right to left"}};
 
 constexpr std::string_view light_factor = "light_factor";  // for all light types
 
@@ -81,19 +81,19 @@ E oneOf(const JsonFields& fields, std::string_view key, const std::pair<std::str
     fields.fail(key, fmt::format("\"{}\" is not one of {}", oneLine(word), fmt::join(all, ", ")));
 }
 
-Granted grantedIn(const nlohmann::json& object, const std::string& who) {
+InputCorrections correctionsIn(const nlohmann::json& object, const std::string& who) {
     const JsonFields fields(object, who);
-    fields.knownOnly(grantNames(), "granted");
-    Granted granted;
+    fields.knownOnly(correctionNames(), "granted");
+    InputCorrections corrections;
     const double all = fields.number(light_factor, 1, 0, largest_factor);
-    for (const NumberGrant& row : numbers) {
+    for (const NumberCorrection& row : numbers) {
         const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
-        granted.*row.value = fields.number(row.name, ofLights ? all : row.neutral, row.least, row.most);
+        corrections.*row.value = fields.number(row.name, ofLights ? all : row.neutral, row.least, row.most);
     }
-    for (const FlagGrant& row : flags) granted.*row.value = fields.flag(row.name, false);
-    granted.transfer = oneOf(fields, "transfer", transfers);
-    granted.primaries = oneOf(fields, "primaries", primaries_names);
-    return granted;
+    for (const FlagCorrection& row : flags) corrections.*row.value = fields.flag(row.name, false);
+    corrections.transfer = oneOf(fields, "transfer", transfers);
+    corrections.primaries = oneOf(fields, "primaries", primaries_names);
+    return corrections;
 }
 
 std::vector<std::string> commandIn(const JsonFields& fields) {
@@ -131,35 +131,35 @@ void checkName(const std::string& name, const std::string& words) {
 
 }  // namespace
 
-std::vector<std::string> inWords(const Granted& granted) {
+std::vector<std::string> inWords(const InputCorrections& corrections) {
     std::vector<std::string> lines;
-    const auto& g = granted;
+    const auto& g = corrections;
     const bool alike = g.point_factor == g.spot_factor && g.point_factor == g.directional_factor &&
                        g.point_factor == g.area_factor;
     if (alike && g.point_factor != 1)
         lines.push_back(
             fmt::format("{0} {1}: it receives all lights {1} times as bright", light_factor, g.point_factor));
-    for (const NumberGrant& row : numbers) {
+    for (const NumberCorrection& row : numbers) {
         const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
-        if (granted.*row.value != row.neutral && !(alike && ofLights))
-            lines.push_back(fmt::format("{} {}: {}", row.name, granted.*row.value,
-                                        fmt::format(fmt::runtime(row.words), granted.*row.value)));
+        if (corrections.*row.value != row.neutral && !(alike && ofLights))
+            lines.push_back(fmt::format("{} {}: {}", row.name, corrections.*row.value,
+                                        fmt::format(fmt::runtime(row.words), corrections.*row.value)));
     }
-    for (const FlagGrant& row : flags)
-        if (granted.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.words));
-    if (granted.transfer != Transfer::linear)
+    for (const FlagCorrection& row : flags)
+        if (corrections.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.words));
+    if (corrections.transfer != Transfer::linear)
         lines.push_back(fmt::format("transfer {}: its pixels are decoded from this curve",
-                                    wordOf(transfers, granted.transfer)));
-    if (granted.primaries != Primaries::rec709)
+                                    wordOf(transfers, corrections.transfer)));
+    if (corrections.primaries != Primaries::rec709)
         lines.push_back(fmt::format("primaries {}: its pixels are converted from these",
-                                    wordOf(primaries_names, granted.primaries)));
+                                    wordOf(primaries_names, corrections.primaries)));
     return lines;
 }
 
-std::vector<std::string_view> grantNames() {
+std::vector<std::string_view> correctionNames() {
     std::vector<std::string_view> names{light_factor};
-    for (const NumberGrant& row : numbers) names.push_back(row.name);
-    for (const FlagGrant& row : flags) names.push_back(row.name);
+    for (const NumberCorrection& row : numbers) names.push_back(row.name);
+    for (const FlagCorrection& row : flags) names.push_back(row.name);
     names.insert(names.end(), {"transfer", "primaries"});
     return names;
 }
@@ -183,8 +183,8 @@ Renderer readRendererFile(const std::filesystem::path& file) {
         if (!(renderer.timeout > 0)) fields.fail("timeout", "must be above 0 s");
         constexpr std::pair<std::string_view, bool> scenes[] = {{"file", false}, {"copy", true}};
         renderer.posed = oneOf(fields, "scene", scenes);
-        if (const nlohmann::json* granted = fields.find("granted"))
-            renderer.granted = grantedIn(*granted, "granted");
+        if (const nlohmann::json* corrections = fields.find("granted"))
+            renderer.corrections = correctionsIn(*corrections, "granted");
         return renderer;
     });
 }

@@ -15,7 +15,7 @@ enum class Primaries { rec709, display_p3, rec2020 };
 
 // Corrections for a renderer that interprets its inputs differently. "Sent" corrections change the job,
 // "read" corrections change its image. Neutral by default.
-struct Granted {
+struct InputCorrections {
     // Sent: factors on the intensity of lights by type, and on the environment's radiance.
     double point_factor = 1, spot_factor = 1, directional_factor = 1, area_factor = 1, environment_factor = 1;
     double environment_rotation = 0;    // sent: additional degrees, as in --env-rotation
@@ -29,10 +29,10 @@ struct Granted {
 };
 
 // One sentence per correction, for reports: "light_factor 2: ...".
-std::vector<std::string> inWords(const Granted& granted);
+std::vector<std::string> inWords(const InputCorrections& corrections);
 
 // Allowed keys of "granted".
-std::vector<std::string_view> grantNames();
+std::vector<std::string_view> correctionNames();
 
 struct Renderer {
     std::string name;                  // NAME of --renderer NAME=FILE.json
@@ -41,7 +41,7 @@ struct Renderer {
     std::vector<std::string> command;  // argument list, not empty
     double timeout = 60;               // s, per image
     bool posed = false;                // always send a posed copy of the scene
-    Granted granted;
+    InputCorrections corrections;
 };
 
 // Parses "NAME=FILE.json". A name has letters, digits, "-", "_" and dots, and is not reserved by reports.

@@ -42,14 +42,14 @@ Response::Response(std::vector<RampStep> ramp) {
         if (step.shown > 1e-9 && (ramp_.empty() || step.shown > 1.02 * ramp_.back().shown))
             ramp_.push_back(step);
     if (ramp_.size() < 2) return;
-    if (ramp.back().shown <= 1.02 * ramp_.back().shown && ramp_.back().told < ramp.back().told)
-        cut_off_ = ramp_.back().told;
+    if (ramp.back().shown <= 1.02 * ramp_.back().shown && ramp_.back().expected < ramp.back().expected)
+        cut_off_ = ramp_.back().expected;
     // The step at the limit is clipped already.
     const std::span<const RampStep> sound(ramp_.data(), ramp_.size() - (cut_off_ ? 1 : 0));
     const auto fits = [&](const auto& decoded, std::size_t most_steps) {
         std::vector<double> logs;
         for (const RampStep& step : sound.first(std::min(most_steps, sound.size())))
-            logs.push_back(std::log(decoded(step.shown) / step.told));
+            logs.push_back(std::log(decoded(step.shown) / step.expected));
         const double middle = medianOf(logs);
         if (!std::ranges::all_of(logs, [&](double log) { return std::abs(log - middle) < most_off; }))
             return false;
@@ -76,13 +76,14 @@ double Response::straight(double shown) const {
     next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
     const RampStep &a = *(next - 1), &b = *next;
     const double share = std::log(shown / a.shown) / std::log(b.shown / a.shown);
-    return a.told * std::pow(b.told / a.told, share);
+    return a.expected * std::pow(b.expected / a.expected, share);
 }
 
-void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double told) {
+void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double expected) {
     glm::dmat3 measured(0.0);
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) measured[c][r] = straight(columns[static_cast<std::size_t>(c)][r]) / told;
+        for (int r = 0; r < 3; ++r)
+            measured[c][r] = straight(columns[static_cast<std::size_t>(c)][r]) / expected;
     primaries_.reset();
     double least = 0.06;
     const std::array candidates{std::pair{Primaries::rec709, glm::dmat3(1.0)},

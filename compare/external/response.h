@@ -15,7 +15,7 @@
 namespace diptych::external {
 
 struct RampStep {
-    double told = 0, shown = 0;  // radiance, W/(sr m^2), and pixel value
+    double expected = 0, shown = 0;  // radiance, W/(sr m^2), and pixel value
 };
 
 enum class CurveKind { linear, srgb, tone };
@@ -31,8 +31,8 @@ public:
     double exposure() const { return exposure_; }                // on all radiance; 1 for a tone curve
     std::optional<double> cutOffAt() const { return cut_off_; }  // greater radiance is clipped
 
-    // `columns[c]`: pixel value of an emitter with radiance `told` in component c only.
-    void measurePrimaries(const std::array<glm::dvec3, 3>& columns, double told);
+    // `columns[c]`: pixel value of an emitter with radiance `expected` in component c only.
+    void measurePrimaries(const std::array<glm::dvec3, 3>& columns, double expected);
     // Empty if the primaries are unknown.
     std::optional<Primaries> primaries() const { return primaries_; }
 

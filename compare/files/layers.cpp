@@ -244,7 +244,7 @@ std::string list(const std::vector<PictureChannel>& channels) {
 
 // Moves distinct integers that round to the same float32 to neighbouring floats. The difference then
 // shows, though not its exact size.
-void tellApart(const PictureChannel& a, PictureChannel& b) {
+void keepDistinct(const PictureChannel& a, PictureChannel& b) {
     if (a.exact.empty() && b.exact.empty()) return;
     const auto valueAt = [](const PictureChannel& c, std::size_t i) {
         return c.exact.empty() ? double{c.image.data[i]} : static_cast<double>(c.exact[i]);
@@ -406,7 +406,7 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         if (a.type != b->type)
             matched.notes.push_back(
                 fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));
-        tellApart(a, *b);
+        keepDistinct(a, *b);
         const Metric metric = metricOf(a.name, a);
         const auto stored = [](PictureChannel& c) {
             return StoredPicture{std::move(c.image), std::move(c.coded), c.components()};

@@ -37,11 +37,11 @@ std::uint8_t srgbByte(float linear) {
 }
 
 bool isRadiance(const DebugMode& mode) {
-    if (mode.shown != Shown::usual) return mode.shown == Shown::radiance;
+    if (mode.shown != Shown::by_metric) return mode.shown == Shown::radiance;
     return mode.kind == ChannelKind::color && mode.metric == Metric::relative;
 }
 bool isNormalised(const DebugMode& mode) {
-    if (mode.shown != Shown::usual) return mode.shown == Shown::normalised;
+    if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;
     return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position ||
            mode.number == gpu::DEBUG_shaded_samples || isHeat(mode);
 }
@@ -95,7 +95,7 @@ Image8 blank(const Image& like) {
 }  // namespace
 
 bool isHeat(const DebugMode& mode) {
-    return mode.shown == Shown::usual && mode.number == gpu::DEBUG_light_count;
+    return mode.shown == Shown::by_metric && mode.number == gpu::DEBUG_light_count;
 }
 
 double srgbFromLinear(double linear) {
@@ -171,7 +171,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
         if (mode.number == gpu::DEBUG_shaded_samples)
             return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
         const std::string range =
-            fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
+            fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::by_metric ? " m" : "");
         if (low == high) high = low + 1;
         return {low, high, exposure, (mode.width == 1 ? "grey, " : "x, y, z as red, green, blue, ") + range};
     }

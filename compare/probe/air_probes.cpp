@@ -138,7 +138,7 @@ Probe hazeProbe() {
         put(sun, in + 4);
         const double g = line.uniform(0, 0.95);
         in[11] = static_cast<float>((1 - g) * (1 - g)), in[15] = static_cast<float>(g);
-        put(line.coin() ? randomDirection(line) : turnedTo(sun, atAngle(line, line.logarithmic(1e-6, 1))),
+        put(line.coin() ? randomDirection(line) : rotatedTo(sun, atAngle(line, line.logarithmic(1e-6, 1))),
             in + 20);
         in[23] = static_cast<float>(1e-3 * std::exp2(static_cast<double>(row % 64) * 36.5 / 63));
     };

@@ -53,7 +53,7 @@ Probe distribution() {
         const double angle = random.coin() ? random.uniform(0, 0.5 * std::numbers::pi)
                                            : random.logarithmic(1e-7, 0.5 * std::numbers::pi);
         put(n, in + 1);
-        put(turnedTo(n, atAngle(random, angle)) * random.logarithmic(1e-3, 2), in + 4);
+        put(rotatedTo(n, atAngle(random, angle)) * random.logarithmic(1e-3, 2), in + 4);
     };
     p.definition = [](const float* in, double* out) {
         const Vec<double> n = unit(exactVec(in + 1)), h = unit(exactVec(in + 4));
@@ -115,8 +115,8 @@ void makeLobeRow(Random& random, double lowest, float* in) {
     const Vec<double> sum = v + l;
     if (length(sum) < 1e-3) l = v;
     put(n, in + 1);
-    put(turnedTo(n, v), in + 4);
-    put(turnedTo(n, l), in + 7);
+    put(rotatedTo(n, v), in + 4);
+    put(rotatedTo(n, l), in + 7);
 }
 
 const char* const lobe_operations = "rounding in makeBrdf(), ggxDenominator() and specularLobe()";

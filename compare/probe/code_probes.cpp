@@ -89,7 +89,7 @@ Probe octahedralProbe(std::uint32_t bits) {
         const N top(static_cast<float>(topOfCoordinate(bits))), half(0.5f);
         out[0] = floorOf(least(most(q0, -one), one) * top + half);
         out[1] = floorOf(least(most(q1, -one), one) * top + half);
-        // Decoded as in decodedProbe(); this only generates a sloppy device's result.
+        // Decoded as in decodedProbe(); this only generates an inexact device's result.
         const N x = out[0] * (one / top), y = out[1] * (one / top), z = one - size(x) - size(y);
         const auto under = isLess(z, N(0.0f));
         const N x2 = chosen(under, wrap(x, y), x), y2 = chosen(under, wrap(y, x), y);

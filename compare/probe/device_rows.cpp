@@ -49,7 +49,7 @@ std::vector<float> DeviceRows::run(const Probe& probe, const std::vector<float>&
         return out;
     }
     const OwnedPipeline pipeline =
-        makePipeline(siteOf(device_, layout_), moduleOf(probe.shader), valueOf(probe));
+        makePipeline(contextOf(device_, layout_), moduleOf(probe.shader), valueOf(probe));
     const GpuBuffer from(device_, "probe inputs", in.size() * sizeof(float),
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::upload);
     const GpuBuffer to(device_, "probe outputs", out.size() * sizeof(float),

@@ -110,7 +110,7 @@ Probe spotProbe() {
         const double inner = outer + (1 - outer) * random.logarithmic(1e-4, 1);
         const double angle = random.coin() ? std::acos(random.uniform(outer, inner)) : random.uniform(0, 1.6);
         // The vector to the light is opposite to the light's direction.
-        put(turnedTo(axis * -1.0, atAngle(random, angle)) * distance, in);
+        put(rotatedTo(axis * -1.0, atAngle(random, angle)) * distance, in);
         in[3] = randomRange(random, distance);
         put(axis, in + 4);
         in[7] = static_cast<float>(1 / std::max(0.001, inner - outer));

@@ -86,7 +86,7 @@ Probe edgeProbe() {
         const Vec<double> from = randomDirection(random);
         const double apart = random.coin() ? random.uniform(0, 3.1) : random.logarithmic(1e-5, 3.1);
         put(from * random.logarithmic(1e-6, 1e6), in);
-        put(turnedTo(from, atAngle(random, apart)) * random.logarithmic(1e-6, 1e6), in + 3);
+        put(rotatedTo(from, atAngle(random, apart)) * random.logarithmic(1e-6, 1e6), in + 3);
     };
     p.definition = [](const float* in, double* out) {
         const Vec<double> e = edgeByDefinition(exactVec(in), exactVec(in + 3));
@@ -173,8 +173,8 @@ Probe parallelogramProbe(bool plain) {
         const Vec<double> normal = randomDirection(random);
         // Smaller lights are nearly points: 128 times their size away.
         const double least_side = std::max(0.01, distance * 0.05);
-        Vec<double> x = turnedTo(normal, {1, 0, 0}) * random.logarithmic(least_side, 10);
-        const Vec<double> y = turnedTo(normal, {0, 1, 0}) * random.logarithmic(least_side, 10);
+        Vec<double> x = rotatedTo(normal, {1, 0, 0}) * random.logarithmic(least_side, 10);
+        const Vec<double> y = rotatedTo(normal, {0, 1, 0}) * random.logarithmic(least_side, 10);
         // cross(x, y) points away from the surface.
         if (dot(cross(x, y), c) < 0) x = x * -1.0;
         // A light whose plane contains the surface is not tested.

@@ -86,8 +86,8 @@ Probe positionProbe(bool perspective) {
                      height = std::floor(random.logarithmic(1, 16384));
         const double step =
             (perspective ? std::tan(random.uniform(0.01, 1.4)) : random.logarithmic(0.1, 1e4)) / height;
-        const Vec<double> z = randomDirection(random), x = turnedTo(z, {1, 0, 0}), y = turnedTo(z, {0, 1, 0}),
-                          none{0, 0, 0};
+        const Vec<double> z = randomDirection(random), x = rotatedTo(z, {1, 0, 0}),
+                          y = rotatedTo(z, {0, 1, 0}), none{0, 0, 0};
         const Vec<double> corner = x * (-0.5 * width * step) + y * (-0.5 * height * step);
         put(perspective ? z + corner : z, in + 5);
         put(perspective ? x * step : none, in + 8);

@@ -3,9 +3,9 @@
 // with a definition in double precision.
 #pragma once
 
+#include "compare/probe/inexact.h"
 #include "compare/probe/interval.h"
 #include "compare/probe/random.h"
-#include "compare/probe/sloppy.h"
 #include "compare/probe/tally.h"
 
 #include <array>
@@ -44,7 +44,7 @@ struct Probe {
     // The allowed error of each output.
     std::function<void(const float* in, double* allowed)> allowance{};
     // Outputs of a device as inexact as Vulkan allows; for tests.
-    std::function<void(const float* in, float* out)> sloppy{};
+    std::function<void(const float* in, float* out)> inexact{};
     // The unit of an output's error; empty: the ULP of the expected value.
     std::function<double(const float* in, std::size_t output, double expected)> step{};
     // Judges a line of rows, instead of definition and allowance.
@@ -57,8 +57,8 @@ struct Probe {
     bool strict = false;
 };
 
-// Sets allowance and sloppy from the shader's operations, `sequence(const N* in, N* out)`, for N =
-// Interval and N = Sloppy. The interval contains both the device's and the exact result, so its width
+// Sets allowance and inexact from the shader's operations, `sequence(const N* in, N* out)`, for N =
+// Interval and N = Inexact. The interval contains both the device's and the exact result, so its width
 // limits their difference.
 template <class Sequence>
 void follow(Probe& probe, Sequence sequence) {
@@ -68,8 +68,8 @@ void follow(Probe& probe, Sequence sequence) {
         sequence(from.data(), to.data());
         for (std::size_t i = 0; i < m; ++i) allowed[i] = to[i].width();
     };
-    probe.sloppy = [sequence, n = probe.ins, m = probe.outs](const float* in, float* out) {
-        std::array<Sloppy, widest> from, to;
+    probe.inexact = [sequence, n = probe.ins, m = probe.outs](const float* in, float* out) {
+        std::array<Inexact, widest> from, to;
         for (std::size_t i = 0; i < n; ++i) from[i] = in[i];
         sequence(from.data(), to.data());
         for (std::size_t i = 0; i < m; ++i) out[i] = to[i].value;

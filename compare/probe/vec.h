@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Vectors of the number types of probes: Interval and Sloppy for a device's arithmetic, double for exact
+// Vectors of the number types of probes: Interval and Inexact for a device's arithmetic, double for exact
 // results.
 #pragma once
 
-#include "compare/probe/sloppy.h"
+#include "compare/probe/inexact.h"
 
 #include <cmath>
 
@@ -65,7 +65,7 @@ inline Vec<Interval> nearlyUnit(Vec<Interval> v) {
     };
     return {both(v.x), both(v.y), both(v.z)};
 }
-inline Vec<Sloppy> nearlyUnit(Vec<Sloppy> v) {
+inline Vec<Inexact> nearlyUnit(Vec<Inexact> v) {
     return v;
 }
 
@@ -84,7 +84,7 @@ inline void put(Vec<double> v, float* to) {
     to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z);
 }
 // Rotates the vector so that the z axis becomes `n`, unit.
-inline Vec<double> turnedTo(Vec<double> n, Vec<double> v) {
+inline Vec<double> rotatedTo(Vec<double> n, Vec<double> v) {
     const Vec<double> other = std::abs(n.x) < 0.5 ? Vec<double>{1, 0, 0} : Vec<double>{0, 1, 0};
     const Vec<double> x = unit(cross(other, n)), y = cross(n, x);
     return x * v.x + y * v.y + n * v.z;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/environment_costs.h"
 
+#include "compare/reference/adaptive_sampling.h"
 #include "compare/reference/ambient.h"
 #include "compare/reference/lobe_sampler.h"
-#include "compare/reference/until_confident.h"
 #include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
@@ -157,7 +157,7 @@ EnvironmentApproximation::Means EnvironmentApproximation::meansOf(const glm::dve
             const double u = random();
             turn = {u, random()};
         }
-    const Estimated means = untilConfident(
+    const Estimated means = sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
             ++samples;
             Reflected sum = value(lobe(evenly(index, turns[round][0])));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/lighting.h"
 
+#include "compare/reference/adaptive_sampling.h"
 #include "compare/reference/ambient.h"
 #include "compare/reference/lobe_sampler.h"
 #include "compare/reference/microsurface.h"
 #include "compare/reference/punctual.h"
-#include "compare/reference/until_confident.h"
 
 #include <glm/geometric.hpp>
 
@@ -120,7 +120,7 @@ private:
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
                    const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment, Multiscatter multiscatter, double environment_turned,
+                   bool shadowed_environment, Multiscatter multiscatter, double environment_rotation,
                    const Falloff& falloff)
     : ambient_(ambient),
       shadowed_environment_(shadowed_environment),
@@ -135,7 +135,7 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
         else
             punctual_.push_back({light, light.position - eye, casts});
     }
-    if (environment) environment_.emplace(*environment, environment_factor, environment_turned);
+    if (environment) environment_.emplace(*environment, environment_factor, environment_rotation);
     if (environment_ && environment_->black()) environment_.reset();
 }
 
@@ -247,7 +247,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
     // Few paths meet a second facet, so each may use few samples.
-    if (share > Between::leastShare) more = untilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
+    if (share > Between::leastShare) more = sampleUntilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
     if (walked > 0) {
         layer /= static_cast<double>(walked);
         sky /= static_cast<double>(walked);
@@ -291,7 +291,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     constexpr std::uint64_t pilot = 2;
     for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
     const bool mostly_visible = 2 * seen > pilot * places;
-    const Estimated estimated = untilConfident(
+    const Estimated estimated = sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
             return shaded.estimate(streamOf(seed, round), index, mostly_visible, ignored);
         },
@@ -323,7 +323,7 @@ Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visib
             const double u = random();
             turn = {u, random()};
         }
-    return untilConfident(
+    return sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
             const auto& turn = turns[round];
             Reflected sum = value(lobes(evenly(index, turn[0])));

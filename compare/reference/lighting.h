@@ -2,6 +2,7 @@
 // Evaluates every light at a surface, without culling, packing or light lists.
 #pragma once
 
+#include "compare/reference/adaptive_sampling.h"
 #include "compare/reference/area.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/environment.h"
@@ -11,7 +12,6 @@
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
 #include "compare/reference/surroundings.h"
-#include "compare/reference/until_confident.h"
 #include "shared/scene/model/scene.h"
 
 #include <cstdint>
@@ -59,7 +59,7 @@ public:
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
-             Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0,
+             Multiscatter multiscatter = Multiscatter::off, double environment_rotation = 0,
              const Falloff& falloff = {});
 
     // After these calls Shading has costs (unless Multiscatter::walk is used) or surroundings (if

@@ -106,7 +106,7 @@ std::uint64_t keyOf(const Request& request) {
         key.add(l.axis);
     }
     key.add(request.environment_factor);
-    key.add(request.environment_turned);
+    key.add(request.environment_rotation);
     key.add(request.ambient);
     key.add(request.multiscatter);
     key.add(request.base_layer);

@@ -7,7 +7,6 @@
 #include "compare/reference/haze.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
-#include "compare/reference/pace.h"
 #include "compare/reference/picture_key.h"
 #include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
@@ -15,6 +14,7 @@
 #include "compare/reference/resolve.h"
 #include "compare/reference/sampling.h"
 #include "compare/reference/shadow_edge.h"
+#include "compare/reference/time_estimate.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
@@ -185,7 +185,7 @@ public:
           materials_(request.scene, request.pose, geometry_),
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,
-                    request.environment_turned, request.falloff),
+                    request.environment_rotation, request.falloff),
           blends_(request.blended && blendsSomewhere(request)),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.air) haze_.emplace(*request.air, eye_);
@@ -198,7 +198,7 @@ public:
             if (isLocal(request.lights[caster])) locals_.push_back(&request.lights[caster]);
         if (request.residual && request.scene.environment)
             background_.emplace(*request.scene.environment, request.environment_factor,
-                                request.environment_turned);
+                                request.environment_rotation);
     }
 
     // The pixel of render() with light from the surface of Request::decoded in place of the captured one.
@@ -235,7 +235,8 @@ public:
         const auto shade = [&](std::span<const Light> lights, const Environment* environment,
                                const glm::dvec3& ambient, std::span<const std::size_t> casters) {
             return Lighting(lights, environment, request_.environment_factor, eye_, ambient, casters,
-                            request_.shadowed_environment, request_.multiscatter, request_.environment_turned,
+                            request_.shadowed_environment, request_.multiscatter,
+                            request_.environment_rotation,
                             request_.falloff)(standing->surface, visible, seedOf(x, y));
         };
         constexpr std::size_t first = 0;

@@ -32,8 +32,8 @@ struct Request {
     // Environment that lights instead of the scene's, which stays the background; nullptr: the scene's.
     const Environment* residual = nullptr;
     double environment_factor = 1;
-    double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
-    glm::dvec3 ambient{0};          // uniform radiance, W/(sr m^2); attenuated by occlusion
+    double environment_rotation = 0;  // about +Y, counter-clockwise seen from above, rad
+    glm::dvec3 ambient{0};            // uniform radiance, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
     BaseLayer base_layer = BaseLayer::max;
     SkinNormals skin_normals = SkinNormals::joints;

@@ -27,7 +27,7 @@ ViewRequest viewRequest(const Settings& settings) {
     request.animation = settings.animation;
     request.environment_sun = settings.env_sun;
     if (settings.env_sun) {  // else all rotations of the environment share one view
-        request.environment_turned = double{settings.env_rotation};
+        request.environment_rotation = double{settings.env_rotation};
         request.environment_factor = double{settings.ibl_intensity};
     }
     return request;

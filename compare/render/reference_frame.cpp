@@ -109,7 +109,7 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
             .lights = view.lights,
             .residual = view.environment == view.background ? nullptr : view.environment,
             .environment_factor = double{settings.ibl_intensity},
-            .environment_turned = glm::radians(double{settings.env_rotation}),
+            .environment_rotation = glm::radians(double{settings.env_rotation}),
             .ambient = doubles(settings.ambient),
             .multiscatter = settings.multiscatter,
             .base_layer = settings.base_layer,

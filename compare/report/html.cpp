@@ -33,7 +33,7 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
     std::string title =
         fmt::format("{} \u00b7 {}", inFolder(frame.scene, layout.folder), viewTitle(report, frame));
     // The pair distinguishes comparisons of one scene, camera and time.
-    if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
+    if (hasMultiplePairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }
 

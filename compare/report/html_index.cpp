@@ -50,7 +50,7 @@ std::string timeCell(double ms, bool timed) {
 // The title of a comparison among others of its scene.
 std::string rowTitle(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
-    if (!hasSeveralPairs(report)) return viewTitle(report, frame);
+    if (!hasMultiplePairs(report)) return viewTitle(report, frame);
     const std::string pair = pairTitle(report, comparison);
     return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
 }
@@ -155,7 +155,7 @@ std::string indexTable(const Report& report, const ReportLayout& layout, const R
     std::string lines;
     for (const std::size_t i : layout.order) lines += line(report, layout, texts, i);
     const Comparison& first = report.comparisons[0];
-    const bool pairs = hasSeveralPairs(report);
+    const bool pairs = hasMultiplePairs(report);
     const bool times = std::ranges::any_of(
         report.comparisons, [&](const Comparison& c) { return saysTime(report, report.baseline(c)); });
     std::vector<std::pair<std::string, bool>> columns{

@@ -11,7 +11,7 @@
 #include <numeric>
 
 namespace diptych {
-bool hasSeveralPairs(const Report& report) {
+bool hasMultiplePairs(const Report& report) {
     return !report.closer_paths.empty() || std::ranges::any_of(report.frames, [](const Frame& f) {
         return !f.origin.file.empty() || !f.origin.device.empty();
     });
@@ -183,7 +183,7 @@ std::string errorsText(const Report& report) {
 // placeOf(), and the pair if the place has several: "Box.glb b.exr/deferred".
 std::string pairPlaceOf(const Report& report, const Comparison& comparison) {
     const std::string place = placeOf(report, comparison);
-    if (!hasSeveralPairs(report)) return place;
+    if (!hasMultiplePairs(report)) return place;
     return fmt::format("{} {}/{}", place, report.baseline(comparison).name, report.test(comparison).name);
 }
 

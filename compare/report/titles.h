@@ -13,7 +13,7 @@ namespace diptych {
 
 // Whether one scene, camera and time has several comparisons: with an earlier Frame, the reference or
 // another device.
-bool hasSeveralPairs(const Report& report);
+bool hasMultiplePairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
 

@@ -28,10 +28,10 @@ std::string shellWord(const std::string& word) {
 std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
                                       const Settings& settings) {
     std::vector<std::string> words{command};
-    const Settings usual;
+    const Settings defaults;
     for (const Field& field : settingFields()) {
         const std::string value = settings.valueOf(field.option);
-        if (value == usual.valueOf(field.option) || (command == "compare" && field.option == "path"))
+        if (value == defaults.valueOf(field.option) || (command == "compare" && field.option == "path"))
             continue;
         const std::string option = "--" + std::string(field.option);
         if (value.starts_with('-'))

@@ -167,7 +167,7 @@ std::string skips(const Tradeoff& tradeoff) {
 }
 
 std::string how(const Tradeoff& tradeoff) {
-    const char* const visits =
+    const char* const blocks =
         tradeoff.runs > 1
             ? "Each row is timed in several blocks: one when it is drawn, more in later rounds over all rows "
               "in random order, six rows interleaved. A temporary disturbance of the device thus affects all "
@@ -177,7 +177,7 @@ std::string how(const Tradeoff& tradeoff) {
         "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, not "
         "split into passes, from culling to linear lit, with the scene already uploaded. One uncounted frame "
         "comes first. ";
-    out += visits;
+    out += blocks;
     out +=
         "; with several cameras, the mean over them. Pass times come from a separate, profiled "
         "run.</li><li>Errors are those of linear lit over the pixels that show a surface in the reference: "

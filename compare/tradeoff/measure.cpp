@@ -288,7 +288,7 @@ void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows, const Ref
         const std::vector<TimedFrame> times = renderer.time(seen, timing);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             rows[i]->drawing_ms += times[i].made_in_ms;
-            rows[i]->cameras[camera].visits.push_back(times[i].time);
+            rows[i]->cameras[camera].blocks.push_back(times[i].time);
         }
     }
 }

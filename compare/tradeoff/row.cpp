@@ -78,11 +78,11 @@ Json jsonOf(const FrameTime& time) {
 }
 
 Json jsonOf(const CameraRow& camera) {
-    Json visits = Json::array();
-    for (const FrameTime& visit : camera.visits) visits.push_back(jsonOf(visit));
+    Json blocks = Json::array();
+    for (const FrameTime& block : camera.blocks) blocks.push_back(jsonOf(block));
     return {{"camera", camera.camera},
             {"ms", jsonOf(timeOf(camera))},
-            {"visits", visits},
+            {"visits", blocks},
             {"passes", jsonOf(camera.passes)},
             {"bytes",
              {{"images", camera.bytes.images},
@@ -102,7 +102,7 @@ FrameTime timeFrom(const Place& json) {
 CameraRow cameraFrom(const Place& json) {
     CameraRow camera;
     camera.camera = json.at("camera").text();
-    for (const Place& visit : json.at("visits").each()) camera.visits.push_back(timeFrom(visit));
+    for (const Place& block : json.at("visits").each()) camera.blocks.push_back(timeFrom(block));
     for (const Place& pass : json.at("passes").each())
         camera.passes.push_back({pass.at("name").text(), pass.at("ms").number()});
     const auto counted = [](const Place& of, const char* name) {
@@ -120,15 +120,15 @@ CameraRow cameraFrom(const Place& json) {
 }  // namespace
 
 FrameTime timeOf(const CameraRow& camera) {
-    if (camera.visits.empty()) return {};
-    FrameTime time = camera.visits.front();
+    if (camera.blocks.empty()) return {};
+    FrameTime time = camera.blocks.front();
     time.median = 0;
     time.runs = 0;
-    for (const FrameTime& visit : camera.visits) {
-        time.median += visit.median / static_cast<double>(camera.visits.size());
-        time.min = std::min(time.min, visit.min);
-        time.max = std::max(time.max, visit.max);
-        time.runs += visit.runs;
+    for (const FrameTime& block : camera.blocks) {
+        time.median += block.median / static_cast<double>(camera.blocks.size());
+        time.min = std::min(time.min, block.min);
+        time.max = std::max(time.max, block.max);
+        time.runs += block.runs;
     }
     return time;
 }

@@ -29,7 +29,7 @@ using Errors = std::array<double, errorFigures.size()>;
 
 struct CameraRow {
     std::string camera;             // title: "default view"
-    std::vector<FrameTime> visits;  // one per timing block
+    std::vector<FrameTime> blocks;  // one per timing block
     std::vector<PassTime> passes;
     FrameBytes bytes;
     Errors errors{};

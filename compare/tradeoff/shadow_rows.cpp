@@ -24,8 +24,8 @@ void markBeaten(std::vector<ShadowRow>& rows, const Cost& cost, bool ShadowRow::
 
 std::string beatenIn(const ShadowRow& row) {
     std::vector<std::string> words;
-    if (row.beaten_in_time) words.emplace_back("time");
-    if (row.beaten_in_memory) words.emplace_back("memory");
+    if (row.dominated_in_time) words.emplace_back("time");
+    if (row.dominated_in_memory) words.emplace_back("memory");
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -60,10 +60,10 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
     if (std::ranges::none_of(rows, differs)) return {};
     std::ranges::stable_sort(rows, {}, [](const ShadowRow& row) { return row.errors.front(); });
     markBeaten(
-        rows, [](const ShadowRow& row) { return row.ms; }, &ShadowRow::beaten_in_time);
+        rows, [](const ShadowRow& row) { return row.ms; }, &ShadowRow::dominated_in_time);
     markBeaten(
         rows, [](const ShadowRow& row) { return static_cast<double>(row.bytes); },
-        &ShadowRow::beaten_in_memory);
+        &ShadowRow::dominated_in_memory);
     return rows;
 }
 

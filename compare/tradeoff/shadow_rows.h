@@ -12,7 +12,7 @@ struct ShadowRow {
     double ms = 0;            // per frame
     std::uint64_t bytes = 0;  // images and buffers of a frame
     // Dominated: another row has no more error and no more time (or memory), and less of one of them.
-    bool beaten_in_time = false, beaten_in_memory = false;
+    bool dominated_in_time = false, dominated_in_memory = false;
 };
 
 // By ascending error. Empty if the reference traced no shadow-casting sun, or if all rows have equal

@@ -10,7 +10,7 @@ namespace diptych::tradeoff {
 namespace {
 
 // A skip's reason without the tried value and the suggestion, so that it is equal for all values.
-// "--assign tiled is not built yet; use every" becomes "is not built yet".
+// "--msaa-edges all has no effect without --msaa 4; use exact" becomes "has no effect without --msaa 4".
 struct Cause {
     std::string reason, option, value;  // no option: the whole combination
 };

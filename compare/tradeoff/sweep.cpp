@@ -123,7 +123,7 @@ void addProduct(const Grid& grid, SweepBuilder& builder) {
 
 }  // namespace
 
-std::vector<Grid> usualGrids(const Settings& given) {
+std::vector<Grid> defaultGrids(const Settings& given) {
     std::vector<Settings> starts;
     addStarts(given, starts);
     // A grid with the start's values.
@@ -208,7 +208,7 @@ std::string inWords(const std::vector<Choice>& choices) {
     return words;
 }
 
-Settings truthFor(const Settings& given, const std::vector<Settings>& rows) {
+Settings referenceFor(const Settings& given, const std::vector<Settings>& rows) {
     const auto shadowed = [](const Settings& row) { return row.shadows != Shadows::off; };
     Settings truth = given;
     if (const auto row = std::ranges::find_if(rows, shadowed); !shadowed(given) && row != rows.end())

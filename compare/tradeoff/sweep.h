@@ -30,7 +30,7 @@ struct SweepRows {
 
 // Default grids without --grid. For each path, varies every Setting that it reads alone, and the pairs of
 // sweepPairs() together.
-std::vector<Grid> usualGrids(const Settings& given);
+std::vector<Grid> defaultGrids(const Settings& given);
 
 // Invalid and unsupported combinations become skips. So does a value that its path ignores; the row is
 // rendered without it. Throws std::runtime_error if no row is left or there are more than
@@ -45,12 +45,12 @@ SweepRows withoutRefused(SweepRows sweep, const Settings& given,
 
 // Settings of the reference: the given ones, with features of the rows. Shadows are on if any row has
 // them. Multiple scattering is the random walk if any row has it. Haze is ray marched if any row does so.
-Settings truthFor(const Settings& given, const std::vector<Settings>& rows);
+Settings referenceFor(const Settings& given, const std::vector<Settings>& rows);
 
 // Skips with one reason: values per option, or combinations, as text.
 struct SkipGroup {
     std::string reason;
-    std::vector<std::string> tried;  // "assign tiled|clustered"
+    std::vector<std::string> tried;  // "msaa-edges all|similar"
 };
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 

@@ -54,14 +54,14 @@ fs::path SweepState::folderOf(const fs::path& out) {
 SweepState::SweepState(const fs::path& out, const Json& key) : kept_(out, folderName, key) {}
 
 std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_t cameras,
-                                            std::size_t visits) const {
+                                            std::size_t blocks) const {
     const Json json = kept_.find(nameOf(settings));
     if (json.is_null()) return {};
     try {
         TradeoffRow row = tradeoffRowFrom(json);
         const auto isVisited = [&](const CameraRow& camera) {
-            const std::size_t times = camera.visits.size();
-            return times > 0 && times <= visits && times == row.cameras.front().visits.size();
+            const std::size_t times = camera.blocks.size();
+            return times > 0 && times <= blocks && times == row.cameras.front().blocks.size();
         };
         const bool whole = row.settings == settings && row.cameras.size() == cameras &&
                            std::ranges::all_of(row.cameras, isVisited) &&

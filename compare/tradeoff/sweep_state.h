@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/tradeoff/measure.h"
 
 #include <nlohmann/json.hpp>
@@ -12,16 +12,16 @@
 
 namespace diptych::tradeoff {
 
-// Checkpoint of the rows measured so far (KeptFolder). Each row is stored separately: images first, then
-// JSON.
+// Checkpoint of the rows measured so far (CheckpointFolder). Each row is stored separately: images first,
+// then JSON.
 class SweepState {
 public:
-    // `key`: inputs of rows besides their Settings. Throws as KeptFolder does.
+    // `key`: inputs of rows besides their Settings. Throws as CheckpointFolder does.
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
 
     bool isRenewed() const { return kept_.isRenewed(); }  // rows of another key were removed
-    // A stored row with `cameras` cameras, all with the same number of timing blocks, 1 to `visits`.
-    std::optional<TradeoffRow> find(const Settings& settings, std::size_t cameras, std::size_t visits) const;
+    // A stored row with `cameras` cameras, all with the same number of timing blocks, 1 to `blocks`.
+    std::optional<TradeoffRow> find(const Settings& settings, std::size_t cameras, std::size_t blocks) const;
     void keep(MeasuredRow& measured);    // sets the row's file names
     void renew(const TradeoffRow& row);  // updates a stored row
     // Path of a stored row's file.
@@ -31,7 +31,7 @@ public:
     static std::filesystem::path folderOf(const std::filesystem::path& out);
 
 private:
-    KeptFolder kept_;
+    CheckpointFolder kept_;
 };
 
 // FNV-1a, 64 bits (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.

@@ -82,9 +82,9 @@ std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
         if (!row.renderer.empty()) continue;
         double first = 0, second = 0;
         for (const CameraRow& camera : row.cameras) {
-            if (camera.visits.size() < 2) return {};
-            first += camera.visits[0].median;
-            second += camera.visits[1].median;
+            if (camera.blocks.size() < 2) return {};
+            first += camera.blocks[0].median;
+            second += camera.blocks[1].median;
         }
         if (first > 0) ratios.push_back(second / first);
     }

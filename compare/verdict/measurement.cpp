@@ -30,7 +30,7 @@ template <double ChannelStats::*member>
 Value stat(const Measurement& m) {
     return m.stats().*member;
 }
-template <double PlainMetrics::*member>
+template <double StandardMetrics::*member>
 Value plain(const Measurement& m) {
     return m.plain().*member;
 }
@@ -38,7 +38,7 @@ template <double FlipResult::*member>
 Value flip(const Measurement& m) {
     return ofFlip(m, member);
 }
-template <double PlainMetrics::*member>
+template <double StandardMetrics::*member>
 Value angle(const Measurement& m) {
     return m.isVector() ? Value(m.plain().*member) : Value();
 }
@@ -55,27 +55,29 @@ const std::array rows{
     Row{{"flip", false, "mean FLIP, 0 to 1 (Andersson et al. 2020; HDR: 2021)"}, flip<&FlipResult::mean>},
     Row{{"flip_median", false, "weighted median of FLIP"}, flip<&FlipResult::weighted_median>},
     Row{{"flip_max", false, "largest FLIP"}, flip<&FlipResult::max>},
-    Row{{"mse", false, "mean over components of (t - r)^2"}, plain<&PlainMetrics::mse>},
-    Row{{"mae", false, "mean over components of |t - r|"}, plain<&PlainMetrics::mae>},
+    Row{{"mse", false, "mean over components of (t - r)^2"}, plain<&StandardMetrics::mse>},
+    Row{{"mae", false, "mean over components of |t - r|"}, plain<&StandardMetrics::mae>},
     Row{{"relative_mse", false, "mean of (t - r)^2 / (r^2 + 0.01) (Rousselle et al. 2011)"},
-        plain<&PlainMetrics::relative_mse>},
-    Row{{"relative_max", false, "largest |t - r| / max(|r|, 1e-3 mean)"}, plain<&PlainMetrics::relative_max>},
+        plain<&StandardMetrics::relative_mse>},
+    Row{{"relative_max", false, "largest |t - r| / max(|r|, 1e-3 mean)"},
+        plain<&StandardMetrics::relative_max>},
     Row{{"relative_mean", false, "mean of |t - r| / max(|r|, 1e-3 mean)"},
-        plain<&PlainMetrics::relative_mean>},
+        plain<&StandardMetrics::relative_mean>},
     Row{{"relative_p99", false, "99th percentile of |t - r| / max(|r|, 1e-3 mean)"},
-        plain<&PlainMetrics::relative_p99>},
+        plain<&StandardMetrics::relative_p99>},
     Row{{"relative_p999", false, "99.9th percentile of |t - r| / max(|r|, 1e-3 mean)"},
-        plain<&PlainMetrics::relative_p999>},
+        plain<&StandardMetrics::relative_p999>},
     Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, or the reference's largest linear value"},
-        plain<&PlainMetrics::psnr>},
+        plain<&StandardMetrics::psnr>},
     Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"},
         [](const Measurement& m) { return m.plain().ssim; }},
     Row{{"ulp_max", false, "largest number of float32 values between t and r"},
-        plain<&PlainMetrics::ulp_max>},
-    Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
-    Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
-    Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&PlainMetrics::angle_mean>},
-    Row{{"length_max", false, "largest difference of vector lengths"}, angle<&PlainMetrics::length_max>},
+        plain<&StandardMetrics::ulp_max>},
+    Row{{"ulp_mean", false, "mean number of float32 values between t and r"},
+        plain<&StandardMetrics::ulp_mean>},
+    Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&StandardMetrics::angle_max>},
+    Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&StandardMetrics::angle_mean>},
+    Row{{"length_max", false, "largest difference of vector lengths"}, angle<&StandardMetrics::length_max>},
 };
 
 }  // namespace
@@ -127,10 +129,10 @@ const ChannelStats& Measurement::stats() const {
     return *stats_;
 }
 
-const PlainMetrics& Measurement::plain() const {
+const StandardMetrics& Measurement::plain() const {
     if (!plain_)
-        plain_ = plainMetrics(pair_.reference, pair_.test, pair_.kind,
-                              pair_.display ? Range::display : Range::linear, *pair_.coverage);
+        plain_ = standardMetrics(pair_.reference, pair_.test, pair_.kind,
+                                 pair_.display ? Range::display : Range::linear, *pair_.coverage);
     return *plain_;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/metrics/flip.h"
-#include "compare/metrics/plain.h"
+#include "compare/metrics/standard.h"
 #include "compare/verdict/rules.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/picture_rows.h"
@@ -49,7 +49,7 @@ public:
     // The pair's statistics. If computed here, mean and rmse of an absolute error are over components, as
     // in other programs.
     const ChannelStats& stats() const;
-    const PlainMetrics& plain() const;
+    const StandardMetrics& plain() const;
     const HdrFlipResult* flip() const;  // nullptr if undefined
     // FLIP's error map, which may outlive this object; nullptr if undefined.
     std::shared_ptr<const Image> flipErrors() const;
@@ -59,7 +59,7 @@ private:
 
     ChannelPair pair_;
     mutable std::optional<ChannelStats> stats_;
-    mutable std::optional<PlainMetrics> plain_;
+    mutable std::optional<StandardMetrics> plain_;
     mutable std::shared_ptr<HdrFlipResult> flip_;
 };
 

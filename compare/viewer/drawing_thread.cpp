@@ -119,7 +119,7 @@ struct DrawingThread::State {
     std::string saved;
     std::shared_ptr<const Shown> shown;
     std::shared_ptr<const Judged> judged;
-    std::shared_ptr<const Story> story;
+    std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneFacts> facts;
     Status status;
     bool waiting = false;
@@ -146,7 +146,7 @@ struct DrawingThread::State {
     std::optional<std::uint64_t> shown_order, failed_order;
     std::optional<Subject> timed, judged_of;
     Against judged_against = Against::paths;
-    std::optional<std::pair<Subject, PixelPlace>> told;
+    std::optional<std::pair<Subject, PixelPlace>> broken_down;
     std::optional<std::pair<std::filesystem::path, std::shared_ptr<const Frame>>> stored;
     std::array<PathFacts, 2> paths;
     PictureCost cost;                  // of moving images, once their pipelines exist
@@ -218,7 +218,7 @@ struct DrawingThread::State {
         if (failed_order == order.number) return false;
         if (shown_order != order.number) return true;
         if (order.moving) return false;
-        return wantsReferenceShown() || wantsTimes() || wantsVerdict() || wantsStory();
+        return wantsReferenceShown() || wantsTimes() || wantsVerdict() || wantsBreakdown();
     }
     bool wantsReferenceShown() const {
         return order.look.against == Against::reference && more_of_reference &&
@@ -237,7 +237,7 @@ struct DrawingThread::State {
                                                                                 : order.look.against;
     }
     bool wantsVerdict() const { return judged_of != both || judged_against != judgedAgainst(); }
-    bool wantsStory() const { return order.pixel && told != std::pair(both, *order.pixel); }
+    bool wantsBreakdown() const { return order.pixel && broken_down != std::pair(both, *order.pixel); }
 
     // One step; the most urgent first.
     void work() {
@@ -250,7 +250,7 @@ struct DrawingThread::State {
             return draw(order.subject.settings.size);
         }
         if (wantsReferenceShown()) return draw(order.subject.settings.size);
-        if (wantsStory()) return tell();
+        if (wantsBreakdown()) return breakDown();
         if (wantsTimes()) return time();
         if (wantsVerdict()) return judge();
     }
@@ -673,24 +673,24 @@ struct DrawingThread::State {
         options.wake();
     }
 
-    void tell() {
+    void breakDown() {
         const Settings& settings = order.subject.settings;
-        PixelQuestion question{.x = order.pixel->x,
-                               .y = order.pixel->y,
-                               .baseline = settingsOf(drawn_paths[0], settings.size),
-                               .test = settingsOf(drawn_paths[1], settings.size),
-                               .reference = referenceSettings(settings),
-                               .device = reportDevice(*device),
-                               .rules = options.compare.rules,
-                               .light_differs = {},
-                               .progress = stage("this pixel")};
-        question.light_differs = lightDifferences(question.baseline, question.test);
-        auto next =
-            std::make_shared<Story>(Story{both, *order.pixel, pixelStory(*renderer, *views, question), {}});
-        next->words = inWords(next->story);
-        told = std::pair(both, *order.pixel);
+        PixelQuery query{.x = order.pixel->x,
+                         .y = order.pixel->y,
+                         .baseline = settingsOf(drawn_paths[0], settings.size),
+                         .test = settingsOf(drawn_paths[1], settings.size),
+                         .reference = referenceSettings(settings),
+                         .device = reportDevice(*device),
+                         .rules = options.compare.rules,
+                         .light_differs = {},
+                         .progress = stage("this pixel")};
+        query.light_differs = lightDifferences(query.baseline, query.test);
+        auto next = std::make_shared<Breakdown>(
+            Breakdown{both, *order.pixel, pixelBreakdown(*renderer, *views, query), {}});
+        next->words = inWords(next->breakdown);
+        broken_down = std::pair(both, *order.pixel);
         const std::lock_guard lock(mutex);
-        story = std::move(next);
+        breakdown = std::move(next);
     }
 
     // ---- files ----------------------------------------------------------------------------------------
@@ -776,9 +776,9 @@ std::shared_ptr<const Judged> DrawingThread::judged() const {
     const std::lock_guard lock(state_->mutex);
     return state_->judged;
 }
-std::shared_ptr<const Story> DrawingThread::story() const {
+std::shared_ptr<const Breakdown> DrawingThread::breakdown() const {
     const std::lock_guard lock(state_->mutex);
-    return state_->story;
+    return state_->breakdown;
 }
 std::shared_ptr<const SceneFacts> DrawingThread::facts() const {
     const std::lock_guard lock(state_->mutex);

@@ -43,7 +43,7 @@ public:
 
     std::shared_ptr<const Shown> shown() const;  // nullptr before the first image
     std::shared_ptr<const Judged> judged() const;
-    std::shared_ptr<const Story> story() const;
+    std::shared_ptr<const Breakdown> breakdown() const;
     std::shared_ptr<const SceneFacts> facts() const;  // of the loaded scene; nullptr: none
     Status status() const;
     bool idle() const;  // the request is complete

@@ -404,7 +404,7 @@ void help(InterfaceState& state, int width, int height, float scale) {
                   std::pair{"wheel", "changes the camera's speed; in zoom, the size of pixels"},
                   std::pair{
                       "drop a file",
-                      "opens a scene, an environment (.hdr, .exr) or a stored picture (.exr by Diptych)"}}) {
+                      "opens a scene, an environment (.hdr, .exr) or a stored image (.exr by Diptych)"}}) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
                 ImGui::TextColored({1, 0.9f, 0.4f, 1}, "%s", name);

@@ -65,7 +65,7 @@ struct InterfaceState {
 struct Contents {
     std::shared_ptr<const Shown> shown;
     std::shared_ptr<const Judged> judged;
-    std::shared_ptr<const Story> story;
+    std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneFacts> facts;
     Status status;
     std::string drawn_by, shown_by;   // names of the devices

@@ -21,7 +21,7 @@ constexpr KeyBinding bindings[] = {
     {Action::wipe, GLFW_KEY_V, "V", "switches between wipe, side by side and one panel"},
     {Action::difference, GLFW_KEY_X, "X", "switches the difference: signed, absolute, relative, FLIP, none"},
     {Action::against, GLFW_KEY_T, "T",
-     "switches the left panel: the other path, the reference, the stored picture"},
+     "switches the left panel: the other path, the reference, the stored image"},
     {Action::flicker, GLFW_KEY_B, "B",
      "shows the other panel while held down; over a difference, the right panel", true},
     {Action::swap, GLFW_KEY_TAB, "Tab", "swaps the paths"},

@@ -182,7 +182,7 @@ void textInput(InterfaceState& state, const std::string& option, const std::stri
 void settingRow(InterfaceState& state, const Field& field) {
     const std::string option(field.option), value = state.edited.valueOf(option),
                                             accepted = acceptedValues(option);
-    const bool usual = value == Settings().valueOf(option);
+    const bool standard = value == Settings().valueOf(option);
     std::string unread;
     for (const Path path : drawn_paths) {
         const Settings settings = state.subject.sides.of(state.edited, path);
@@ -192,7 +192,7 @@ void settingRow(InterfaceState& state, const Field& field) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(usual ? ImVec4{0.8f, 0.8f, 0.82f, 1} : ImVec4{1, 0.85f, 0.4f, 1}, "%s",
+    ImGui::TextColored(standard ? ImVec4{0.8f, 0.8f, 0.82f, 1} : ImVec4{1, 0.85f, 0.4f, 1}, "%s",
                        option.c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
@@ -368,14 +368,14 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     if (ImGui::SmallButton("copy as diptych compare --pixel"))
         state.requests.copy =
             fmt::format("{} --pixel {},{}", compareCommand(state), state.pixel->x, state.pixel->y);
-    const bool here = contents.story && contents.story->pixel == *state.pixel &&
-                      contents.story->subject == ofBothPaths(state.subject);
+    const bool here = contents.breakdown && contents.breakdown->pixel == *state.pixel &&
+                      contents.breakdown->subject == ofBothPaths(state.subject);
     if (!here) wrapped("drawing: each light alone in both paths, and the reference", &faint);
-    if (!contents.story) return;
-    ImGui::BeginChild("story", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    if (!contents.breakdown) return;
+    ImGui::BeginChild("breakdown", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushFont(evenFont());
     if (!here) ImGui::PushStyleColor(ImGuiCol_Text, faint);
-    ImGui::TextUnformatted(contents.story->words.c_str());
+    ImGui::TextUnformatted(contents.breakdown->words.c_str());
     if (!here) ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::EndChild();
@@ -432,8 +432,8 @@ namespace {
 // The lines below the paths' times.
 std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents) {
     const PathFacts& facts = contents.shown->paths[1];
-    const ImVec4 usual = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-    std::vector<std::pair<std::string, ImVec4>> lines{{counted(facts.counters.lights, "light"), usual}};
+    const ImVec4 standard = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    std::vector<std::pair<std::string, ImVec4>> lines{{counted(facts.counters.lights, "light"), standard}};
     if (facts.mean_lights)
         lines[0].first += fmt::format("; a pixel evaluates {:.1f} on average, at most {:.0f}",
                                       *facts.mean_lights, *facts.most_lights);

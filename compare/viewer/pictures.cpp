@@ -155,13 +155,13 @@ DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& 
     const Image *const baseline = imageOf(left, look.channel()), *const test = imageOf(right, look.channel());
     DifferencePanel panel;
     if (!baseline || !test) {
-        panel.missing = fmt::format("only one of the two pictures has {}", mode.name);
+        panel.missing = fmt::format("only one of the two images has {}", mode.name);
         return panel;
     }
     if (baseline->width != test->width || baseline->height != test->height ||
         baseline->components != test->components) {
         panel.missing =
-            fmt::format("{} is {}x{} and {} is {}x{}: set size to that of the stored picture", titleOf(left),
+            fmt::format("{} is {}x{} and {} is {}x{}: set size to that of the stored image", titleOf(left),
                         baseline->width, baseline->height, titleOf(right), test->width, test->height);
         return panel;
     }
@@ -194,7 +194,7 @@ std::string_view nameOf(Against against) {
         case Against::reference:
             return "the reference";
         case Against::file:
-            return "a stored picture";
+            return "a stored image";
     }
     return {};
 }

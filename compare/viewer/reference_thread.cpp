@@ -25,9 +25,9 @@ struct Stopped {};
 // the interface does for each event. Threads that it starts, such as a driver's or a pool's, inherit the
 // policy.
 void yieldToInterface() {
-    const sched_param usual{};
+    const sched_param standard{};
     sched_setscheduler(0, SCHED_BATCH,
-                       &usual);  // 0: this thread; if it fails, the interface is only less smooth
+                       &standard);  // 0: this thread; if it fails, the interface is only less smooth
 }
 
 void ReferenceThread::stop() {

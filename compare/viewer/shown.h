@@ -2,7 +2,7 @@
 // Results for the interface.
 #pragma once
 
-#include "compare/explain/pixel_story.h"
+#include "compare/explain/pixel_breakdown.h"
 #include "compare/verdict/comparison.h"
 #include "compare/viewer/order.h"
 #include "shared/image/image.h"
@@ -74,10 +74,10 @@ struct Judged {
     Report report;
 };
 
-struct Story {
+struct Breakdown {
     Subject subject;
     PixelPlace pixel;
-    PixelStory story;
+    PixelBreakdown breakdown;
     std::string words;
 };
 

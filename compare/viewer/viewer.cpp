@@ -36,7 +36,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int usualWidth = 1280, usualHeight = 760;  // of the window, at scale 1
+constexpr int defaultWidth = 1280, defaultHeight = 760;  // of the window, at scale 1
 // Interval between frames of the interface, s: 60 frames a second while something moves, at most 125.
 constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.25;
 // A view is still once nothing has moved for this time, s.
@@ -84,7 +84,7 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options),
-          window_(usualWidth, usualHeight, "Diptych"),
+          window_(defaultWidth, defaultHeight, "Diptych"),
           imgui_(window_.handle()),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
@@ -174,13 +174,14 @@ private:
         Contents next = contents_;
         next.shown = drawing_.shown();
         next.judged = drawing_.judged();
-        next.story = drawing_.story();
+        next.breakdown = drawing_.breakdown();
         next.facts = drawing_.facts();
         next.status = drawing_.status();
         next.idle = drawing_.idle();
         const bool pictures = next.shown != contents_.shown;
-        const bool news = pictures || next.judged != contents_.judged || next.story != contents_.story ||
-                          next.facts != contents_.facts || next.status.doing != contents_.status.doing ||
+        const bool news = pictures || next.judged != contents_.judged ||
+                          next.breakdown != contents_.breakdown || next.facts != contents_.facts ||
+                          next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);

@@ -5,7 +5,7 @@
 
 #include "shared/contract/culling.h"
 #include "shared/draw/geometry.h"
-#include "shared/draw/shown_clusters.h"
+#include "shared/draw/visible_clusters.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 

@@ -26,7 +26,7 @@ SampleGrid gridOf(const Device& device, const View& view, int samples) {
             std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
-gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const ShownClusters& shown,
+gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const VisibleClusters& shown,
                            bool oneSided) {
     // Sum of two shaders' errors, rounded up.
     const glm::dvec4 error = shown.error() * (2 * (1 + 1e-3));
@@ -72,8 +72,8 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
         const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
         const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
-        Item made{ShownClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
-                                oneSided, item.mirrored),
+        Item made{VisibleClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
+                                  oneSided, item.mirrored),
                   glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
                   range.first_cluster,
                   range.cluster_count,
@@ -149,7 +149,7 @@ void Culling::order(const Item& item) {
 
 void Culling::choose(std::size_t part, std::uint32_t* indices) {
     const Part& of = parts_[part];
-    const ShownClusters& shown = items_[of.item].shown;
+    const VisibleClusters& shown = items_[of.item].shown;
     const ClusterTriangles& triangles = geometry_.clusterTriangles();
     std::uint32_t* next = indices + of.place;
     for (std::uint32_t k = of.first; k < of.first + of.clusters; ++k) {
@@ -173,7 +173,7 @@ void Culling::choose(std::size_t part, std::uint32_t* indices) {
 }
 
 void Culling::fillGaps(const Instances& instances) {
-    const std::span<IndexRun> runs = std::span(draws_.runs).subspan(instances.first_part, instances.count);
+    const std::span<IndexRange> runs = std::span(draws_.runs).subspan(instances.first_part, instances.count);
     std::size_t after = runs.size();  // end of the last visible range; initially none
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (runs[i].count == 0) continue;
@@ -224,7 +224,7 @@ DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const C
         counts.in_view += item.range.index_count / 3;
         const auto runs = std::span(draws.runs).subspan(item.first_run, item.runs);
         const auto drawn = static_cast<std::uint64_t>(
-            std::ranges::count_if(runs, [](const IndexRun& run) { return run.count > 0; }));
+            std::ranges::count_if(runs, [](const IndexRange& run) { return run.count > 0; }));
         if (item.runs > 0 && drawn == 0) {
             last = nullptr;
             continue;
@@ -236,7 +236,7 @@ DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const C
         last = &item;
         used.clear();
         if (item.chosen)
-            for (const IndexRun& run : runs) {
+            for (const IndexRange& run : runs) {
                 const auto of = std::span(chosen).subspan(run.first, run.count);
                 used.insert(used.end(), of.begin(), of.end());
             }

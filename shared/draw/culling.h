@@ -8,7 +8,7 @@
 #include "shared/draw/compute_culling.h"
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
-#include "shared/draw/shown_clusters.h"
+#include "shared/draw/visible_clusters.h"
 #include "shared/vulkan/resources.h"
 
 #include <cstdint>
@@ -52,7 +52,7 @@ public:
 private:
     // One instance: visibility of its meshlets, and their depth.
     struct Item {
-        ShownClusters shown;
+        VisibleClusters shown;
         glm::dvec4 depth;  // view depth of an object-space point, m: dot(depth, (point, 1))
         std::uint32_t first_cluster, clusters;
         std::uint32_t first;  // offset in order_ of its `clusters` entries

@@ -323,13 +323,13 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
     return list;
 }
 
-double SeenBox::reach(const glm::dvec3& along) const {
+double VisibleBox::reach(const glm::dvec3& along) const {
     return std::abs(glm::dot(along, halves[0])) + std::abs(glm::dot(along, halves[1])) +
            std::abs(glm::dot(along, halves[2]));
 }
 
-std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view) {
-    std::vector<SeenBox> boxes;
+std::vector<VisibleBox> visibleBoxes(const Pose& pose, const Geometry& geometry, const View& view) {
+    std::vector<VisibleBox> boxes;
     for (const Instance& instance : pose.instances) {
         const PlacedPrimitive placed = geometry.placed(pose, instance);
         const PrimitiveRange& range = placed.range;

@@ -21,15 +21,15 @@ struct ViewDepths {
     double nearest = 0, farthest = 0;
 };
 
-struct IndexRun {
+struct IndexRange {
     std::uint32_t first = 0, count = 0;
-    bool operator==(const IndexRun&) const = default;
+    bool operator==(const IndexRange&) const = default;
 };
 
 // Consecutive triangles of one draw in an order over all draws' triangles.
-struct SortedRun {
+struct SortedRange {
     std::uint32_t item = 0;  // into DrawList::blended()
-    IndexRun run;            // into DrawList::sorted_indices
+    IndexRange run;          // into DrawList::sorted_indices
 };
 
 // Which sides of its triangles a draw shows.
@@ -62,10 +62,10 @@ struct DrawList {
     std::vector<gpu::Draw> draws;
     std::vector<DrawItem> items;  // blended ones come last
     std::size_t solid = 0;        // number of items that are not blended
-    std::vector<IndexRun> runs;
+    std::vector<IndexRange> runs;
     // Transparency::triangles: blended triangles, sorted; else empty.
     std::vector<std::uint32_t> sorted_indices;
-    std::vector<SortedRun> sorted_runs;
+    std::vector<SortedRange> sorted_runs;
     std::uint32_t culled = 0;     // number of culled instances
     std::uint64_t triangles = 0;  // triangles in view; in a caster list, drawn triangles
     std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
@@ -116,7 +116,7 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
                         const CasterRequest& request);
 
 // A box along three arbitrary axes.
-struct SeenBox {
+struct VisibleBox {
     glm::dvec3 centre{0};                // world axes, relative to the eye
     std::array<glm::dvec3, 3> halves{};  // half axes
     // Half its extent along a direction, times the direction's length.
@@ -124,6 +124,6 @@ struct SeenBox {
 };
 
 // Boxes of all meshlets that are not outside one plane of the view: a bound of the visible geometry.
-std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view);
+std::vector<VisibleBox> visibleBoxes(const Pose& pose, const Geometry& geometry, const View& view);
 
 }  // namespace diptych

@@ -37,10 +37,10 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
 }
 
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn) {
-    const gpu::uint packets = inputs.longest_list, most = inputs.device.profile().packets_per_draw;
-    if (packets <= most) return {};
+    const gpu::uint entries = inputs.longest_list, most = inputs.device.profile().list_entries_per_draw;
+    if (entries <= most) return {};
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
-    while (batch.first + most < packets) {
+    while (batch.first + most < entries) {
         const bool stored = drawn == SumsBy::storage;
         constexpr const char* name = "shade earlier lights";
         const auto sum = [&](const char* of) {
@@ -55,7 +55,7 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
             for (const ImageRef image : images) pass.color(image, Load::clear);
         add(pass, batch, images);
         std::shared_ptr<DescriptorSets> sums = partialSumSet(passes, pass, inputs, images);
-        batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, packets), images, std::move(sums)};
+        batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, entries), images, std::move(sums)};
     }
     return batch;
 }

@@ -29,11 +29,10 @@ struct LightBatch {
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch);
 
 // Adds a draw for every light batch but the last, and returns the last for the pass that completes the
-// sum. Lists of up to DeviceProfile::packets_per_draw entries are one batch, BATCH_WHOLE, without an extra
-// draw.
-// `add` declares what the pass reads, including depth and the earlier sums, and records the draw of one
-// batch. The draw writes attachments 0 (diffuse) and 1 (specular). With SumsBy::storage it is a dispatch,
-// which stores to these images and declares them.
+// sum. Lists of up to DeviceProfile::list_entries_per_draw entries are one batch, BATCH_WHOLE, without an
+// extra draw. `add` declares what the pass reads, including depth and the earlier sums, and records the draw
+// of one batch. The draw writes attachments 0 (diffuse) and 1 (specular). With SumsBy::storage it is a
+// dispatch, which stores to these images and declares them.
 enum class SumsBy { attachments, storage };
 using AddBatch = std::function<void(Pass&, const LightBatch&, const std::array<ImageRef, 2>& sums)>;
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add,

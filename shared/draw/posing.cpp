@@ -147,7 +147,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
         const bool moves_texcoords =
             map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
-        if (i.normals_end == 0 && !moves_texcoords && !instance.map_turned) i.groups = 0;
+        if (i.normals_end == 0 && !moves_texcoords && !instance.map_rotated) i.groups = 0;
         if (i.groups > 0) {
             i.bitangents = static_cast<float>(mirroredSign(
                 geometry.scene().materials[static_cast<std::size_t>(primitive.material)].normal_texture,

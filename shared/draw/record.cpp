@@ -76,7 +76,7 @@ std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const D
 
 struct DrawSource {
     std::span<const DrawItem> items;
-    std::span<const IndexRun> runs;
+    std::span<const IndexRange> runs;
     VkBuffer buffer;   // Draw[draws.draws]
     bool culls_backs;  // of materials that are not double-sided
 };
@@ -145,7 +145,7 @@ public:
         taken_ = i;
     }
     // `instances`: number of instances, the current item included.
-    void draw(const IndexRun& run, std::uint32_t instances = 1) const {
+    void draw(const IndexRange& run, std::uint32_t instances = 1) const {
         vkCmdDrawIndexed(commands_, run.count, instances, run.first, inputs_.posing.vertexOffset(*last_),
                          last_->draw);
         inputs_.device.drawDivision().drawn(commands_, std::uint64_t{run.count / 3} * instances);
@@ -167,7 +167,7 @@ public:
             vkCmdDrawIndexedIndirect(commands_, draws, VkDeviceSize{first} * stride, count, stride);
         }
         std::uint64_t triangles = 0;
-        for (const IndexRun& run : source_.runs.subspan(last_->first_run, end - last_->first_run))
+        for (const IndexRange& run : source_.runs.subspan(last_->first_run, end - last_->first_run))
             triangles += run.count / 3;
         inputs_.device.drawDivision().drawn(commands_, triangles);
     }
@@ -200,11 +200,11 @@ private:
 struct ItemRuns {
     ItemRuns(const DrawSource& source, std::size_t i)
         : item(source.items[i]), whole{item.range.first_index, item.range.index_count}, source_(source) {}
-    std::span<const IndexRun> all() const {
+    std::span<const IndexRange> all() const {
         return item.runs == 0 ? std::span(&whole, 1) : source_.runs.subspan(item.first_run, item.runs);
     }
     const DrawItem& item;
-    IndexRun whole;
+    IndexRange whole;
 
 private:
     const DrawSource& source_;
@@ -249,7 +249,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
         instances = instancesFrom(i, source, pipelines, constantsOf);
         const ItemRuns runs(source, i);
         bool taken = false;
-        for (const IndexRun& run : runs.all()) {
+        for (const IndexRange& run : runs.all()) {
             if (run.count == 0) continue;
             if (!taken) recorder.take(i);
             taken = true;
@@ -264,7 +264,7 @@ void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const Dra
                   const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer, inputs.sorted_indices);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
-    for (const SortedRun& run : inputs.draws.sorted_runs) {
+    for (const SortedRange& run : inputs.draws.sorted_runs) {
         recorder.take(run.item);
         recorder.draw(run.run);
     }

@@ -19,8 +19,8 @@ enum class ChannelKind { color, vector, scalar, id };
 enum class Domain { unit, share, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
 
-// How a channel is shown as an image; usual: by its kind and metric.
-enum class Shown { usual, radiance, display, normalised };
+// How a channel is shown as an image; by_metric: by its kind and metric.
+enum class Shown { by_metric, radiance, display, normalised };
 
 struct DebugMode {
     int number;
@@ -31,7 +31,7 @@ struct DebugMode {
     Domain domain;
     MadeBy maker;
     std::string_view shows;
-    Shown shown = Shown::usual;
+    Shown shown = Shown::by_metric;
 };
 
 std::span<const DebugMode> debugModes();                        // in ascending order of number

@@ -89,10 +89,10 @@ int orientationOfPng(std::span<const std::byte> file) {
     return orientation;
 }
 
-Image turned(Image image, int orientation) {
+Image oriented(Image image, int orientation) {
     return turnedAny(std::move(image), orientation);
 }
-Image8 turned(Image8 image, int orientation) {
+Image8 oriented(Image8 image, int orientation) {
     return turnedAny(std::move(image), orientation);
 }
 

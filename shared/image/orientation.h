@@ -20,7 +20,7 @@ int orientationOfJpeg(std::span<const std::byte> file);
 int orientationOfPng(std::span<const std::byte> file);
 
 // The image as displayed for `orientation`, 1 to 8; 5 to 8 swap width and height.
-Image turned(Image image, int orientation);
-Image8 turned(Image8 image, int orientation);
+Image oriented(Image image, int orientation);
+Image8 oriented(Image8 image, int orientation);
 
 }  // namespace diptych

@@ -38,10 +38,10 @@ PictureFile ofOneLayer(std::string format, std::string sample, Image image, Imag
 }
 
 // Applies the orientation of the file.
-void turn(PictureFile& file, int orientation) {
+void orient(PictureFile& file, int orientation) {
     PictureLayer& layer = file.layers.front();
-    layer.image = turned(std::move(layer.image), orientation);
-    layer.coded = turned(std::move(layer.coded), orientation);
+    layer.image = oriented(std::move(layer.image), orientation);
+    layer.coded = oriented(std::move(layer.coded), orientation);
     if (orientation >= 5) std::swap(file.width, file.height);
 }
 
@@ -50,7 +50,7 @@ PictureFile pictureOfPng(std::span<const std::byte> bytes, const std::string& na
     PngPicture png = readPngPicture(bytes, name, most, eight);
     PictureFile file =
         ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image), std::move(png.coded));
-    turn(file, orientationOfPng(bytes));
+    orient(file, orientationOfPng(bytes));
     file.display_referred = !png.linear;
     file.straight_alpha = true;
     file.notes = std::move(png.notes);
@@ -77,16 +77,16 @@ PictureSize sizeOfJpeg(const JpegSize& size, EightBits eight) {
             eight == EightBits::kept ? 4 + components : std::int64_t{sizeof(float)} * components + 4};
 }
 
-// Reads the pixel aspect of JFIF 1.02, and the ICC profile (ICC.1:2022, B.4), which may be split into
-// several segments.
+// Reads the pixel aspect of JFIF: width / height is vertical over horizontal density, for all units (ITU-T
+// T.871, 10.1). Reads the ICC profile (ICC.1:2022, B.4), which may be split into several segments.
 FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
     using namespace std::string_view_literals;
     constexpr std::string_view jfif = "JFIF\0"sv, icc = "ICC_PROFILE\0"sv;
     FileNotes notes;
     std::string profile;
     visitJpeg(bytes, [&](const Chunk& segment) {
-        if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 10, 2) > 0)
-            noteAspect(static_cast<double>(bigEndian(segment.data, 8, 2)) / bigEndian(segment.data, 10, 2),
+        if (segment.name == "\xe0" && segment.data.starts_with(jfif) && bigEndian(segment.data, 8, 2) > 0)
+            noteAspect(static_cast<double>(bigEndian(segment.data, 10, 2)) / bigEndian(segment.data, 8, 2),
                        notes);
         constexpr std::size_t numbers = 2;  // sequence number and count
         if (segment.name == "\xe2" && segment.data.starts_with(icc) &&
@@ -120,7 +120,7 @@ PictureFile pictureOfJpeg(std::span<const std::byte> bytes, const std::string& n
         StoredPicture stored{{}, std::move(coded), static_cast<int>(components)};
         PictureFile file = eight == EightBits::kept ? ofOneLayer("JPEG", "8 bit", {}, std::move(stored.coded))
                                                     : ofOneLayer("JPEG", "8 bit", stored.takeImage());
-        turn(file, orientationOfJpeg(bytes));
+        orient(file, orientationOfJpeg(bytes));
         file.notes = notesOfJpeg(bytes);
         file.display_referred = true;
         return file;

@@ -312,7 +312,7 @@ TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, 
         picture.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 &&
                              extra > 0 && kinds[0] == EXTRASAMPLE_ASSOCALPHA;
         if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode(file);
-        picture.image = turned(std::move(picture.image), layout.orientation);
+        picture.image = oriented(std::move(picture.image), layout.orientation);
         describe(tiff.get(), picture);
         return picture;
     });

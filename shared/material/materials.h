@@ -79,7 +79,7 @@ private:
         std::vector<OwnedSampler> samplers;  // the first is the default
         std::vector<std::string> notes;
 
-        // `packed`: see TextureQuestions.
+        // `packed`: see TextureQueries.
         SlotTexels texelsOf(const Material& material,
                             const std::function<bool(const Material&)>& packed) const;
         bool hasPacked(const Material& material) const;

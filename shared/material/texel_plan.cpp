@@ -51,7 +51,7 @@ bool hasOneColor(const TextureImage& image, std::size_t slot) {
     return true;
 }
 
-SlotTexels slotTexels(const Material& material, const TextureQuestions& ask) {
+SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
     SlotTexels texels{};
     for (gpu::uint slot = 0; slot < gpu::SLOT_COUNT; ++slot)
         if (readsSlot(material, slot))

@@ -21,13 +21,13 @@ using SlotTexels = std::array<gpu::uint, gpu::SLOT_COUNT>;
 bool hasOneColor(const TextureImage& image, std::size_t slot);
 
 // Queries about the textures of a material, by index in Scene::textures.
-struct TextureQuestions {
+struct TextureQueries {
     std::function<bool(int texture, std::size_t slot)> one_color;
     std::function<bool(int a, int b)> same_image;  // same image, same sampler
     // Whether the base colour and normal images have roughness and metallic in their alphas.
     std::function<bool(const Material&)> packed;
 };
-SlotTexels slotTexels(const Material& material, const TextureQuestions& ask);
+SlotTexels slotTexels(const Material& material, const TextureQueries& ask);
 
 // Whether --textures packed applies to a material without animation. It must be opaque. Its three textures
 // have 8 bits and the same sampler, UV set and transform. The base colour and normal images are 2^n times

@@ -224,13 +224,13 @@ DefaultView outsideAt(DefaultView::Place place, const glm::dvec3& backward) {
 }
 
 // The direction (+1, +0.6, +1), or the opposite one if no triangle faces the first.
-DefaultView usualView(const Scene& scene, const Pose& pose, const Bounds& bounds) {
+DefaultView standardView(const Scene& scene, const Pose& pose, const Bounds& bounds) {
     const auto sees = [&](const DefaultView& view) {
         return anythingFaces(scene, pose, glm::dvec3(worldFromCamera(view, bounds, ratedAspect)[3]));
     };
-    const DefaultView usual = outsideAt(DefaultView::Place::usual, {1, 0.6, 1});
+    const DefaultView standard = outsideAt(DefaultView::Place::standard, {1, 0.6, 1});
     const DefaultView behind = outsideAt(DefaultView::Place::outside, {-1, -0.6, -1});
-    return !sees(usual) && sees(behind) ? behind : usual;
+    return !sees(standard) && sees(behind) ? behind : standard;
 }
 
 // Eight azimuths at the height of the usual view, then eight from higher up. The first is the usual view.
@@ -280,9 +280,9 @@ DefaultView chooseDefaultView(const Scene& scene, const std::string& animation) 
     const Pose pose = poseAt(scene, 0, animation);
     const Bounds bounds = worldBounds(scene, pose);
     const Rating rating(scene, pose, bounds);
-    const DefaultView usual = rating.rated(usualView(scene, pose, bounds));
-    if (bounds.empty()) return usual;
-    return clearlyBetter(clearlyBetter(usual, outsideViews(rating)), insideViews(rating));
+    const DefaultView standard = rating.rated(standardView(scene, pose, bounds));
+    if (bounds.empty()) return standard;
+    return clearlyBetter(clearlyBetter(standard, outsideViews(rating)), insideViews(rating));
 }
 
 double targetDistance(const DefaultView& view, const Bounds& bounds, double aspect) {

@@ -29,10 +29,10 @@ struct ViewRequest {
     bool scene_lights = true;
     std::string animation{};  // INDEX or NAME, see poseAt(); empty: all play
     // Extracts the sun of the environment as a light (lights/environment_sun.h), with the environment
-    // rotated by environment_turned degrees and scaled by environment_factor. These two are used only for
+    // rotated by environment_rotation degrees and scaled by environment_factor. These two are used only for
     // the sun.
     bool environment_sun = false;
-    double environment_turned = 0, environment_factor = 1;
+    double environment_rotation = 0, environment_factor = 1;
     auto operator<=>(const ViewRequest&) const = default;
 };
 

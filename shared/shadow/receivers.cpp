@@ -84,7 +84,7 @@ CellRange cellsOf(double low, double high) {
 }  // namespace
 
 ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
-                           std::span<const SeenBox> seen, const CascadeRequest& request, bool compares)
+                           std::span<const VisibleBox> seen, const CascadeRequest& request, bool compares)
     : size_(request.size), deepest_(std::size_t{cells} * cells, unbounded) {
     // In shaders, too, the first cascade covers everything nearer.
     const bool first = &area == &cascades.areas.front();
@@ -110,7 +110,7 @@ ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, co
                 !beside(hull, {(column + 0.5) * side - 1, (row + 0.5) * side - 1}, side / 2 * (1 + rounding));
 
     const glm::dvec3 forward = -view.backward();
-    for (const SeenBox& box : seen) {
+    for (const VisibleBox& box : seen) {
         const double depth = glm::dot(forward, box.centre), reach = box.reach(forward);
         if (depth - reach > depths.far || depth + reach < depths.near) continue;
         const double atX = glm::dot(x, box.centre) + origin.x, byX = box.reach(x);

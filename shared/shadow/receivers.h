@@ -20,7 +20,7 @@ public:
     // `area`: one of `cascades`. `compares`: true for depth comparisons, where geometry beyond a receiver
     // does not affect it; false for moments, where it does.
     ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
-                 std::span<const SeenBox> seen, const CascadeRequest& request, bool compares);
+                 std::span<const VisibleBox> seen, const CascadeRequest& request, bool compares);
 
     // `caster`: in clip space of the cascade.
     bool reachedBy(const ClipBox& caster) const;

@@ -192,8 +192,8 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
                             const Cascades& cascades) {
     const bool all = settings_.shadow_casters == ShadowCasters::all;
     const bool compares = !hasMoments(settings_.shadows);
-    std::vector<SeenBox> seen;
-    if (!all && !cascades.areas.empty()) seen = seenBoxes(pose, inputs.geometry, view);
+    std::vector<VisibleBox> seen;
+    if (!all && !cascades.areas.empty()) seen = visibleBoxes(pose, inputs.geometry, view);
     const auto side = static_cast<std::uint32_t>(request_.size);
     for (const CascadeArea& area : cascades.areas) {
         const ReceiverMask mask(cascades, area, view, seen, request_, compares);

@@ -175,7 +175,7 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 }
 
 void checkLightsOfBlended(const FrameInputs& inputs) {
-    const gpu::uint most = inputs.device.profile().packets_per_draw;
+    const gpu::uint most = inputs.device.profile().list_entries_per_draw;
     if (inputs.draws.blended().empty() || inputs.longest_list <= most) return;
     throw std::runtime_error(
         fmt::format("blended surfaces: a light list has {} entries, but a draw on {} reads up to {}; use "

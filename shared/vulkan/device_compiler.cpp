@@ -3,7 +3,7 @@
 
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 #include "shared/vulkan/instance.h"
 #include "shared/vulkan/physical_device.h"
 #include "shared/vulkan/shared_memory.h"
@@ -78,7 +78,7 @@ struct DeviceCompiler::State {
             infos.push_back(describe(devices.emplace_back(found), static_cast<int>(infos.size())));
         return infos;
     }
-    PipelineSite site(VkPipelineLayout layout) const {
+    CreationContext context(VkPipelineLayout layout) const {
         return {.device = device.get(),
                 .support = support,
                 .info = info,
@@ -115,12 +115,12 @@ void DeviceCompiler::State::open(const DeviceInfo& chosen, const std::string& ch
 void DeviceCompiler::State::tryPipelines() const {
     const OwnedPipelineLayout layout =
         makePipelineLayout(device.get(), {}, VkPushConstantRange{VK_SHADER_STAGE_ALL, 0, 128});
-    const PipelineSite site = this->site(layout);
+    const CreationContext context = this->context(layout);
     const PipelineKey draw{.vertex = Shader::full_screen_vert,
                            .fragment = Shader::probe_rounding_frag,
                            .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
-    makePipeline(site, draw, plainParts(draw));
-    makePipeline(site, shaderModule(Shader::cull_clusters_comp), valueOf({}));
+    makePipeline(context, draw, plainParts(draw));
+    makePipeline(context, shaderModule(Shader::cull_clusters_comp), valueOf({}));
 }
 
 DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_unique<State>()) {
@@ -149,14 +149,14 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
                                              fmt::join(files, ", ")));
     };
     // RADV ends the process for an unknown family.
-    const DriverTrial trial = tryInChild([&] {
+    const DriverProbe probe_result = probeInChild([&] {
         const EnvironmentVariables forced = inFamily(family.c_str());
         openFamily();
         s.tryPipelines();
         return std::string();
     });
-    if (trial.crashed) {
-        const DriverTrial known = tryInChild([&] {
+    if (probe_result.crashed) {
+        const DriverProbe known = probeInChild([&] {
             const EnvironmentVariables forced = inFamily(oldestFamily);
             openFamily();
             return s.info.driver;
@@ -165,7 +165,7 @@ DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_uni
             fmt::format("--compile-on {}: no such device (there are {}), and {} crashes when it compiles for "
                         "this name; Mesa 25 (mesa-vulkan-drivers of Debian 13) compiles for vega10, navi21, "
                         "navi31, gfx1201 and others",
-                        choice, listOf(infos), known.crashed ? "RADV" : known.said));
+                        choice, listOf(infos), known.crashed ? "RADV" : known.output));
     }
     const QuietStandardError quiet;  // RADV prints that hardware is missing
     const EnvironmentVariables forced = inFamily(family.c_str());
@@ -273,7 +273,7 @@ std::vector<CompiledShader> DeviceCompiler::State::shadersOf(
 
 CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) const {
     CompiledPipeline compiled;
-    const PipelineSite site = this->site(layouts.at(request.layout));
+    const CreationContext context = this->context(layouts.at(request.layout));
     try {
         if (request.kernel != nullptr) {
             // RADV divides by zero if not even one workgroup fits.
@@ -285,13 +285,13 @@ CompiledPipeline DeviceCompiler::State::compile(const PipelineRequest& request) 
                 return compiled;
             }
             compiled.shaders =
-                shadersOf(makePipeline(site, *request.kernel, value), std::array{request.kernel});
+                shadersOf(makePipeline(context, *request.kernel, value), std::array{request.kernel});
         } else {
             if (compiled.error = lackedFormats(request.key); !compiled.error.empty()) return compiled;
             const PipelineParts parts = request.choose(request.key);
             std::vector<const ShaderModule*> modules{parts.vertex};
             if (parts.fragment != nullptr) modules.push_back(parts.fragment);
-            compiled.shaders = shadersOf(makePipeline(site, request.key, parts), modules);
+            compiled.shaders = shadersOf(makePipeline(context, request.key, parts), modules);
         }
     } catch (const std::runtime_error& failed) {
         compiled.error = fmt::format("does not compile: {}", failed.what());

@@ -17,50 +17,50 @@ namespace diptych {
 
 namespace {
 
-[[noreturn]] void refuse(const PipelineSite& site, std::string_view what, const std::string& why) {
+[[noreturn]] void refuse(const CreationContext& context, std::string_view what, const std::string& why) {
     throw std::runtime_error(
-        fmt::format("device {} ({}): {}: {}", site.info.index, site.info.name, what, why));
+        fmt::format("device {} ({}): {}: {}", context.info.index, context.info.name, what, why));
 }
 
 // Throws if the device does not support the pipeline.
-void checkPipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
+void checkPipeline(const CreationContext& context, const PipelineKey& key, const PipelineParts& parts) {
     const std::string_view name = parts.fragment != nullptr ? parts.fragment->name : parts.vertex->name;
     const auto needs = [&](VkFormat format, std::uint32_t uses) {
-        if (const auto lacks = site.support.lacks(format, uses)) refuse(site, name, *lacks);
+        if (const auto lacks = context.support.lacks(format, uses)) refuse(context, name, *lacks);
     };
     const auto blendOf = [&](std::size_t i) { return key.blends.empty() ? Blend::none : key.blends.at(i); };
     for (std::size_t i = 0; i < key.colors.size(); ++i) {
         needs(key.colors[i], blendOf(i) == Blend::none ? std::uint32_t{format_use::drawn}
                                                        : format_use::drawn | format_use::blended);
-        if (blendOf(i) != blendOf(0) && !site.support.has(DeviceFeature::independentBlend))
-            refuse(site, name, "it lacks independent blending; choose another device with --device");
+        if (blendOf(i) != blendOf(0) && !context.support.has(DeviceFeature::independentBlend))
+            refuse(context, name, "it lacks independent blending; choose another device with --device");
     }
     if (key.depth != VK_FORMAT_UNDEFINED) needs(key.depth, format_use::depth);
     for (const VkVertexInputAttributeDescription& attribute : parts.attributes)
         needs(attribute.format, format_use::vertices);
-    if (key.depth_clamp && !site.support.has(DeviceFeature::depthClamp))
-        refuse(site, name, "it lacks depth clamping; choose another device with --device");
+    if (key.depth_clamp && !context.support.has(DeviceFeature::depthClamp))
+        refuse(context, name, "it lacks depth clamping; choose another device with --device");
 }
 
 // Reduces the module to the variant. `outputs`: locations that the next stage reads.
-std::vector<std::uint32_t> specializedWords(const PipelineSite& site, const ShaderModule& module,
+std::vector<std::uint32_t> specializedWords(const CreationContext& context, const ShaderModule& module,
                                             const SpecializationValue& value,
                                             const std::optional<std::set<std::uint32_t>>& outputs = {}) {
     auto words = specialized(module.words, value, outputs);
-    if (const auto problem = moduleProblem(site.support, words))
-        refuse(site, module.name, *problem + ", which it lacks; choose another device with --device");
-    return site.flattens_branches ? flattened(words) : words;
+    if (const auto problem = moduleProblem(context.support, words))
+        refuse(context, module.name, *problem + ", which it lacks; choose another device with --device");
+    return context.flattens_branches ? flattened(words) : words;
 }
 
-OwnedShaderModule makeModule(const PipelineSite& site, std::span<const std::uint32_t> words) {
+OwnedShaderModule makeModule(const CreationContext& context, std::span<const std::uint32_t> words) {
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .pNext = nullptr,
                                         .flags = 0,
                                         .codeSize = words.size() * sizeof(std::uint32_t),
                                         .pCode = words.data()};
     VkShaderModule handle = VK_NULL_HANDLE;
-    checkResult(vkCreateShaderModule(site.device, &info, nullptr, &handle), "vkCreateShaderModule");
-    return {site.device, handle};
+    checkResult(vkCreateShaderModule(context.device, &info, nullptr, &handle), "vkCreateShaderModule");
+    return {context.device, handle};
 }
 
 VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderModule module) {
@@ -112,7 +112,7 @@ PipelineParts plainParts(const PipelineKey& key) {
             {}};
 }
 
-PipelineSite siteOf(Device& device, VkPipelineLayout layout) {
+CreationContext contextOf(Device& device, VkPipelineLayout layout) {
     return {.device = device.handle(),
             .support = device.support(),
             .info = device.info(),
@@ -125,19 +125,20 @@ SpecializationValue valueOf(const Variant& variant) {
     return [variant](std::uint32_t id) { return variant.get(id); };
 }
 
-OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts) {
-    checkPipeline(site, key, parts);
+OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& key,
+                           const PipelineParts& parts) {
+    checkPipeline(context, key, parts);
     std::vector<OwnedShaderModule> code;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto addStage = [&](VkShaderStageFlagBits stage, std::span<const std::uint32_t> words) {
-        code.push_back(makeModule(site, words));
+        code.push_back(makeModule(context, words));
         stages.push_back(stageOf(stage, code.back()));
     };
     const SpecializationValue value = valueOf(key.variant);
     std::vector<std::uint32_t> fragment;
-    if (parts.fragment != nullptr) fragment = specializedWords(site, *parts.fragment, value);
+    if (parts.fragment != nullptr) fragment = specializedWords(context, *parts.fragment, value);
     const std::vector<std::uint32_t> vertex =
-        specializedWords(site, *parts.vertex, value, inputLocations(fragment));
+        specializedWords(context, *parts.vertex, value, inputLocations(fragment));
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
     // Attributes that the variant does not read are not fetched.
@@ -210,7 +211,7 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
         .stencilAttachmentFormat = VK_FORMAT_UNDEFINED};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .pNext = &rendering,
-                                            .flags = site.flags,
+                                            .flags = context.flags,
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),
                                             .pVertexInputState = &input,
@@ -222,29 +223,29 @@ OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, con
                                             .pDepthStencilState = &depth,
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamics,
-                                            .layout = site.layout,
+                                            .layout = context.layout,
                                             .renderPass = VK_NULL_HANDLE,
                                             .subpass = 0,
                                             .basePipelineHandle = VK_NULL_HANDLE,
                                             .basePipelineIndex = 0};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(vkCreateGraphicsPipelines(site.device, site.cache, 1, &info, nullptr, &pipeline),
+    checkResult(vkCreateGraphicsPipelines(context.device, context.cache, 1, &info, nullptr, &pipeline),
                 "vkCreateGraphicsPipelines");
-    return {site.device, pipeline};
+    return {context.device, pipeline};
 }
 
-OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
+OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& module,
                            const SpecializationValue& value) {
-    const OwnedShaderModule code = makeModule(site, specializedWords(site, module, value));
+    const OwnedShaderModule code = makeModule(context, specializedWords(context, module, value));
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.flags = site.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
+    info.flags = context.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
     info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
-    info.layout = site.layout;
+    info.layout = context.layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(vkCreateComputePipelines(site.device, site.cache, 1, &info, nullptr, &pipeline),
+    checkResult(vkCreateComputePipelines(context.device, context.cache, 1, &info, nullptr, &pipeline),
                 "vkCreateComputePipelines");
-    return {site.device, pipeline};
+    return {context.device, pipeline};
 }
 
 std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
@@ -254,7 +255,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
         OwnedPipeline* pipeline;
     };
     std::vector<Missing> missing;
-    const PipelineSite site = siteOf(device_, layout_);
+    const CreationContext context = contextOf(device_, layout_);
     if (PipelineCompiler* const compiler = device_.compiler())
         for (const PipelineKey& key : keys) compiler->ask(layout_, key, choose_);
     try {
@@ -265,7 +266,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
             missing.back().parts = choose_(key);
         }
         tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-            *missing[i].pipeline = makePipeline(site, *missing[i].key, missing[i].parts);
+            *missing[i].pipeline = makePipeline(context, *missing[i].key, missing[i].parts);
         });
     } catch (...) {
         // Pipelines that were not created must not be found later.
@@ -280,7 +281,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
 VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
     if (PipelineCompiler* const compiler = device_.compiler()) compiler->ask(layout, module, variant);
     const auto [entry, isNew] = compute_.try_emplace({&module, variant});
-    if (isNew) entry->second = makePipeline(siteOf(device_, layout), module, valueOf(variant));
+    if (isNew) entry->second = makePipeline(contextOf(device_, layout), module, valueOf(variant));
     return entry->second;
 }
 

@@ -65,7 +65,7 @@ using ChooseParts = std::function<PipelineParts(const PipelineKey&)>;
 PipelineParts plainParts(const PipelineKey& key);
 
 // Context of pipeline creation.
-struct PipelineSite {
+struct CreationContext {
     VkDevice device = VK_NULL_HANDLE;
     const DeviceSupport& support;
     const DeviceInfo& info;
@@ -74,13 +74,14 @@ struct PipelineSite {
     VkPipelineCreateFlags flags = 0;
     bool flattens_branches = false;  // DeviceProfile
 };
-PipelineSite siteOf(Device& device, VkPipelineLayout layout);
+CreationContext contextOf(Device& device, VkPipelineLayout layout);
 SpecializationValue valueOf(const Variant& variant);
 // Throws std::runtime_error naming what the device does not support. Topology is triangles; viewport,
 // scissor, cull mode and front face are dynamic.
-OwnedPipeline makePipeline(const PipelineSite& site, const PipelineKey& key, const PipelineParts& parts);
+OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& key,
+                           const PipelineParts& parts);
 // A compute shader whose dispatches may begin at any workgroup.
-OwnedPipeline makePipeline(const PipelineSite& site, const ShaderModule& module,
+OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& module,
                            const SpecializationValue& value);
 
 class Pipelines {

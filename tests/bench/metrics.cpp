@@ -4,7 +4,7 @@
 // kind. Wall-clock and processor time: medians and spread. `memory`: resident size that the first run
 // added to the process, in images.
 #include "compare/metrics/flip.h"
-#include "compare/metrics/plain.h"
+#include "compare/metrics/standard.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -118,11 +118,11 @@ int main(int count, char** arguments) try {
         {"FLIP, HDR, 15 exposures", [&] { hdrFlip(linear.reference, linear.test, fifteen); }},
         {"FLIP, LDR, the same picture", [&] { ldrFlip(display.reference, display.reference); }},
         {"plain, LDR",
-         [&] { plainMetrics(display.reference, display.test, ChannelKind::color, Range::display, all); }},
+         [&] { standardMetrics(display.reference, display.test, ChannelKind::color, Range::display, all); }},
         {"plain, HDR",
-         [&] { plainMetrics(linear.reference, linear.test, ChannelKind::color, Range::linear, all); }},
+         [&] { standardMetrics(linear.reference, linear.test, ChannelKind::color, Range::linear, all); }},
         {"plain, vectors",
-         [&] { plainMetrics(display.reference, display.test, ChannelKind::vector, Range::linear, all); }},
+         [&] { standardMetrics(display.reference, display.test, ChannelKind::vector, Range::linear, all); }},
     };
     for (Kind& kind : kinds) kind.memory = addedPictures(kind);  // before this process has threads
     for (std::size_t run = 0; run < runs; ++run)

@@ -2,7 +2,7 @@
 // Fuzzes .gltf and .glb; the reader distinguishes them by their first bytes. External files are available.
 #include "shared/scene/gltf/gltf.h"
 #include "tests/fuzz/fuzz.h"
-#include "tests/fuzz/sound_scene.h"
+#include "tests/fuzz/valid_scene.h"
 
 #include <tbb/global_control.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/lights/lights_json.h"
 #include "tests/fuzz/fuzz.h"
-#include "tests/fuzz/sound_light.h"
+#include "tests/fuzz/valid_light.h"
 
 using namespace diptych;
 

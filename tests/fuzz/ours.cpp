@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // File lists, checkpoint keys and move plans that the program writes and reads back.
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/file_moves.h"
-#include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/scratch_folder.h"
@@ -20,7 +20,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                               ('/' + name + '/').find("/../") == std::string::npos,
                           "what is listed is one of our names, inside its folder");
     });
-    fuzz::readOrSayWhy([&] { KeptFolder(folder / "report.json", "kept", {{"schema", 1}}).find("part"); });
+    fuzz::readOrSayWhy([&] {
+        CheckpointFolder(folder / "report.json", "kept", {{"schema", 1}}).find("part");
+    });
     fuzz::readOrSayWhy([&] { finishMoves(folder / "out"); });
     return 0;
 }

@@ -2,7 +2,7 @@
 // Scenes that use as much of glTF 2.0 as fits into a few kilobytes.
 #include "tests/fuzz/base64.h"
 #include "tests/fuzz/seeds.h"
-#include "tests/support/draco_maker.h"
+#include "tests/support/draco_builder.h"
 
 #include <meshoptimizer.h>
 

@@ -21,7 +21,7 @@ audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subje
         .unit = "cd",
         .what = "the lamp's intensity",
         .magnitudes = {1, 8},
-        .usual = [](const Subject&) { return 1.0; },
+        .original = [](const Subject&) { return 1.0; },
         .lacks = [](const Subject&) { return std::string(); },
         .push = [](Case& pushed, const Subject&,
                    double candela) { pushed.scene.lights[0].intensity = static_cast<float>(candela); }};

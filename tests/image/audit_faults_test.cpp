@@ -37,16 +37,16 @@ Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& chan
 // 1.1 (bisection in log scale). Fails if `sound` breaks or `broken` passes.
 double limitOf(Measurer& measurer, const Quantity& quantity, double sound, double broken) {
     const std::array<Series, 1> series{Series{Path::forward_plus, {}}};
-    const auto holds = [&](double magnitude) {
+    const auto passes = [&](double magnitude) {
         const Step step = measurer.measure(quantity, series, magnitude);
         EXPECT_EQ(step.failed, "") << magnitude;
         return step.outcomes[0].error() <= percent;
     };
-    EXPECT_TRUE(holds(sound)) << quantity.name;
-    EXPECT_FALSE(holds(broken)) << quantity.name;
+    EXPECT_TRUE(passes(sound)) << quantity.name;
+    EXPECT_FALSE(passes(broken)) << quantity.name;
     while (std::abs(std::log(broken / sound)) > std::log(1.1)) {
         const double middle = std::sqrt(sound * broken);
-        (holds(middle) ? sound : broken) = middle;
+        (passes(middle) ? sound : broken) = middle;
     }
     return std::sqrt(sound * broken);
 }
@@ -171,7 +171,7 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                     .unit = "",
                                     .what = "the roughness of all",
                                     .magnitudes = {0.01, 1},
-                                    .usual = [](const Subject&) { return 1.0; },
+                                    .original = [](const Subject&) { return 1.0; },
                                     .lacks = [](const Subject&) { return std::string(); },
                                     .push = pushSharpness};
     const double predicted = std::pow(2 * 1.5 * 0x1p-24 / percent, 0.25);
@@ -221,7 +221,7 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                .unit = "degrees",
                                .what = "the whole angle of the spot",
                                .magnitudes = {1, 90},
-                               .usual = [](const Subject&) { return 90.0; },
+                               .original = [](const Subject&) { return 90.0; },
                                .lacks = [](const Subject&) { return std::string(); },
                                .push = pushSoftCone};
     const double predicted = 2 * std::acos(1 - 0.001 * 0.995) * 180 / std::numbers::pi;

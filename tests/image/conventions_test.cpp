@@ -173,9 +173,9 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
         Frame other = renderer.draw(theirs, light);
         other.origin.external = true;
         other.settings = settings;
-        const Frame lent = cli::lentChannels(other, ours, renderer, options);
-        EXPECT_EQ(lent.settings.skin_normals, normals);
-        const Explanation found = explain(device(), renderer, scene, ours, lent);
+        const Frame substituted = cli::substituteChannels(other, ours, renderer, options);
+        EXPECT_EQ(substituted.settings.skin_normals, normals);
+        const Explanation found = explain(device(), renderer, scene, ours, substituted);
         if (normals == SkinNormals::joints) {
             EXPECT_EQ(found.distance, 0);
             continue;

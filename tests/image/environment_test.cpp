@@ -140,7 +140,8 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     Light lamp;
     lamp.position = {0, 0, 0.5};
     lamp.intensity = 1;
-    for (const std::size_t lights : {std::size_t{1}, std::size_t{device().profile().packets_per_draw} + 7}) {
+    for (const std::size_t lights :
+         {std::size_t{1}, std::size_t{device().profile().list_entries_per_draw} + 7}) {
         scene.lights.assign(lights, lamp);
         const std::vector<Frame> shone = bothPaths(scene, settings, shown);
         for (std::size_t i = 0; i < 2; ++i) {
@@ -172,8 +173,8 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
     }
 }
 
-// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each sample
-// reads the level whose texels match its solid angle.
+// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each
+// sample reads the level whose texels match its solid angle.
 double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dvec3& v, int count,
                     double bias) {
     const double alpha = roughness * roughness, pi = std::numbers::pi;

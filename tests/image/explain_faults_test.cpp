@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How often an explanation names an injected fault: over fifty single faults, each in at least twenty
 // views that are sensitive to it, and pairs of them.
-#include "tests/image/planted_faults.h"
+#include "tests/image/injected_faults.h"
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ struct Tally {
     std::string missed{};
 
     double rate() const { return cases > 0 ? static_cast<double>(named) / static_cast<double>(cases) : 0.0; }
-    void count(const PlantedView& view, const Explanation& e, bool is_named, double of) {
+    void count(const InjectedView& view, const Explanation& e, bool is_named, double of) {
         ++cases;
         named += is_named ? 1 : 0;
         share += is_named ? of : 0;
@@ -74,12 +74,12 @@ struct Tally {
 
 // Each single fault is named first in 95 % of the views that are sensitive to it.
 TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
-    const std::vector<PlantedFault>& faults = plantedFaults();
+    const std::vector<InjectedFault>& faults = injectedFaults();
     ASSERT_GE(faults.size(), 50u);
     std::string table = fmt::format("{:<62} {:>3} {:>7} {:>9}\n", "fault", "in", "named", "its share");
-    for (const PlantedFault& fault : faults) {
+    for (const InjectedFault& fault : faults) {
         Tally tally;
-        for (PlantedView* const view : plantedViews(fault.kind)) {
+        for (InjectedView* const view : injectedViews(fault.kind)) {
             if (tally.cases == leastCases) break;
             const Frame test = view->with(fault);
             const Image &a = view->right.channels.at(lit), &b = test.channels.at(lit);
@@ -99,10 +99,10 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
 
 // The light with the fault has the largest part of its causes' shares.
 TEST(ExplainFaults, TheLightIsNamedToo) {
-    for (const PlantedFault& fault : plantedFaults()) {
+    for (const InjectedFault& fault : injectedFaults()) {
         if (!fault.of_first_light) continue;
         Tally tally;
-        for (PlantedView* const view : plantedViews(fault.kind)) {
+        for (InjectedView* const view : injectedViews(fault.kind)) {
             if (tally.cases == leastCases) break;
             if (!view->feels(fault)) continue;
             const Explanation e = view->explained(view->with(fault));
@@ -123,12 +123,12 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
 
 // Two faults, each visible alone. `sign`: of their interaction, if known: -1 if one makes the other
 // redundant, 1 if each hides the other.
-struct PlantedPair {
+struct InjectedPair {
     const char *first, *second;
     int sign = 0;
 };
 
-constexpr PlantedPair plantedPairs[] = {
+constexpr InjectedPair injectedPairs[] = {
     {"normals of 5 bits", "albedo of 4 bits"},
     {"normals with y and z swapped", "roughness inverted: glossiness"},
     {"normals flattened", "the specular lobe lacks its 4"},
@@ -176,12 +176,12 @@ std::vector<std::string> largestTwo(const Explanation& e) {
 }
 
 // One of the two names belongs to each fault.
-bool areBoth(const std::vector<std::string>& two, const PlantedFault& first, const PlantedFault& second) {
+bool areBoth(const std::vector<std::string>& two, const InjectedFault& first, const InjectedFault& second) {
     return two.size() == 2 && ((isAmong(first.named, two[0]) && isAmong(second.named, two[1])) ||
                                (isAmong(first.named, two[1]) && isAmong(second.named, two[0])));
 }
 
-double interactionOf(const Explanation& e, const PlantedFault& first, const PlantedFault& second) {
+double interactionOf(const Explanation& e, const InjectedFault& first, const InjectedFault& second) {
     for (const CausePair& pair : e.pairs)
         if (areBoth({e.causes[pair.first].name, e.causes[pair.second].name}, first, second))
             return pair.interaction;
@@ -191,17 +191,17 @@ double interactionOf(const Explanation& e, const PlantedFault& first, const Plan
 // Both of two faults are named by the two largest shares or as an interacting pair; including redundant
 // and cancelling faults.
 TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
-    ASSERT_GE(std::size(plantedPairs), 20u);
+    ASSERT_GE(std::size(injectedPairs), 20u);
     std::string table = fmt::format("{:<92} {:>3} {:>6}   {}\n", "pair", "in", "named", "interaction");
-    for (const PlantedPair& pair : plantedPairs) {
-        const PlantedFault &first = plantedFault(pair.first), &second = plantedFault(pair.second);
+    for (const InjectedPair& pair : injectedPairs) {
+        const InjectedFault &first = injectedFault(pair.first), &second = injectedFault(pair.second);
         const ViewKind kind = first.kind == ViewKind::blended ? first.kind : second.kind;
         Tally tally;
         std::size_t redundant = 0, hiding = 0;
-        for (PlantedView* const view : plantedViews(kind)) {
+        for (InjectedView* const view : injectedViews(kind)) {
             if (tally.cases == leastPairCases) break;
             if (!view->feels(first) || !view->feels(second)) continue;
-            const std::array<const PlantedFault*, 2> both{&first, &second};
+            const std::array<const InjectedFault*, 2> both{&first, &second};
             const Explanation e = view->explained(view->with(both));
             const double interaction = interactionOf(e, first, second);
             redundant += interaction < 0 ? 1 : 0;
@@ -223,7 +223,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
 
 TEST(ExplainFaults, IdenticalFramesHaveNoCause) {
     for (const ViewKind kind : {ViewKind::opaque, ViewKind::blended})
-        for (PlantedView* const view : plantedViews(kind)) {
+        for (InjectedView* const view : injectedViews(kind)) {
             const Explanation e = view->explained(view->right);
             EXPECT_EQ(e.distance, 0) << view->name;
             EXPECT_TRUE(e.causes.empty()) << view->name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explanations of differences with injected, known causes.
 #include "compare/explain/explain.h"
-#include "compare/explain/lighting_stages.h"
+#include "compare/explain/lighting_components.h"
 #include "compare/picture/picture.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
@@ -68,22 +68,22 @@ std::vector<Fault> faults() {
 }
 
 // A scene rendered by forward+, and copies of its Frame with injected faults.
-class Planted {
+class Injected {
 public:
-    Planted(const std::string& name, Size size)
+    Injected(const std::string& name, Size size)
         : scene(loadScene(name)), renderer(device(), scene, pipelines()), settings(explained(size)) {
         std::vector<int> modes = explainedChannels();
         right = drawnBy(Path::forward_plus, renderer, settings, modes);
     }
 
     // The Frame that a renderer with these faults would produce.
-    Frame with(const std::vector<Fault>& planted) {
+    Frame with(const std::vector<Fault>& injected) {
         Frame frame = right;
         SurfaceImages images(device(), settings.size);
         for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
             const int number = surfaceChannels()[i];
             Image& image = frame.channels.at(number);
-            for (const Fault& fault : planted)
+            for (const Fault& fault : injected)
                 if (fault.channel == debugMode(number).name)
                     for (std::size_t p = 0; p < image.pixels(); ++p)
                         if (covered(p)) fault.plant(image.pixel(p));
@@ -139,7 +139,7 @@ std::vector<std::string> names(const Explanation& e) {
 }
 
 // Whether lit changed at all: a scene without metal, for instance, is not sensitive to a metallic fault.
-bool isFelt(const Explanation& e) {
+bool hasEffect(const Explanation& e) {
     return e.distance > 0;
 }
 
@@ -147,23 +147,23 @@ class ExplainOf : public testing::TestWithParam<const char*> {};
 
 // Each fault alone is the only cause, explains everything, and shares add up.
 TEST_P(ExplainOf, NamesEachPlantedFault) {
-    Planted planted(GetParam(), {96, 54});
-    int felt = 0;
+    Injected injected(GetParam(), {96, 54});
+    int effective = 0;
     for (const Fault& fault : faults()) {
         SCOPED_TRACE(fault.channel + ", " + fault.means);
         const Explanation e =
-            explain(device(), planted.renderer, planted.scene, planted.right, planted.with({fault}));
-        if (!isFelt(e)) continue;
-        ++felt;
+            explain(device(), injected.renderer, injected.scene, injected.right, injected.with({fault}));
+        if (!hasEffect(e)) continue;
+        ++effective;
         ASSERT_FALSE(e.causes.empty());
         EXPECT_EQ(e.causes.front().name, fault.channel);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
-        const Frame test = planted.with({fault});
-        expectMapsAddUp(e, planted.right, test);
+        const Frame test = injected.with({fault});
+        expectMapsAddUp(e, injected.right, test);
         if (e.causes.size() > 1) continue;
         // Of a single cause the map is the difference itself.
-        const Image &a = planted.right.channels.at(lit), &b = test.channels.at(lit);
+        const Image &a = injected.right.channels.at(lit), &b = test.channels.at(lit);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < a.pixels(); ++p)
             wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
@@ -172,28 +172,28 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         for (const MaterialShare& one : e.causes[0].materials) ofMaterials += one.share;
         EXPECT_NEAR(ofMaterials, e.distance, 1e-6 * e.distance);
     }
-    EXPECT_GE(felt, 4);
+    EXPECT_GE(effective, 4);
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
 // Both of two faults are named before anything else, whichever is larger.
 TEST_P(ExplainOf, NamesBothOfTwoFaults) {
-    Planted planted(GetParam(), {96, 54});
+    Injected injected(GetParam(), {96, 54});
     const std::vector<Fault> all = faults();
-    int felt = 0;
+    int effective = 0;
     for (const auto& [first, second] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}, {0, 3}, {3, 8}}) {
         SCOPED_TRACE(all[first].channel + " and " + all[second].channel);
-        const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right,
-                                      planted.with({all[first], all[second]}));
+        const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right,
+                                      injected.with({all[first], all[second]}));
         const std::vector<std::string> found = names(e);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         if (found.size() < 2) continue;  // the scene is insensitive to one of them
-        ++felt;
+        ++effective;
         EXPECT_EQ(found.size(), 2u);
         EXPECT_TRUE(std::ranges::count(found, all[first].channel) == 1 &&
                     std::ranges::count(found, all[second].channel) == 1);
     }
-    EXPECT_GE(felt, 2);
+    EXPECT_GE(effective, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExplainOf,
@@ -201,8 +201,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExplainOf,
                          [](const auto& test) { return testName(test.param); });
 
 TEST(Explain, OfTheSameFrameHasNoCause) {
-    Planted planted("builtin:points", {64, 36});
-    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, planted.right);
+    Injected injected("builtin:points", {64, 36});
+    const Explanation e =
+        explain(device(), injected.renderer, injected.scene, injected.right, injected.right);
     EXPECT_EQ(e.distance, 0);
     EXPECT_TRUE(e.causes.empty());
     EXPECT_TRUE(std::ranges::all_of(e.dominant.data, [](float place) { return place < 0; }));
@@ -210,48 +211,48 @@ TEST(Explain, OfTheSameFrameHasNoCause) {
 
 // Two faults that hide each other: one restores the light that the other removes.
 TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
-    Planted planted("builtin:points", {64, 36});
+    Injected injected("builtin:points", {64, 36});
     const Fault darker{"albedo", "halved", [](float* p) {
                            for (int c = 0; c < 3; ++c) p[c] *= 0.5f;
                        }};
     // Emission that nearly restores lit.
-    const Frame dark = planted.with({darker});
-    const Image &was = planted.right.channels.at(lit), &is = dark.channels.at(lit);
+    const Frame dark = injected.with({darker});
+    const Image &was = injected.right.channels.at(lit), &is = dark.channels.at(lit);
     Frame hidden = dark;
     Image& emission = hidden.channels.at(mode(gpu::DEBUG_emission));
     Image& hidden_lit = hidden.channels.at(lit);
     for (std::size_t p = 0; p < was.pixels(); ++p)
-        if (planted.covered(p))
+        if (injected.covered(p))
             for (int c = 0; c < 3; ++c) {
                 const float lost = 0.9f * (was.pixel(p)[c] - is.pixel(p)[c]);
                 emission.pixel(p)[c] += lost;
                 hidden_lit.pixel(p)[c] += lost;
             }
-    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, hidden);
+    const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right, hidden);
     const std::vector<std::string> found = names(e);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(std::ranges::count(found, "albedo") + std::ranges::count(found, "emission"), 2);
     ASSERT_FALSE(e.pairs.empty());
     EXPECT_GT(e.pairs.front().interaction, 0);
     for (const Cause& cause : e.causes) EXPECT_LT(cause.alone, 0) << "alone it makes things worse";
-    expectMapsAddUp(e, planted.right, hidden);
+    expectMapsAddUp(e, injected.right, hidden);
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
 // A differing Setting is a cause like a differing channel, and its effect is located in the image.
 TEST(Explain, SettingsAreCauses) {
-    Planted planted("builtin:points", {64, 36});
+    Injected injected("builtin:points", {64, 36});
     for (const auto& [option, value] : {std::pair<std::string, std::string>{"ambient", "0.2,0.2,0.2"},
                                         {"haze", "on"},
                                         {"multiscatter", "fdez"}}) {
-        Settings settings = planted.settings;
+        Settings settings = injected.settings;
         settings.set(option, value);
-        const Frame test = drawnBy(Path::forward_plus, planted.renderer, settings, explainedChannels());
-        const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, test);
+        const Frame test = drawnBy(Path::forward_plus, injected.renderer, settings, explainedChannels());
+        const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right, test);
         ASSERT_FALSE(e.causes.empty()) << option;
         EXPECT_EQ(e.causes.front().name, "--" + option);
         EXPECT_GT(e.frames, 1u);
-        expectMapsAddUp(e, planted.right, test);
+        expectMapsAddUp(e, injected.right, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }
@@ -392,21 +393,21 @@ TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
 
 // Without terms the same difference stays unexplained.
 TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
-    Planted planted("builtin:points", {32, 18});
-    Frame test = planted.right;
+    Injected injected("builtin:points", {32, 18});
+    Frame test = injected.right;
     for (std::size_t p = 0; p < test.channels.at(lit).pixels(); ++p)
-        if (planted.covered(p)) test.channels.at(lit).pixel(p)[0] *= 1.1f;
-    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, test);
+        if (injected.covered(p)) test.channels.at(lit).pixel(p)[0] *= 1.1f;
+    const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right, test);
     EXPECT_TRUE(e.causes.empty());
     EXPECT_EQ(e.unexplained, e.distance);
 }
 
 TEST(Explain, MissingChannelsAreNamed) {
-    Planted planted("builtin:triangle", {16, 9});
-    Frame lacking = planted.right;
+    Injected injected("builtin:triangle", {16, 9});
+    Frame lacking = injected.right;
     lacking.channels.erase(mode(gpu::DEBUG_roughness));
     try {
-        explain(device(), planted.renderer, planted.scene, planted.right, lacking);
+        explain(device(), injected.renderer, injected.scene, injected.right, lacking);
         FAIL() << "explained without roughness";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("roughness"), std::string::npos) << error.what();

@@ -42,9 +42,9 @@ TEST_P(GpuChoices, DrawTheSamePictures) {
         for (const Path path : {Path::forward_plus, Path::deferred}) {
             if (path == Path::deferred && prepass == Switch::off) continue;  // has none
             SCOPED_TRACE(fmt::format("{}, pre-pass {}", nameOf(path), nameOf(prepass)));
-            const Frame usual = drawnBy(path, here, settings, channels),
+            const Frame standard = drawnBy(path, here, settings, channels),
                         chosen = drawnBy(path, there, settings, channels);
-            expectSameChannels(usual, chosen, channels.size());
+            expectSameChannels(standard, chosen, channels.size());
             EXPECT_EQ(chosen.counters.unreproduced_pixels, 0u);
         }
     }
@@ -91,8 +91,8 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
         EXPECT_FALSE(lists(asGpu(), gpuPipelines(), scene, settings));
         EXPECT_EQ(lists(device(), pipelines(), scene, settings),
                   device().profile().shades_failed_samples && edges != MsaaEdges::all);
-        SampledScene usual(scene), chosen(std::move(scene), asGpu(), gpuPipelines());
-        const std::vector<Image> a = usual.draw(settings), b = chosen.draw(settings);
+        SampledScene standard(scene), chosen(std::move(scene), asGpu(), gpuPipelines());
+        const std::vector<Image> a = standard.draw(settings), b = chosen.draw(settings);
         std::size_t further = 0;
         for (std::size_t i = 0; i < a.size(); ++i) {
             std::size_t differ = 0;
@@ -158,8 +158,8 @@ TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
     EXPECT_FALSE(samplesDepth(PreparedFrame(asGpu(), shared, view, settings).passes));
     if (device().profile().fetches_depth) return;
     settings.prepass = Switch::on;
-    SharedResources usual(device(), scene, pipelines());
-    const PreparedFrame own(device(), usual, view, settings);
+    SharedResources standard(device(), scene, pipelines());
+    const PreparedFrame own(device(), standard, view, settings);
     EXPECT_FALSE(samplesDepth(own.passes));
     EXPECT_NE(own.passes.names().front(), Culling::name) << "on a CPU device the host chooses faster";
 }

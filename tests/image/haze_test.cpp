@@ -4,7 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/square.h"
-#include "tests/support/haze_maker.h"
+#include "tests/support/haze_builder.h"
 
 #include <fmt/format.h>
 

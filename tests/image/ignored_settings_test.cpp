@@ -19,18 +19,18 @@ TEST(IgnoredSettings, ChangeNoBit) {
     Renderer renderer(device(), scene, pipelines());
     std::size_t compared = 0, changed = 0;
     for (const Path path : {Path::deferred, Path::forward_plus}) {
-        Settings usual = unshadowed();
-        usual.path = path;
-        usual.size = {96, 54};
-        const Image before = litOf(renderer, usual);
+        Settings defaults = unshadowed();
+        defaults.path = path;
+        defaults.size = {96, 54};
+        const Image before = litOf(renderer, defaults);
         for (const Field& field : settingFields()) {
             if (field.option == "path" || field.option == "size") continue;
-            const bool ignored = !ignoredBecause(usual, field.option).empty();
+            const bool ignored = !ignoredBecause(defaults, field.option).empty();
             if (!ignored && field.option != "gbuffer") continue;  // one that is read suffices as a control
-            for (const std::string& value : sweptValues(usual, field.option)) {
-                Settings other = usual;
+            for (const std::string& value : sweptValues(defaults, field.option)) {
+                Settings other = defaults;
                 other.set(field.option, value);
-                if (other == usual || (other.problem() && !ignored)) continue;
+                if (other == defaults || (other.problem() && !ignored)) continue;
                 const std::uint64_t pixels = unequalPixels(before, litOf(renderer, other), 0);
                 compared += ignored;
                 changed += !ignored && pixels > 0;

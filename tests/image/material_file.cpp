@@ -4,7 +4,7 @@
 #include "shared/image/png.h"
 #include "shared/scene/gltf/gltf.h"
 #include "tests/image/material_cells.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <glm/geometric.hpp>
 

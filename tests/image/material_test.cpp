@@ -7,7 +7,7 @@
 #include "shared/material/texture_probe.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/scene_view.h"
-#include "tests/image/material_judge.h"
+#include "tests/image/material_checker.h"
 #include "tests/image/scenes.h"
 
 #include <functional>
@@ -91,7 +91,7 @@ std::vector<Frame> materialFrames(const CellCamera& camera) {
 class MaterialPictures : public testing::TestWithParam<CellCamera> {
 protected:
     // `channels`: number of channels that must have been checked.
-    static void expectRight(const std::string& who, const Judgement& judgement, std::size_t channels) {
+    static void expectRight(const std::string& who, const ChannelChecks& judgement, std::size_t channels) {
         EXPECT_FALSE(anyWrong(judgement)) << who << "\n" << describe(judgement);
         EXPECT_EQ(judgement.size(), channels) << who;
         for (const auto& [mode, judged] : judgement)
@@ -319,7 +319,7 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
     const auto judged = [&](const Scene& scene) {
         return againstClosedForm(materialReference(scene, camera), fewMaterialCells(), camera, exactDecode());
     };
-    const Judgement sound = judged(sceneOf(camera));
+    const ChannelChecks sound = judged(sceneOf(camera));
     EXPECT_FALSE(anyWrong(sound)) << describe(sound);
     for (const MaterialFault& fault : faults) {
         Scene scene = sceneOf(camera);
@@ -327,7 +327,7 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
         // Without lightmaps: a lit environment takes longest, and other channels show the same materials.
         if (fault.channel != gpu::DEBUG_lightmap)
             for (Material& m : scene.materials) m.lightmap_texture.texture = -1;
-        const Judgement judgement = judged(scene);
+        const ChannelChecks judgement = judged(scene);
         EXPECT_GT(judgement.at(static_cast<int>(fault.channel)).wrong, 3u) << fault.name << "\n"
                                                                            << describe(judgement);
     }

@@ -29,13 +29,13 @@ void expectAllHold(const std::string& scene, std::size_t atLeast,
                    const std::vector<std::string>& names = {}) {
     const audit::Subject subject = relatedScene(scene);
     audit::RelationMeasurer measurer(device(), subject, {}, pipelines());
-    std::size_t held = 0;
+    std::size_t result = 0;
     for (const audit::Relation* relation : audit::relationsOf(names)) {
-        const audit::RelationHeld of = measurer.measure(*relation);
-        EXPECT_TRUE(of.holds()) << scene << " " << audit::inWords(of, relatedDevice());
-        held += audit::verdictOf(of) == "holds";
+        const audit::RelationResult of = measurer.measure(*relation);
+        EXPECT_TRUE(of.passes()) << scene << " " << audit::inWords(of, relatedDevice());
+        result += audit::verdictOf(of) == "holds";
     }
-    EXPECT_GE(held, atLeast) << scene;
+    EXPECT_GE(result, atLeast) << scene;
 }
 
 TEST(RelationImages, AllHoldInTheGallery) {
@@ -72,7 +72,7 @@ void stain(Case& of) {
 }
 
 // A small fault for each relation, of the kind that it should detect.
-const std::map<std::string_view, std::function<void(Case&)>>& plantedFaults() {
+const std::map<std::string_view, std::function<void(Case&)>>& injectedFaults() {
     static const std::map<std::string_view, std::function<void(Case&)>> faults{
         {"lights_permuted", [](Case& of) { of.scene.lights.pop_back(); }},
         {"lights_split", [](Case& of) { dim(of, 1 - 1e-5f); }},
@@ -114,14 +114,14 @@ TEST(RelationImages, EachIsBrokenByAPlantedFault) {
     const audit::Subject subject = relatedScene("points");
     audit::RelationMeasurer measurer(device(), subject, {}, pipelines());
     for (const audit::Relation& relation : audit::relations()) {
-        const auto fault = plantedFaults().find(relation.name);
-        ASSERT_NE(fault, plantedFaults().end()) << relation.name << " has no planted fault";
-        const audit::RelationHeld of = measurer.measure(relation, fault->second);
+        const auto fault = injectedFaults().find(relation.name);
+        ASSERT_NE(fault, injectedFaults().end()) << relation.name << " has no injected fault";
+        const audit::RelationResult of = measurer.measure(relation, fault->second);
         EXPECT_EQ(audit::verdictOf(of), "broken") << audit::inWords(of, relatedDevice());
         bool every = true;
-        for (const audit::SeriesHeld& series : of.series)
-            every = every &&
-                    (!series.lacks.empty() || series.series.path == Path::reference || !series.held.holds());
+        for (const audit::SeriesResult& series : of.series)
+            every = every && (!series.lacks.empty() || series.series.path == Path::reference ||
+                              !series.comparison.passes());
         EXPECT_TRUE(every) << "each path shows it: " << audit::inWords(of, relatedDevice());
     }
 }

@@ -81,7 +81,7 @@ TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     SceneViews views(scene);
     Settings settings = filteredBy(Shadows::pcf, GBufferEncoding::full);
     Renderer renderer(device(), scene, pipelines());
-    const PreparedView usual(device(), shared, views.at(viewRequest(settings)), settings);
+    const PreparedView standard(device(), shared, views.at(viewRequest(settings)), settings);
     settings.shadow_fit = ShadowFit::depth;
     const std::vector<Frame> frames = bothPaths(renderer, settings, {sunSeen, served, viewDepths, materials});
     for (const int mode : {sunSeen, served})
@@ -100,7 +100,7 @@ TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     PassList passes(device(), 160, 90);
     functionsOf(settings.path).add(passes, prepared.inputs);
     EXPECT_EQ(passes.names().front(), "shadow depth bounds");
-    EXPECT_LE(prepared.shadow.sun.reach().back().reach, usual.shadow.sun.reach().back().reach);
+    EXPECT_LE(prepared.shadow.sun.reach().back().reach, standard.shadow.sun.reach().back().reach);
     const auto& notes = frames[0].notes;
     EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
         return note.find("in 8 steps of a texel") != std::string::npos;

@@ -103,10 +103,10 @@ TEST(SpecularEnergy, DoesNotDependOnResolutionOrSamples) {
         settings.msaa = samples;
         return meanOf(drawnBy(Path::forward_plus, renderer, settings, {lit}).channels.at(lit));
     };
-    const double usual = mean({192, 108}, 1);
-    EXPECT_NEAR(mean({96, 54}, 1) / usual, 1, 0.05);
-    EXPECT_NEAR(mean({384, 216}, 1) / usual, 1, 0.05);
-    EXPECT_NEAR(mean({192, 108}, 4) / usual, 1, 0.05);
+    const double standard = mean({192, 108}, 1);
+    EXPECT_NEAR(mean({96, 54}, 1) / standard, 1, 0.05);
+    EXPECT_NEAR(mean({384, 216}, 1) / standard, 1, 0.05);
+    EXPECT_NEAR(mean({192, 108}, 4) / standard, 1, 0.05);
 }
 
 }  // namespace

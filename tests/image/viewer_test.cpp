@@ -131,8 +131,8 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
     Order order = orderOf("builtin:points");
     order.pixel = PixelPlace{30, 20};
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
-    const auto story = drawing.story();
-    ASSERT_TRUE(story);
+    const auto breakdown = drawing.breakdown();
+    ASSERT_TRUE(breakdown);
     const Scene scene = loadScene("builtin:points");
     Device device({});
     SceneViews views(scene);
@@ -140,14 +140,14 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
     Settings deferred = order.subject.settings, forward = order.subject.settings;
     deferred.path = Path::deferred;
     forward.path = Path::forward_plus;
-    const PixelStory same = pixelStory(renderer, views,
-                                       {.x = 30,
-                                        .y = 20,
-                                        .baseline = deferred,
-                                        .test = forward,
-                                        .reference = referenceSettings(order.subject.settings),
-                                        .device = reportDevice(device)});
-    EXPECT_EQ(story->words, inWords(same));
+    const PixelBreakdown same = pixelBreakdown(renderer, views,
+                                               {.x = 30,
+                                                .y = 20,
+                                                .baseline = deferred,
+                                                .test = forward,
+                                                .reference = referenceSettings(order.subject.settings),
+                                                .device = reportDevice(device)});
+    EXPECT_EQ(breakdown->words, inWords(same));
 }
 
 TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {

@@ -4,7 +4,7 @@
 #include "shared/contract/features.h"
 #include "shared/environment/haze.h"
 #include "tests/probe/probe.h"
-#include "tests/support/haze_maker.h"
+#include "tests/support/haze_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Errors of both area-light methods relative to the reference. Measures the table of
 // shared/light/MEASURED.md and writes it to the file named by DIPTYCH_AREA_TABLE.
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

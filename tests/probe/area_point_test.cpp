@@ -4,7 +4,7 @@
 // the lowered peak. Independently of that definition, small lights must have the irradiance of their solid
 // angle.
 #include "compare/reference/brdf.h"
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Closed forms of the shaders' area lights, compared with quadrature in double.
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
 

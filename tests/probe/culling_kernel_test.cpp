@@ -86,7 +86,7 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
     const std::vector<std::uint32_t> indices = culling.chosenIndices();
     const DrawItem& item = list.items[0];
     std::vector<std::array<std::uint32_t, 3>> chosen;
-    for (const IndexRun& run : std::span(list.runs).subspan(item.first_run, item.runs))
+    for (const IndexRange& run : std::span(list.runs).subspan(item.first_run, item.runs))
         for (std::uint32_t i = 0; i < run.count; i += 3)
             chosen.push_back(
                 {indices[run.first + i], indices[run.first + i + 1], indices[run.first + i + 2]});
@@ -95,8 +95,8 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
                           std::ldexp(1.0, -static_cast<int>(on.device.limits().subPixelPrecisionBits))};
     const PlacedPrimitive placed = geometry.placed(pose, pose.instances[0]);
     const glm::dmat4 fromCamera = fromEye(placed, round.view.eye());
-    const ShownClusters host(grid, round.view.clipFromWorld() * fromCamera, item.range.bounds_min,
-                             item.range.bounds_max, !round.double_sided, item.mirrored);
+    const VisibleClusters host(grid, round.view.clipFromWorld() * fromCamera, item.range.bounds_min,
+                               item.range.bounds_max, !round.double_sided, item.mirrored);
     // From near to far, as Culling sorts.
     const glm::dvec4 depth = glm::transpose(fromCamera) * glm::dvec4(-round.view.backward(), 0);
     std::vector<std::pair<double, std::uint32_t>> order;

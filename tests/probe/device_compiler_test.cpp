@@ -3,7 +3,7 @@
 // ones that exceed the device's limits.
 #include "shared/vulkan/device_compiler.h"
 #include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 #include "shared/vulkan/pass_list.h"
 
 #include <gtest/gtest.h>
@@ -139,7 +139,7 @@ TEST_F(DeviceCompilerTest, RecentFamiliesCompileOrAreNamed) {
 }
 
 // RADV exits the process for unknown families, so the compiler runs in a child process.
-TEST(DriverTrial, AFamilyThatRadvDoesNotKnowIsAnError) {
+TEST(DriverProbe, AFamilyThatRadvDoesNotKnowIsAnError) {
     if (radvFiles().empty()) GTEST_SKIP() << "RADV (mesa-vulkan-drivers) is not installed";
     try {
         DeviceCompiler("navi999");
@@ -153,17 +153,17 @@ TEST(DriverTrial, AFamilyThatRadvDoesNotKnowIsAnError) {
     EXPECT_EQ(std::getenv("RADV_FORCE_FAMILY"), nullptr);
 }
 
-TEST(DriverTrial, AChildsEndIsToldFromItsAnswer) {
-    const DriverTrial answered = tryInChild([] { return std::string("so"); });
+TEST(DriverProbe, AChildsEndIsToldFromItsAnswer) {
+    const DriverProbe answered = probeInChild([] { return std::string("so"); });
     EXPECT_FALSE(answered.crashed);
-    EXPECT_EQ(answered.said, "so");
-    const DriverTrial threw = tryInChild([]() -> std::string { throw std::runtime_error("no"); });
+    EXPECT_EQ(answered.output, "so");
+    const DriverProbe threw = probeInChild([]() -> std::string { throw std::runtime_error("no"); });
     EXPECT_FALSE(threw.crashed);
-    EXPECT_EQ(threw.said, "no");
-    EXPECT_TRUE(tryInChild([]() -> std::string { std::abort(); }).crashed);
+    EXPECT_EQ(threw.output, "no");
+    EXPECT_TRUE(probeInChild([]() -> std::string { std::abort(); }).crashed);
 }
 
-TEST(DriverTrial, TheEnvironmentIsSetBack) {
+TEST(DriverProbe, TheEnvironmentIsSetBack) {
     ::setenv("DIPTYCH_THERE", "before", 1);
     ::unsetenv("DIPTYCH_ABSENT");
     {

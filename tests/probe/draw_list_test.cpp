@@ -189,7 +189,7 @@ struct BlendedSquares {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> runsOf(const DrawList& list) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
-    for (const SortedRun& run : list.sorted_runs) runs.emplace_back(run.item, run.run.count);
+    for (const SortedRange& run : list.sorted_runs) runs.emplace_back(run.item, run.run.count);
     return runs;
 }
 
@@ -258,7 +258,7 @@ TEST(DrawList, TrianglesNeverComeNearerBeforeFarther) {
     const DrawList list = squares.listOf(instances, view);
     ASSERT_EQ(list.sorted_indices.size(), 10u * 6 * 7);
     double last = 1e9;
-    for (const SortedRun& run : list.sorted_runs) {
+    for (const SortedRange& run : list.sorted_runs) {
         const auto& [primitive, transform] = instances[list.blended()[run.item].instance];
         const Primitive& p = squares.scene.meshes[0].primitives[static_cast<std::size_t>(primitive)];
         for (std::uint32_t i = run.run.first; i < run.run.first + run.run.count; i += 3) {

@@ -6,7 +6,7 @@
 #include "shared/contract/features.h"
 #include "shared/contract/multiscatter.h"
 #include "shared/environment/directional_albedo.h"
-#include "tests/probe/area_maker.h"
+#include "tests/probe/area_builder.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>

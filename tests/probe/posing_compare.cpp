@@ -179,7 +179,7 @@ public:
         const int map = materialsOf(scene, pose)[static_cast<std::size_t>(of_.primitive.material)]
                             .normal_texture.texcoord;
         fresh_ = !of_.primitive.tangent_groups.empty() &&
-                 (instance.map_turned || of_.isMoved([map](const MorphTarget& t) {
+                 (instance.map_rotated || of_.isMoved([map](const MorphTarget& t) {
                      return !t.positions.empty() || !t.normals.empty() || !t.texcoords[map].empty();
                  }));
         const PosedBox& box = pose.boxes[static_cast<std::size_t>(instance.box)];

@@ -6,8 +6,8 @@
 #include "shared/scene/load.h"
 #include "shared/scene/model/tangents.h"
 #include "shared/vulkan/device.h"
+#include "tests/probe/posing_builder.h"
 #include "tests/probe/posing_compare.h"
-#include "tests/probe/posing_maker.h"
 #include "tests/probe/probe.h"
 
 #include <fmt/format.h>
@@ -60,15 +60,15 @@ TEST(Posing, OfFilesAtThreeTimes) {
 TEST(Posing, OfRandomMeshesInRandomPoses) {
     PosingErrors errors;
     for (int n = 0; n < 32; ++n) {
-        PosingMaker maker(static_cast<unsigned>(n));
+        PosingBuilder builder(static_cast<unsigned>(n));
         PosingChoice c;
         c.joint_sets = n % 4;
-        c.targets = n / 4 % 2 == 0 && c.joint_sets > 0 ? 0 : 1 + maker.below(5);
+        c.targets = n / 4 % 2 == 0 && c.joint_sets > 0 ? 0 : 1 + builder.below(5);
         c.flat = n / 8 % 2 == 1;
-        c.root = placed(10.0 * maker.vector(), glm::dvec3(n / 16 % 2 == 1 ? -1.5 : 1.5, 1.5, 1.5));
+        c.root = placed(10.0 * builder.vector(), glm::dvec3(n / 16 % 2 == 1 ? -1.5 : 1.5, 1.5, 1.5));
         c.inverse_binds = n % 8 != 3;
-        Scene scene = maker.scene(c);
-        if (c.joint_sets > 0) maker.addSkin(scene, c);  // two instances of the mesh, two skins
+        Scene scene = builder.scene(c);
+        if (c.joint_sets > 0) builder.addSkin(scene, c);  // two instances of the mesh, two skins
         const Pose pose = poseAt(scene, 0);
         ASSERT_EQ(pose.boxes.size(), c.joint_sets > 0 ? 2u : 1u);
         for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended})
@@ -84,7 +84,7 @@ TEST(Posing, OfRandomMeshesInRandomPoses) {
 TEST(Posing, TangentsAreMadeOfTheMorphedSurface) {
     PosingErrors errors;
     for (int n = 0; n < 16; ++n) {
-        PosingMaker maker(static_cast<unsigned>(100 + n));
+        PosingBuilder builder(static_cast<unsigned>(100 + n));
         PosingChoice c;
         c.fresh_tangents = true;
         c.targets = 3;
@@ -92,8 +92,8 @@ TEST(Posing, TangentsAreMadeOfTheMorphedSurface) {
         c.map_texcoord = n / 2 % 2;
         c.joint_sets = n / 4 % 2;
         c.joints = 1;
-        c.root = placed(maker.vector(), glm::dvec3(n / 8 % 2 == 1 ? -1 : 1, 1, 1));
-        comparePosing(maker.scene(c), poseAt(maker.scene(c), 0), fmt::format("mesh {}", n), errors);
+        c.root = placed(builder.vector(), glm::dvec3(n / 8 % 2 == 1 ? -1 : 1, 1, 1));
+        comparePosing(builder.scene(c), poseAt(builder.scene(c), 0), fmt::format("mesh {}", n), errors);
     }
     printErrors("tangents made anew", errors);
     EXPECT_GT(errors.fresh_tangent, 0);
@@ -152,7 +152,7 @@ TEST(Posing, FarFromTheMeshsOrTheWorldsOriginAndAtAnyScale) {
           {"joints scaled by 1e-6", glm::dvec3(0), placed({1, 2, 3}), 1e-6},
           {"joints scaled by 1e6", glm::dvec3(0), placed({1, 2, 3}), 1e6}})
         for (const bool flat : {false, true}) {
-            PosingMaker maker(7);
+            PosingBuilder builder(7);
             PosingChoice c;
             c.joint_sets = 2;
             c.targets = 2;
@@ -160,25 +160,25 @@ TEST(Posing, FarFromTheMeshsOrTheWorldsOriginAndAtAnyScale) {
             c.offset = offset;
             c.root = root;
             c.joint_scale = scale;
-            printErrors(what, compared(maker.scene(c), what));
+            printErrors(what, compared(builder.scene(c), what));
         }
 }
 
 TEST(Posing, OfAThousandTargets) {
-    PosingMaker maker(8);
+    PosingBuilder builder(8);
     PosingChoice c;
     c.targets = 1000;
     c.cells = 4;
-    printErrors("1,000 targets", compared(maker.scene(c), "a thousand targets"));
+    printErrors("1,000 targets", compared(builder.scene(c), "a thousand targets"));
 }
 
 TEST(Posing, OfAsManyJointsAsNumbersOf16BitsName) {
-    PosingMaker maker(9);
+    PosingBuilder builder(9);
     PosingChoice c;
     c.joint_sets = 1;
     c.joints = 65535;
     c.cells = 30;
-    Scene scene = maker.scene(c);
+    Scene scene = builder.scene(c);
     JointSet& set = scene.meshes[0].primitives[0].joint_sets[0];
     set.joints[0] = {65534, 0, 0, 0};
     set.weights[0] = {1, 0, 0, 0};
@@ -186,23 +186,23 @@ TEST(Posing, OfAsManyJointsAsNumbersOf16BitsName) {
 }
 
 TEST(Posing, AMeshWithJointsMovesAsAWholeWithoutASkin) {
-    PosingMaker maker(14);
+    PosingBuilder builder(14);
     PosingChoice c;
     c.joint_sets = 2;
     c.targets = 2;
     c.root = placed({3, 4, 5}, glm::dvec3(1, 2, 1));
-    Scene scene = maker.scene(c);
+    Scene scene = builder.scene(c);
     scene.nodes[0].skin = -1;
     compared(scene, "without a skin");
 }
 
 // If a vertex follows one joint, any of its four, both methods give the same normal bits.
 TEST(Posing, OneJointTurnsANormalEitherWayToTheSameBits) {
-    PosingMaker maker(15);
+    PosingBuilder builder(15);
     PosingChoice c;
     c.joint_sets = 2;
     c.root = placed({3, 4, 5}, {-1.5, 0.7, 1.2});
-    Scene scene = maker.scene(c);
+    Scene scene = builder.scene(c);
     const Pose pose = poseAt(scene, 0);
     const auto differing = [&] {
         const std::vector<glm::vec3> a = posedNormals(scene, pose, SkinNormals::joints),
@@ -223,10 +223,10 @@ TEST(Posing, OneJointTurnsANormalEitherWayToTheSameBits) {
 
 // A joint of scale 0 collapses its vertices to a point, where no direction is defined.
 TEST(Posing, ACollapsedJointHasNoDirections) {
-    PosingMaker maker(10);
+    PosingBuilder builder(10);
     PosingChoice c;
     c.joint_sets = 1;
-    Scene scene = maker.scene(c);
+    Scene scene = builder.scene(c);
     glm::dmat4& joint = scene.nodes[2].parent_from_node;
     joint = glm::scale(joint, glm::dvec3(0));
     JointSet& set = scene.meshes[0].primitives[0].joint_sets[0];
@@ -246,11 +246,11 @@ TEST(Posing, ACollapsedJointHasNoDirections) {
 // NaN in float32 and in double, so the triangles are not rendered.
 TEST(Posing, BeyondWhatCoordinatesMayBeIsNaN) {
     for (const bool skinned : {false, true}) {
-        PosingMaker maker(11);
+        PosingBuilder builder(11);
         PosingChoice c;
         c.joint_sets = skinned ? 1 : 0;
         c.targets = 2;
-        Scene scene = maker.scene(c);
+        Scene scene = builder.scene(c);
         MorphTarget& target = scene.meshes[0].primitives[0].targets[0];
         scene.meshes[0].weights[0] = 2;
         for (std::size_t v = 0; v < target.positions.size(); v += 3) target.positions[v].y += 2e18f;
@@ -266,12 +266,12 @@ TEST(Posing, BeyondWhatCoordinatesMayBeIsNaN) {
 // On some devices all loops of a shader share an iteration limit; more targets would be dropped silently.
 TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
     const auto posed = [](bool flat, std::size_t targets, bool positions_alone, const std::string& what) {
-        PosingMaker maker(12);
+        PosingBuilder builder(12);
         PosingChoice c;
         c.targets = 1;
         c.cells = 1;
         c.flat = flat;
-        Scene scene = maker.scene(c);
+        Scene scene = builder.scene(c);
         Mesh& mesh = scene.meshes[0];
         MorphTarget& target = mesh.primitives[0].targets[0];
         if (positions_alone) target = {target.positions, {}, {}};
@@ -300,11 +300,11 @@ TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
 
 // Views at one time share a pose; any change of its inputs makes a new one.
 TEST(Posing, ViewsOfOneMomentShareAPose) {
-    PosingMaker maker(13);
+    PosingBuilder builder(13);
     PosingChoice c;
     c.joint_sets = 1;
     c.targets = 2;
-    Scene scene = maker.scene(c);
+    Scene scene = builder.scene(c);
     Device& device = probeDevice();
     Uploader uploader(device);
     const Geometry geometry(device, uploader, scene);

@@ -2,7 +2,7 @@
 // Small scenes that tests of the reference render.
 #pragma once
 
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 #include "tests/support/shapes.h"
 
 #include "compare/reference/checkpoint.h"

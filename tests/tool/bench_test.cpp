@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Benchmarks through the whole program.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 #include "tests/tool/sweep.h"
 
 #include <set>

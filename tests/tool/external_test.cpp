@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // External renderers: their jobs, their images, and their failures.
 #include "shared/image/exr.h"
-#include "shared/vulkan/driver_trial.h"
+#include "shared/vulkan/driver_probe.h"
 #include "tests/tool/fake_renderer.h"
 #include "tests/tool/running.h"
 

@@ -78,8 +78,8 @@ TEST(HiddenSupport, ACompareHasTheSameVerdictOrNamesWhatLacks) {
         for (const std::string& use : arguments) {
             SCOPED_TRACE(hidden + ": " + use);
             if (!verdicts.contains(use)) {
-                const Ran usual = runHiding(folder, "", compared(use));
-                EXPECT_LE(usual.code, 1) << usual.err;
+                const Ran standard = runHiding(folder, "", compared(use));
+                EXPECT_LE(standard.code, 1) << standard.err;
                 verdicts[use] = verdictIn(folder);
             }
             fs::remove_all(folder / "r");
@@ -165,9 +165,9 @@ TEST(HiddenSupport, LightsBeyondATexelBufferGiveTheSameBits) {
         const std::string render =
             "render builtin:points -q --size 24x14 --channels lit --runs 0 --validate " + c.arguments +
             " -o ";
-        const Ran usual = runHiding(folder, "", render + "a.exr"),
+        const Ran standard = runHiding(folder, "", render + "a.exr"),
                   hiding = runHiding(folder, "limit maxTexelBufferElements " + c.texels, render + "b.exr");
-        ASSERT_EQ(usual.code, 0) << usual.err;
+        ASSERT_EQ(standard.code, 0) << standard.err;
         ASSERT_EQ(hiding.code, 0) << hiding.err;
         EXPECT_TRUE(contentsOf(folder / "a.exr") == contentsOf(folder / "b.exr"));
     }

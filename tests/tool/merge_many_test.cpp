@@ -3,7 +3,7 @@
 #include "compare/report/folders.h"
 #include "compare/report/parts.h"
 #include "compare/shards/manifest.h"
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

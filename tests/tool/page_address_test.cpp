@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page's address restores the view, and a keyboard reaches everything in few steps.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

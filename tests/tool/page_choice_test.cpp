@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page of a choice in a browser.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every word of a page is readable on a light and a dark screen: WCAG 2.2's contrast (success criterion
 // 1.4.3), 4.5 to 1, and 3 to 1 for large text.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A report of a thousand comparisons in a browser: what it builds and loads at once, and what on demand.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The wipe as a browser paints it: the baseline's image left of the divider, the other's right of it.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

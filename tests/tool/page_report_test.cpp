@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole reports as they are sent and opened: in a single file, as the tool writes them, and made again.
 #include "shared/frame/debug_modes.h"
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

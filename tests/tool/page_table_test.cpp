@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Columns of numbers on a page: decimal points are aligned, as measured by a browser.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 namespace diptych {
 namespace {

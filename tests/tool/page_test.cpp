@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report's page in a browser: sends real events and checks the page.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <cmath>
 

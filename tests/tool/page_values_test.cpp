@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page's values of the pixel under the cursor equal those in the Frames.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // No page scrolls sideways, and on a phone neither does anything in it. The printed page needs no mouse.
-#include "tests/tool/page_maker.h"
+#include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-json storyOf(const Folder& folder, const std::string& arguments) {
+json breakdownOf(const Folder& folder, const std::string& arguments) {
     const Ran ran = runTool(folder, "compare " + arguments + " --json");
     EXPECT_EQ(ran.code, 0) << ran.err;
     return ran.code == 0 ? json::parse(ran.out) : json();
@@ -37,27 +37,28 @@ double largest(const json& values) {
 
 // Every term of lit is counted exactly once. The residual is the rounding of float32 sums; for the
 // reference, in double, it is almost zero or within its known uncertainty.
-void expectTermsAddUp(const json& story) {
-    const json& terms = story["terms"];
+void expectTermsAddUp(const json& breakdown) {
+    const json& terms = breakdown["terms"];
     const json& residual = named(terms, "kind", "residual");
     const std::array sides{"baseline", "test", "reference"};
     for (std::size_t side = 0; side < 3; ++side)
-        EXPECT_LE(largest(residual[sides.at(side)]), story["residual_rounding"][side].get<double>())
+        EXPECT_LE(largest(residual[sides.at(side)]), breakdown["residual_rounding"][side].get<double>())
             << sides.at(side) << ": " << residual << named(terms, "kind", "lit");
     EXPECT_GT(largest(named(terms, "kind", "lit")["test"]), 0) << "a pixel that nothing lights shows nothing";
 }
 
 // The list has as many lights as the pixel evaluates, and includes every light that lights it.
-void expectListsAreTold(const json& story) {
-    const json& count = named(story["steps"], "name", "light_count");
+void expectListsAreTold(const json& breakdown) {
+    const json& count = named(breakdown["steps"], "name", "light_count");
     for (const std::string side : {"baseline", "test"}) {
         const auto isListed = [&](const json& light) { return light["in_" + side + "_list"] == true; };
-        EXPECT_EQ(static_cast<double>(std::ranges::count_if(story["lights"], isListed)),
+        EXPECT_EQ(static_cast<double>(std::ranges::count_if(breakdown["lights"], isListed)),
                   count[side][0].get<double>())
             << side;
-        for (const json& term : story["terms"])
+        for (const json& term : breakdown["terms"])
             if (term["kind"] == "light" && largest(term[side]) > 0) {
-                EXPECT_TRUE(isListed(story["lights"][term["lights"][0].get<std::size_t>()])) << side << term;
+                EXPECT_TRUE(isListed(breakdown["lights"][term["lights"][0].get<std::size_t>()]))
+                    << side << term;
             }
     }
 }
@@ -66,11 +67,11 @@ void expectListsAreTold(const json& story) {
 TEST(PixelTool, LightsByObjectAreOneTerm) {
     const Folder folder;
     for (const std::string scene : {"builtin:points", "builtin:furnace"}) {
-        const json story = storyOf(
+        const json breakdown = breakdownOf(
             folder, scene + " --size 64x36 --forward-plus assign=per_object,pixel-lights=2 --pixel 30,24");
-        expectTermsAddUp(story);
-        const json& lights = named(story["terms"], "kind", "other_lights");
-        EXPECT_EQ(lights["lights"].size(), story["lights"].size());
+        expectTermsAddUp(breakdown);
+        const json& lights = named(breakdown["terms"], "kind", "other_lights");
+        EXPECT_EQ(lights["lights"].size(), breakdown["lights"].size());
         EXPECT_GT(lights["difference"], 0) << "and they are not the same lights";
     }
 }
@@ -79,34 +80,34 @@ TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
     const Folder folder;
     for (const std::string scene : {"builtin:gallery", "builtin:points", "builtin:areas"}) {
         const std::string command = scene + " --size 64x36 --gbuffer full --pixel 30,24";
-        const json story = storyOf(folder, command);
-        EXPECT_EQ(story["first_difference"], nullptr) << story["summary"];
-        EXPECT_EQ(story["summary"], "no step differs by more than rounding");
-        for (const json& step : story["steps"]) EXPECT_EQ(step.value("difference", 0.0), 0.0) << step;
-        expectTermsAddUp(story);
-        expectListsAreTold(story);
+        const json breakdown = breakdownOf(folder, command);
+        EXPECT_EQ(breakdown["first_difference"], nullptr) << breakdown["summary"];
+        EXPECT_EQ(breakdown["summary"], "no step differs by more than rounding");
+        for (const json& step : breakdown["steps"]) EXPECT_EQ(step.value("difference", 0.0), 0.0) << step;
+        expectTermsAddUp(breakdown);
+        expectListsAreTold(breakdown);
     }
     const Ran ran = runTool(folder, "compare builtin:points --size 64x36 --gbuffer full --pixel 30,24");
     EXPECT_EQ(ran.code, 0);
     EXPECT_NE(ran.out.find("\nno step differs by more than rounding\npass: at this pixel all "),
               std::string::npos)
         << ran.out;
-    EXPECT_FALSE(fs::exists(folder / "diptych-report")) << "a story is no report";
+    EXPECT_FALSE(fs::exists(folder / "diptych-report")) << "a breakdown is no report";
 }
 
 TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
     const Folder folder;
-    const json story = storyOf(folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24");
-    EXPECT_EQ(story["first_difference"], "albedo") << story["summary"];
-    const json& albedo = named(story["steps"], "name", "albedo");
+    const json breakdown = breakdownOf(folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24");
+    EXPECT_EQ(breakdown["first_difference"], "albedo") << breakdown["summary"];
+    const json& albedo = named(breakdown["steps"], "name", "albedo");
     EXPECT_GT(albedo["difference"], 0.0);
     EXPECT_LE(albedo["difference"], albedo["tolerance"]);
     EXPECT_NE(albedo["because"].get<std::string>().find("square root in 8 bits"), std::string::npos)
         << albedo;
-    EXPECT_EQ(named(story["steps"], "name", "lit")["explained"], true);
-    expectTermsAddUp(story);
+    EXPECT_EQ(named(breakdown["steps"], "name", "lit")["explained"], true);
+    expectTermsAddUp(breakdown);
     // Swapping the baseline swaps both columns.
-    const json turned = storyOf(
+    const json turned = breakdownOf(
         folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --baseline forward_plus");
     EXPECT_EQ(turned["baseline"], "forward_plus");
     EXPECT_EQ(named(turned["steps"], "name", "albedo")["test"], albedo["baseline"]);
@@ -118,7 +119,7 @@ TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
     folder.write("t.json", R"({"rules": [{"channel": "albedo", "max": 0, "because": "no bit may change"}]})");
     const Ran ran = runTool(
         folder, "compare builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --tolerances t.json");
-    EXPECT_EQ(ran.code, 0) << "the story could be told: " << ran.err;
+    EXPECT_EQ(ran.code, 0) << "the breakdown was printed: " << ran.err;
     EXPECT_NE(ran.out.find("FAIL: beyond tolerance: no bit may change"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("\nFAIL: at this pixel beyond tolerance: albedo"), std::string::npos) << ran.out;
 }
@@ -130,12 +131,13 @@ TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
     Image sky(8, 4, 3, 0.2f);
     sky.at(2, 1, 0) = 3;
     writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
-    const auto has = [](const json& story, const std::string& kind) {
-        return std::ranges::any_of(story["terms"], [&](const json& term) { return term["kind"] == kind; });
+    const auto has = [](const json& breakdown, const std::string& kind) {
+        return std::ranges::any_of(breakdown["terms"],
+                                   [&](const json& term) { return term["kind"] == kind; });
     };
-    const json hall = storyOf(folder,
-                              "builtin:gallery --size 64x36 --pixel 30,24 --shadow-lights 4 --haze on "
-                              "--haze-density 50 --ambient 0.1,0.2,0.3 --env sky.exr");
+    const json hall = breakdownOf(folder,
+                                  "builtin:gallery --size 64x36 --pixel 30,24 --shadow-lights 4 --haze on "
+                                  "--haze-density 50 --ambient 0.1,0.2,0.3 --env sky.exr");
     expectTermsAddUp(hall);
     expectListsAreTold(hall);
     for (const std::string kind :
@@ -145,13 +147,14 @@ TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
     EXPECT_TRUE(
         std::ranges::any_of(hall["lights"], [](const json& light) { return light["casts"] == true; }));
     const json glass =
-        storyOf(folder, "builtin:glass --size 64x36 --pixel 50,20 --haze on --haze-density 50");
+        breakdownOf(folder, "builtin:glass --size 64x36 --pixel 50,20 --haze on --haze-density 50");
     expectTermsAddUp(glass);
     EXPECT_TRUE(has(glass, "blended"));
     for (const std::string assign : {"every", "tiled"}) {
-        const json story = storyOf(folder, "builtin:points --size 64x36 --pixel 34,14 --assign " + assign);
-        expectTermsAddUp(story);
-        expectListsAreTold(story);
+        const json breakdown =
+            breakdownOf(folder, "builtin:points --size 64x36 --pixel 34,14 --assign " + assign);
+        expectTermsAddUp(breakdown);
+        expectListsAreTold(breakdown);
     }
 }
 

@@ -44,9 +44,9 @@ TEST(SideSettings, LightsByObjectAgainstFroxels) {
         runTool(folder, "explain --forward-plus assign=per_object,pixel-lights=2 --json" + sidesView);
     ASSERT_EQ(why.code, 0) << why.err;
     EXPECT_EQ(Json::parse(why.out)["causes"][0]["name"], "lights per object") << why.out;
-    const Ran story = runTool(
+    const Ran breakdown = runTool(
         folder, "compare --forward-plus assign=per_object,pixel-lights=2 --pixel 24,20 --json" + sidesView);
-    EXPECT_EQ(story.code, 0) << story.err;
+    EXPECT_EQ(breakdown.code, 0) << breakdown.err;
 }
 
 // Settings that do not change the light are judged as usual.

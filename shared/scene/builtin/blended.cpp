@@ -96,14 +96,14 @@ Scene crossed() {
     // Intersecting panes: no draw order is right.
     for (const auto& [material, degrees] : {std::pair(red, 40.0), {blue, -40.0}})
         b.add("crossed", quad({-0.5, 0, 0}, {1, 0, 0}, {0, 1, 0}), material,
-              at(-0.7, 0.3, 0) * turned(degrees));
+              at(-0.7, 0.3, 0) * rotated(degrees));
     // Coplanar panes, with the same corners as each other, and on the wall.
     for (const int material : {red, blue})
         b.add("coplanar", quad({0.1, 0.6, -0.4}, {0.6, 0, 0}, {0, 0.8, 0}), material, glm::dvec3(0.0));
     for (const int material : {red, blue})
         b.add("on the wall", quad({0.9, 0.3, -0.8}, {0.5, 0, 0}, {0, 0.6, 0}), material, glm::dvec3(0.0));
     // A ring: its near and far sides are in one draw call.
-    b.add("ring", torus(0.35, 0.12), red, at(0.6, 0.5, 0.7) * turned(70, {1, 0, 0.3}));
+    b.add("ring", torus(0.35, 0.12), red, at(0.6, 0.5, 0.7) * rotated(70, {1, 0, 0.3}));
     b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
     b.point({-0.5, 1.4, 1.2}, {1.0f, 0.7f, 0.4f}, 2, 4);
     return std::move(b.scene);

@@ -115,7 +115,7 @@ Camera& Builder::camera(const std::string& name, const glm::dvec3& eye, const gl
 glm::dmat4 at(double x, double y, double z) {
     return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
 }
-glm::dmat4 turned(double degrees, const glm::dvec3& axis) {
+glm::dmat4 rotated(double degrees, const glm::dvec3& axis) {
     return glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis);
 }
 glm::dmat4 scaled(double x, double y, double z) {

@@ -53,7 +53,7 @@ public:
 };
 
 glm::dmat4 at(double x, double y, double z);
-glm::dmat4 turned(double degrees, const glm::dvec3& axis = {0, 1, 0});
+glm::dmat4 rotated(double degrees, const glm::dvec3& axis = {0, 1, 0});
 glm::dmat4 scaled(double x, double y, double z);
 
 }  // namespace diptych

@@ -22,7 +22,7 @@ namespace {
 // A number after the name, as in "spheres?lights=64".
 struct Parameter {
     std::string_view name;
-    std::uint32_t usual, most;  // default and largest value
+    std::uint32_t default_value, most;  // default and largest value
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
@@ -128,7 +128,7 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
     if (row.makeWith == nullptr)
         throw std::runtime_error(fmt::format("builtin:{}: {} takes no parameters", name, row.name));
     std::vector<std::uint32_t> numbers;
-    for (const Parameter& parameter : row.parameters) numbers.push_back(parameter.usual);
+    for (const Parameter& parameter : row.parameters) numbers.push_back(parameter.default_value);
     std::set<std::string_view> given;
     while (!query.empty()) {
         const std::string_view one = query.substr(0, query.find('&'));
@@ -157,7 +157,7 @@ std::vector<BuiltinName> builtinNames() {
     for (const Row& row : ROWS) {
         std::vector<std::string> parameters;
         for (const Parameter& parameter : row.parameters)
-            parameters.push_back(fmt::format("{}={}", parameter.name, parameter.usual));
+            parameters.push_back(fmt::format("{}={}", parameter.name, parameter.default_value));
         names.push_back({std::string(row.name), fmt::format("{}", fmt::join(parameters, "&")),
                          std::string(row.shows), row.for_tests});
     }

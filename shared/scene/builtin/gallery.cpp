@@ -39,10 +39,10 @@ void glow(Room& room) {
     b.scene.materials.back().emissive_texture = b.texture(glyphs("sign", 256));
     const int sign = static_cast<int>(b.scene.materials.size() - 1);
     b.add("sign", scaleTexcoords(quad({0, 0, 0}, {1.5, 0, 0}, {0, 0.75, 0}), 1, 0.5), sign,
-          at(LEFT + 0.08, 1.75, -1.1) * turned(90));
+          at(LEFT + 0.08, 1.75, -1.1) * rotated(90));
     const int strip = room.glowing("cyan strip", CYAN * 1.5f);
     b.add("strip", box({0.03, 0.03, 2 * STAGE.half_x}, 0.0), strip,
-          at(STAGE.x, 0.03, STAGE.z + 1.17) * turned(90));
+          at(STAGE.x, 0.03, STAGE.z + 1.17) * rotated(90));
 }
 
 void lamps(Room& room) {

@@ -48,9 +48,10 @@ void sculptures(Room& room) {
     b.add("tall pedestal", pedestal(0.6, 1.5), room.stone, dvec3(KNOT.x, 0, KNOT.z));
     const int copper = b.material("brushed copper", {{0.95f, 0.56f, 0.4f}, 1, 1});
     b.scene.materials.back().metallic_roughness_texture = b.texture(brushed("brushed", 256), 3);
-    b.add("knot", torusKnot(2, 3, 0.5, 0.24, 0.13), copper, at(KNOT.x, 2.38, KNOT.z) * turned(90, {1, 0, 0}));
+    b.add("knot", torusKnot(2, 3, 0.5, 0.24, 0.13), copper,
+          at(KNOT.x, 2.38, KNOT.z) * rotated(90, {1, 0, 0}));
     b.add("ring of light", torus(1.45, 0.06, 96, 16), room.glowing("cyan neon", CYAN * 5.0f),
-          at(KNOT.x, 2.45, FAR_END + 0.35) * turned(90, {1, 0, 0}));
+          at(KNOT.x, 2.45, FAR_END + 0.35) * rotated(90, {1, 0, 0}));
 
     // Front right: a gem with ior 2.4 and a tinted specular colour.
     b.add("pedestal", pedestal(0.36, 0.92), room.stone, dvec3(GEM.x, 0, GEM.z));
@@ -59,7 +60,7 @@ void sculptures(Room& room) {
     cut.ior = 2.4f;
     cut.specular_color = {1.0f, 0.8f, 1.0f};
     b.add("cut stone", gem(0.56), static_cast<int>(b.scene.materials.size() - 1),
-          at(GEM.x, 0.9, GEM.z) * turned(11));
+          at(GEM.x, 0.9, GEM.z) * rotated(11));
 
     // Vertex colours show a glaze that runs down. The low specular strength suggests unglazed clay.
     b.material("glaze", {vec3(1), 0, 0.25f});
@@ -124,8 +125,8 @@ void greenery(Room& room) {
             bent.normals[k] = {0, std::sin(angle), std::cos(angle)};
         }
         append(leaves, bent,
-               turned(137.50776 * i) * at(0, 0.06 * (1 - t), 0.02 + 0.16 * t) *
-                   turned(8 + 62 * t, {1, 0, 0}) * turned(180));
+               rotated(137.50776 * i) * at(0, 0.06 * (1 - t), 0.02 + 0.16 * t) *
+                   rotated(8 + 62 * t, {1, 0, 0}) * rotated(180));
     }
     b.add("leaves", leaves, static_cast<int>(b.scene.materials.size() - 1),
           dvec3(PLANTER.x, 0.58, PLANTER.z));
@@ -139,16 +140,16 @@ void greenery(Room& room) {
     const int lattices = static_cast<int>(b.scene.materials.size() - 1);
     const Primitive railing = scaleTexcoords(quad({-1.1, 0, 0}, {2.2, 0, 0}, {0, 0.9, 0}), 2.2 / 0.6, 1.5);
     for (int i = 0; i < 5; ++i) {
-        const glm::dmat4 inArch = at(RIGHT + 0.25, 0, NEAR_END - 1.6 - 3.2 * i) * turned(-90);
+        const glm::dmat4 inArch = at(RIGHT + 0.25, 0, NEAR_END - 1.6 - 3.2 * i) * rotated(-90);
         b.add("railing", railing, lattices, inArch);
         b.add("rail", box({2.2, 0.06, 0.1}, 0.01), room.brass, inArch * at(0, 0.93, 0));
     }
     for (int i = 0; i < 3; ++i) {  // a folding screen
         const double x = 2.5 + 0.62 * i, turn = i % 2 == 0 ? 28 : -28;
         b.add("screen", scaleTexcoords(quad({-0.35, 0, 0}, {0.7, 0, 0}, {0, 1.9, 0}), 1.05, 2.85), lattices,
-              at(x, 0.06, -4.4) * turned(turn));
+              at(x, 0.06, -4.4) * rotated(turn));
         b.add("screen's frame", box({0.04, 2.0, 0.04}, 0.008), room.brass,
-              at(x, 1.0, -4.4) * turned(turn) * at(-0.35, 0, 0));
+              at(x, 1.0, -4.4) * rotated(turn) * at(-0.35, 0, 0));
     }
 }
 

@@ -61,7 +61,7 @@ void addWalls(Room& room) {
     b.scene.materials.back().normal_texture = soft;
     for (int i = 0; i < 5; ++i)
         b.add("arch", archway(3.2, CEILING, 0.6, 2.2, 2.2, 32), arcade,
-              at(RIGHT, 0, NEAR_END - 1.6 - 3.2 * i) * turned(-90));
+              at(RIGHT, 0, NEAR_END - 1.6 - 3.2 * i) * rotated(-90));
     b.material("evening sky", {vec3(0), 0, 1, vec3(0.55f)});
     b.scene.materials.back().emissive_texture = b.texture(
         dusk("evening sky", 512), 1, {.wrap_s = Wrap::mirrored_repeat, .wrap_t = Wrap::clamp_to_edge});

@@ -243,7 +243,7 @@ Scene motion() {
     b.scene.materials.back().base_color.a = 0.6f;
     b.scene.materials.back().alpha_mode = AlphaMode::blend;
     b.scene.materials.back().double_sided = true;
-    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * turned(-90, Z));  // its +Y points to the right
+    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * rotated(-90, Z));  // its +Y points to the right
     const int flag = b.addChain("flag", 3, 0.45, pole);
     const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
     b.scene.nodes.back().mesh =

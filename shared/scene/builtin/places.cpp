@@ -42,8 +42,8 @@ Scene coplanar() {
     b.add("double triangles", twice, materials[3], glm::dvec3(0.0));
     // Intersecting bodies, whose depths are equal along the seam.
     b.add("ball", sphere(0.6, 64, 32), materials[0], glm::dvec3(1, 0.4, -1));
-    b.add("box", box({0.9, 0.9, 0.9}), materials[2], at(1.4, 0.35, -0.8) * turned(30, {1, 2, 0}));
-    b.add("ring", torus(0.7, 0.15), materials[1], at(1, 0.5, -1) * turned(60, {1, 0, 1}));
+    b.add("box", box({0.9, 0.9, 0.9}), materials[2], at(1.4, 0.35, -0.8) * rotated(30, {1, 2, 0}));
+    b.add("ring", torus(0.7, 0.15), materials[1], at(1, 0.5, -1) * rotated(60, {1, 0, 1}));
     b.add("same ball, other mesh", sphere(0.6, 24, 12), materials[3], glm::dvec3(1, 0.4, -1));
     b.sun({-0.4, -1, -0.5}, glm::vec3(1), 2);
     b.point({-1, 1.5, 1}, {1.0f, 0.8f, 0.6f}, 4, 6);
@@ -104,15 +104,15 @@ Scene stretched() {
     const int ball = b.addMesh(sphere(0.5, 64, 32), enamel, "enamel ball");
     const int cube = b.addMesh(box({0.8, 0.8, 0.8}, 0.05), enamel, "box");
     b.addNode("flat", ball, at(-3, 0.6, 0) * scaled(1.6, 0.3, 1));
-    b.addNode("thin", ball, at(-1.3, 0.6, 0) * turned(35, {0, 0, 1}) * scaled(0.15, 1.8, 0.6));
+    b.addNode("thin", ball, at(-1.3, 0.6, 0) * rotated(35, {0, 0, 1}) * scaled(0.15, 1.8, 0.6));
     b.addNode("flat stone", stone, at(-3, -0.8, 0) * scaled(1.5, 0.6, 1.5));
     b.addNode("tiny unit", stone, at(-1.2, -0.8, 0) * scaled(1e-4, 1e-4, 1e-4) * scaled(1.2e4, 0.8e4, 1e4));
     // Rotation under non-uniform scale is a shear: normals need the inverse transpose.
     const int squeeze = b.addNode("squeeze", -1, at(1.1, 0, 0) * scaled(1.6, 0.5, 1));
-    b.addNode("sheared box", cube, at(0.1, 1.2, 0) * turned(40, {0.3, 1, 1}), squeeze);
-    const int deeper = b.addNode("turn", -1, at(0.2, -1.4, 0) * turned(30, {0, 0, 1}), squeeze);
+    b.addNode("sheared box", cube, at(0.1, 1.2, 0) * rotated(40, {0.3, 1, 1}), squeeze);
+    const int deeper = b.addNode("turn", -1, at(0.2, -1.4, 0) * rotated(30, {0, 0, 1}), squeeze);
     b.addNode("sheared ball", ball, scaled(0.6, 2.2, 1), deeper);
-    b.addNode("sheared stone", stone, at(1.1, 0, 0) * turned(50, {1, 1, 0}) * scaled(1, 2, 0.4), deeper);
+    b.addNode("sheared stone", stone, at(1.1, 0, 0) * rotated(50, {1, 1, 0}) * scaled(1, 2, 0.4), deeper);
     b.sun({-0.5, -0.8, -0.6}, glm::vec3(1), 2);
     b.point({2, 2, 3}, {1.0f, 0.8f, 0.6f}, 14, 12);
     return std::move(b.scene);

@@ -37,7 +37,7 @@ Scene normals() {
         const float roughness = 0.05f + 0.0625f * static_cast<float>(i);
         const int material =
             b.material(fmt::format("roughness {:.4f}", roughness), {{0.6f, 0.6f, 0.65f}, 1, roughness});
-        b.add("ball", ball, material, at(1.3 * (i - 2), 0.75, 0) * turned(17.0 * i, {1, 2, 3}));
+        b.add("ball", ball, material, at(1.3 * (i - 2), 0.75, 0) * rotated(17.0 * i, {1, 2, 3}));
         b.add("bowl", bowl, material, glm::dvec3(1.3 * (i - 2), -0.75, 0));
     }
     b.scene.background = glm::vec3(0.05f);
@@ -136,13 +136,13 @@ Scene cutout() {
     const Primitive card = quad({-0.5, 0, 0}, {1, 0, 0}, {0, 1.5, 0});
     for (int i = 0; i < 9; ++i) {
         const double angle = 22.5 * i;  // from front to edge-on (90 degrees) to back
-        b.add("leaf", card, leaves, at(-3.2 + 0.8 * i, 0.9, -0.6) * turned(angle));
+        b.add("leaf", card, leaves, at(-3.2 + 0.8 * i, 0.9, -0.6) * rotated(angle));
         b.add("leaf, one side", card, oneSided,
-              at(-3.2 + 0.8 * i, -0.3, 0.6) * turned(angle) * scaled(0.7, 0.7, 0.7));
+              at(-3.2 + 0.8 * i, -0.3, 0.6) * rotated(angle) * scaled(0.7, 0.7, 0.7));
     }
     b.add("screen", quad({-2, 0, 0}, {4, 0, 0}, {0, 2, 0}), screen, at(0, 0, -1.6));
     b.add("screen along the view", quad({-2.5, 0, 0}, {5, 0, 0}, {0, 2, 0}), screen,
-          at(1.4, 0, 1) * turned(84));
+          at(1.4, 0, 1) * rotated(84));
     b.add("screen underfoot", quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), screen, glm::dvec3(0.0));
     // Lit from behind, because normals of double-sided materials flip.
     b.point({0, 1.6, -3}, {1.0f, 0.7f, 0.4f}, 14, 10);
@@ -262,7 +262,7 @@ Scene unlitMaterials() {
             m.double_sided = i >= 3;
             const bool painted = i == 2 || i == 4;
             b.add(m.name, painted ? paint(Primitive(card), rainbow) : card, made,
-                  at(1.25 * (i - 2.5), unlit ? 0.6 : -0.6, 0) * turned(i == 5 ? 180 : 12.0 * (i - 2)));
+                  at(1.25 * (i - 2.5), unlit ? 0.6 : -0.6, 0) * rotated(i == 5 ? 180 : 12.0 * (i - 2)));
         }
     studio(b);
     return std::move(b.scene);

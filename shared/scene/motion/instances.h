@@ -18,11 +18,11 @@ struct Instance {
     int mesh = 0, primitive = 0, node = 0;
     int copy = 0;  // into its Scene::copies[...]; 0 without instancing
     glm::dmat4 world_from_object{1.0};
-    int skin = -1;            // into Pose::skins
-    int weights = -1;         // into Pose::weights; -1: no morph target applies
-    int box = -1;             // into Pose::boxes, for deformed instances
-    bool map_turned = false;  // tangents are recomputed because an animation rotated the normal map
-    bool deformed() const { return skin >= 0 || weights >= 0 || map_turned; }
+    int skin = -1;             // into Pose::skins
+    int weights = -1;          // into Pose::weights; -1: no morph target applies
+    int box = -1;              // into Pose::boxes, for deformed instances
+    bool map_rotated = false;  // tangents are recomputed because an animation rotated the normal map
+    bool deformed() const { return skin >= 0 || weights >= 0 || map_rotated; }
     bool operator==(const Instance&) const = default;
 };
 

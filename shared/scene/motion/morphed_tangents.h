@@ -12,7 +12,7 @@
 namespace diptych {
 
 // Whether an animation has rotated, scaled or mirrored a normal map. An offset does not affect tangents.
-inline bool isTurned(const TextureSlot& rest, const TextureSlot& now) {
+inline bool isRotated(const TextureSlot& rest, const TextureSlot& now) {
     return glm::dvec2(rest.u) != glm::dvec2(now.u) || glm::dvec2(rest.v) != glm::dvec2(now.v);
 }
 // -1 if animation mirrored the map, which flips bitangents; else 1.

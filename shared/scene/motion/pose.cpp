@@ -188,10 +188,10 @@ PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
     return {origin, box.min - origin, box.max - origin};
 }
 
-bool hasTurnedMap(const Scene& scene, const Pose& pose, const Primitive& primitive) {
+bool hasRotatedMap(const Scene& scene, const Pose& pose, const Primitive& primitive) {
     if (primitive.tangent_groups.empty() || pose.materials.empty()) return false;
     const auto m = static_cast<std::size_t>(primitive.material);
-    return isTurned(scene.materials[m].normal_texture, pose.materials[m].normal_texture);
+    return isRotated(scene.materials[m].normal_texture, pose.materials[m].normal_texture);
 }
 
 }  // namespace
@@ -214,7 +214,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
             const glm::dmat4 worldFromNode = worldFromPrimitive(scene, world, n, primitives[p]);
             // At rest, leaveOutWhatIsBeyond() has checked all vertices.
             const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
-            const bool mapTurned = hasTurnedMap(scene, pose, primitives[p]);
+            const bool mapRotated = hasRotatedMap(scene, pose, primitives[p]);
             const std::span<const glm::dmat4> copies = copiesOf(scene, node);
             for (std::size_t c = 0; c < copies.size(); ++c) {
                 const glm::dmat4 worldFromObject = worldFromNode * copies[c];
@@ -226,7 +226,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
                                           .world_from_object = worldFromObject,
                                           .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
                                           .weights = placeOfWeights,
-                                          .map_turned = mapTurned});
+                                          .map_rotated = mapRotated});
             }
         }
     }

@@ -151,12 +151,12 @@ void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::u
 }
 
 // In object space, before skinning.
-std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map, bool map_turned) {
+std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map, bool map_rotated) {
     const Primitive& primitive = posing.primitive();
     const std::size_t count = primitive.positions.size();
     std::vector<glm::dvec3> tangents(count);
     const auto moves = [&](const MorphTarget& target) { return movesTangents(target, map.texcoord); };
-    if (primitive.tangent_groups.empty() || (!map_turned && !posing.isMoved(moves))) {
+    if (primitive.tangent_groups.empty() || (!map_rotated && !posing.isMoved(moves))) {
         for (std::size_t v = 0; v < count; ++v) tangents[v] = posing.tangent(v);
         return tangents;
     }
@@ -192,8 +192,8 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     result.normals.resize(count);
     const auto material = static_cast<std::size_t>(primitive.material);
     const TextureSlot& map = materialsOf(scene, pose)[material].normal_texture;
-    result.tangents = tangentsOf(posing, map, instance.map_turned);
-    if (instance.map_turned) result.bitangents = mirroredSign(scene.materials[material].normal_texture, map);
+    result.tangents = tangentsOf(posing, map, instance.map_rotated);
+    if (instance.map_rotated) result.bitangents = mirroredSign(scene.materials[material].normal_texture, map);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
         result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));

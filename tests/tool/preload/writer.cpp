@@ -3,7 +3,7 @@
 // compare does before rendering. It needs no device, so that a test can run it hundreds of times.
 #include "compare/files/output.h"
 #include "compare/report/report.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <cstdio>
 #include <exception>

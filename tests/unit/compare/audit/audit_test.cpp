@@ -71,49 +71,49 @@ TEST(Audit, AnErrorIsTheLargerOneAndInfiniteWithoutNumbers) {
 TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
     const std::vector<Step> steps{stepOf(0.01, 1),  stepOf(0.1, 5e-3), stepOf(1, 1e-5),
                                   stepOf(10, 2e-3), stepOf(100, 1e-4), stepOf(1000, 0.5, 0.2, 3)};
-    const auto holds = holdsOf(steps, 1, 1);
-    const Hold& fine = holds[0][0];
-    EXPECT_TRUE(fine.usual);
+    const auto ranges = validRangesOf(steps, 1, 1);
+    const ValidRange& fine = ranges[0][0];
+    EXPECT_TRUE(fine.at_original);
     EXPECT_TRUE(fine.up.broken);
     EXPECT_EQ(fine.up.last, 1);
     EXPECT_EQ(fine.up.first, 10);  // a second pass at 100 does not count
     EXPECT_EQ(fine.down.last, 1);
     EXPECT_EQ(fine.down.first, 0.1);
-    const Hold& coarse = holds[1][0];
+    const ValidRange& coarse = ranges[1][0];
     EXPECT_EQ(coarse.up.last, 100);
     EXPECT_EQ(coarse.down.last, 0.1);
     EXPECT_EQ(rangeInWords(coarse), "0.1 to 100");
-    const Hold& visible = holds[visibleCriterion][0];
+    const ValidRange& visible = ranges[visibleCriterion][0];
     EXPECT_FALSE(visible.down.broken);
     EXPECT_EQ(rangeInWords(visible), "up to 100");
-    EXPECT_TRUE(holds[numberCriterion][0].up.broken);
-    const auto bad = holdsOf({stepOf(1, 1)}, 1, 1);
-    EXPECT_FALSE(bad[0][0].usual);
+    EXPECT_TRUE(ranges[numberCriterion][0].up.broken);
+    const auto bad = validRangesOf({stepOf(1, 1)}, 1, 1);
+    EXPECT_FALSE(bad[0][0].at_original);
     EXPECT_EQ(rangeInWords(bad[0][0]), "nowhere");
-    EXPECT_EQ(rangeInWords(holdsOf({stepOf(1, 0)}, 1, 1)[0][0]), "whole range");
+    EXPECT_EQ(rangeInWords(validRangesOf({stepOf(1, 0)}, 1, 1)[0][0]), "whole range");
 }
 
 TEST(Audit, ALimitIsFoundBetweenTheSteps) {
     const Subject subject = gallery();
     const QuantityAudit audit =
         audited(quantityOf("intensity"), subject, [](double m) { return m < 3.3e7 ? 1e-6 : 1.0; });
-    const Reach& reach = audit.holds[0][0].up;
-    EXPECT_TRUE(reach.broken);
-    EXPECT_LE(reach.last, 3.3e7);
-    EXPECT_GT(reach.first, 3.29e7);
-    EXPECT_LE(reach.first / reach.last, 1.25);
-    EXPECT_FALSE(audit.holds[0][0].down.broken);
+    const BreakingPoint& point = audit.valid_ranges[0][0].up;
+    EXPECT_TRUE(point.broken);
+    EXPECT_LE(point.last, 3.3e7);
+    EXPECT_GT(point.first, 3.29e7);
+    EXPECT_LE(point.first / point.last, 1.25);
+    EXPECT_FALSE(audit.valid_ranges[0][0].down.broken);
     EXPECT_LE(audit.steps.size(), quantityOf("intensity").magnitudes.size() + 17);
     EXPECT_TRUE(std::ranges::is_sorted(audit.steps, {}, &Step::magnitude));
 }
 
 TEST(Audit, PredictionsAgreeWithinAFactorOfTwo) {
-    const Reach at_100{.last = 99, .first = 101, .broken = true};
+    const BreakingPoint at_100{.last = 99, .first = 101, .broken = true};
     EXPECT_TRUE(agrees(at_100, 190, true, 1e6));
     EXPECT_TRUE(agrees(at_100, 55, true, 1e6));
     EXPECT_FALSE(agrees(at_100, 250, true, 1e6));
     EXPECT_FALSE(agrees(at_100, Predicted::never, true, 1e6));
-    const Reach unbroken{.last = 1e6};
+    const BreakingPoint unbroken{.last = 1e6};
     EXPECT_TRUE(agrees(unbroken, Predicted::never, true, 1e6));
     EXPECT_TRUE(agrees(unbroken, 6e5, true, 1e6));
     EXPECT_FALSE(agrees(unbroken, 1e5, true, 1e6));
@@ -124,16 +124,17 @@ TEST(Audit, PredictionsAgreeWithinAFactorOfTwo) {
 TEST(Audit, ARequirementIsOfBothPathsAndTheirBestSeries) {
     const Subject subject = gallery();
     QuantityAudit audit = audited(quantityOf("offset"), subject, [](double) { return 1e-6; });
-    EXPECT_TRUE(judge(audit, 1e8).met);
-    EXPECT_FALSE(judge(audit, 1e9).met) << "beyond what was tried nothing is known";
-    std::vector<Hold>& holds = audit.holds[requiredCriterion];
+    EXPECT_TRUE(evaluate(audit, 1e8).met);
+    EXPECT_FALSE(evaluate(audit, 1e9).met) << "beyond what was tried nothing is known";
+    std::vector<ValidRange>& ranges = audit.valid_ranges[requiredCriterion];
     for (std::size_t s = 0; s < audit.series.size(); ++s)
-        if (audit.series[s].path == Path::deferred && audit.series[s].changes.empty()) holds[s].usual = false;
-    EXPECT_TRUE(judge(audit, 1e6).met) << "with a G-buffer of float32 it does";
+        if (audit.series[s].path == Path::deferred && audit.series[s].changes.empty())
+            ranges[s].at_original = false;
+    EXPECT_TRUE(evaluate(audit, 1e6).met) << "with a G-buffer of float32 it does";
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         if (audit.series[s].path == Path::forward_plus)
-            holds[s].up = {.last = 1e5, .first = 2e5, .broken = true};
-    const Requirement requirement = judge(audit, 1e6);
+            ranges[s].up = {.last = 1e5, .first = 2e5, .broken = true};
+    const Requirement requirement = evaluate(audit, 1e6);
     EXPECT_FALSE(requirement.met);
     EXPECT_NE(requirement.because.find("forward_plus: the error stays below 1e-2 as far as 1e+05"),
               std::string::npos)
@@ -145,7 +146,7 @@ TEST(Audit, WhatDoesNotHoldAtAllMeetsNoRequirement) {
     const Subject subject = gallery();
     const QuantityAudit audit = audited(quantityOf("scale"), subject, [](double) { return 0.5; });
     for (const double magnitude : {1e-3, 1.0, 1e3}) {
-        const Requirement requirement = judge(audit, magnitude);
+        const Requirement requirement = evaluate(audit, magnitude);
         EXPECT_FALSE(requirement.met) << magnitude;
         EXPECT_NE(requirement.because.find("the unchanged scene already has an error of 1e-2 or more"),
                   std::string::npos)
@@ -157,7 +158,7 @@ TEST(Audit, NothingInViewMeetsNothing) {
     const Subject subject = gallery();
     QuantityAudit audit = audited(quantityOf("offset"), subject, [](double) { return 0.0; });
     for (Step& step : audit.steps) step.covered = 0;
-    const Requirement requirement = judge(audit, 1e3);
+    const Requirement requirement = evaluate(audit, 1e3);
     EXPECT_FALSE(requirement.met);
     EXPECT_EQ(requirement.because, "no surface is in view");
 }
@@ -165,8 +166,8 @@ TEST(Audit, NothingInViewMeetsNothing) {
 TEST(Audit, WhatADeviceRefusesIsNoFailure) {
     std::vector<Step> steps{stepOf(1, 1e-6), stepOf(10, 1e-6), stepOf(100, infinity)};
     steps.back().outcomes.front().failed = "--size 99999x9: draws up to 16384x16384";
-    for (const auto& of : holdsOf(steps, 1, 1)) {
-        EXPECT_TRUE(of[0].usual);
+    for (const auto& of : validRangesOf(steps, 1, 1)) {
+        EXPECT_TRUE(of[0].at_original);
         EXPECT_FALSE(of[0].up.broken);
         EXPECT_EQ(of[0].up.last, 10);
     }
@@ -198,18 +199,18 @@ TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
 TEST(Audit, ABoundIsRefutedByWhatHoldsBeyondIt) {
     QuantityAudit audit;
     for (const double magnitude : {1.0, 1e6}) audit.steps.emplace_back().magnitude = magnitude;
-    for (std::vector<Hold>& holds : audit.holds) holds.resize(1);
-    Hold& hold = audit.holds[0][0];
-    hold = {true, {100, 1000, true}, {1, 0, false}};
+    for (std::vector<ValidRange>& ranges : audit.valid_ranges) ranges.resize(1);
+    ValidRange& range = audit.valid_ranges[0][0];
+    range = {true, {100, 1000, true}, {1, 0, false}};
     audit.predicted[0] = {{.up = 1e4, .because = "it ends there", .at_most = true}};
     EXPECT_EQ(agrees(audit, 0, 0), std::nullopt) << "something else broke it";
     EXPECT_EQ(rangeInWords(audit.predicted[0][0], audit), "at most up to 1e+04");
     audit.predicted[0][0].at_most = false;
     EXPECT_EQ(agrees(audit, 0, 0), false);
     audit.predicted[0][0].at_most = true;
-    hold.up = {1e5, 2e5, true};
+    range.up = {1e5, 2e5, true};
     EXPECT_EQ(agrees(audit, 0, 0), false) << "it held ten times as far";
-    hold.up = {1e6, 0, false};
+    range.up = {1e6, 0, false};
     EXPECT_EQ(agrees(audit, 0, 0), false);
     audit.predicted[0][0].up = 1e7;
     EXPECT_EQ(agrees(audit, 0, 0), true);
@@ -227,17 +228,17 @@ TEST(Audit, WhatIsRequiredIsMeasuredItself) {
         },
         beside);
     EXPECT_EQ(audit.steps.back().magnitude, 5e9);
-    EXPECT_TRUE(judge(audit, 5e9).met);
+    EXPECT_TRUE(evaluate(audit, 5e9).met);
 }
 
 TEST(Audit, StepsComeBackFromJson) {
     Step step = stepOf(2.5, infinity, 0.25, 7);
-    step.truth_moved = 1e-9;
+    step.reference_moved = 1e-9;
     step.covered = 12;
     step.outcomes.front().failed = "no \"memory\"";
     const Step back = stepFromJson(nlohmann::ordered_json::parse(toJson(step).dump()));
     EXPECT_EQ(back.magnitude, 2.5);
-    EXPECT_EQ(back.truth_moved, step.truth_moved);
+    EXPECT_EQ(back.reference_moved, step.reference_moved);
     EXPECT_EQ(back.covered, 12u);
     const Outcome& outcome = back.outcomes.front();
     EXPECT_EQ(outcome.light, infinity);

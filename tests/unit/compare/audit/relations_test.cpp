@@ -3,7 +3,7 @@
 // differences are told apart.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
-#include "compare/audit/relation_judge.h"
+#include "compare/audit/relation_result.h"
 #include "compare/audit/relation_words.h"
 #include "compare/audit/small_scene.h"
 #include "shared/contract/debug_mode.h"
@@ -49,12 +49,12 @@ Frame twoWalls() {
     return frame;
 }
 
-Grant granted(Alike alike) {
-    Grant grant;
-    grant.alike = alike;
-    if (alike != Alike::bits) grant.relative = 1e-6;
-    if (alike == Alike::rounding) grant.step = 0x1p-7;
-    return grant;
+RelationTolerance toleranceFor(Equality equality) {
+    RelationTolerance tolerance;
+    tolerance.equality = equality;
+    if (equality != Equality::bits) tolerance.relative = 1e-6;
+    if (equality == Equality::rounding) tolerance.step = 0x1p-7;
+    return tolerance;
 }
 
 float above(float value, int ulps = 1) {
@@ -89,33 +89,33 @@ Related changedBy(const std::string& name, const Subject& subject) {
 
 TEST(Relations, BitsAreTheSameOrNot) {
     const Frame given = twoWalls();
-    EXPECT_TRUE(hold(given, given, granted(Alike::bits)).holds());
-    EXPECT_EQ(hold(given, given, granted(Alike::bits)).worst(), nullptr);
+    EXPECT_TRUE(evaluate(given, given, toleranceFor(Equality::bits)).passes());
+    EXPECT_EQ(evaluate(given, given, toleranceFor(Equality::bits)).worst(), nullptr);
     for (const int mode : relatedChannels()) {
         Frame changed = given;
         float& value = changed.channels[mode].at(3, 2, debugMode(mode).width - 1);
         value = above(value);
-        const Held held = hold(given, changed, granted(Alike::bits));
-        EXPECT_FALSE(held.holds()) << debugMode(mode).name;
-        ASSERT_NE(held.worst(), nullptr);
-        EXPECT_EQ(held.worst()->mode, mode);
-        EXPECT_EQ(held.worst()->x, 3);
-        EXPECT_EQ(held.worst()->y, 2);
-        EXPECT_EQ(held.worst()->beyond, 1u);
+        const FrameResult result = evaluate(given, changed, toleranceFor(Equality::bits));
+        EXPECT_FALSE(result.passes()) << debugMode(mode).name;
+        ASSERT_NE(result.worst(), nullptr);
+        EXPECT_EQ(result.worst()->mode, mode);
+        EXPECT_EQ(result.worst()->x, 3);
+        EXPECT_EQ(result.worst()->y, 2);
+        EXPECT_EQ(result.worst()->beyond, 1u);
     }
 }
 
 TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
     const Frame given = twoWalls();
-    Grant grant = granted(Alike::bits);
-    grant.ulps = 16;
+    RelationTolerance tolerance = toleranceFor(Equality::bits);
+    tolerance.ulps = 16;
     Frame changed = given;
     float& value = changed.channels[relatedLight].at(3, 2, 1);
     value = above(value, 16);
-    EXPECT_TRUE(hold(given, changed, grant).holds());
-    EXPECT_EQ(hold(given, changed, grant).worst()->error, 16);
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(given, changed, tolerance).worst()->error, 16);
     value = above(value);
-    EXPECT_FALSE(hold(given, changed, grant).holds());
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
 TEST(Relations, SumsAreGrantedByComponent) {
@@ -123,16 +123,16 @@ TEST(Relations, SumsAreGrantedByComponent) {
     given.channels[relatedLight].at(5, 5, 2) = 1e-6f;
     Frame changed = given;
     changed.channels[relatedLight].at(3, 2, 0) *= 1 + 5e-7f;
-    EXPECT_TRUE(hold(given, changed, granted(Alike::sums)).holds());
+    EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
     // Small for the pixel, but large for its blue component.
     changed.channels[relatedLight].at(5, 5, 2) = 1.1e-6f;
-    const Held held = hold(given, changed, granted(Alike::sums));
-    EXPECT_FALSE(held.holds());
-    EXPECT_EQ(held.worst()->x, 5);
+    const FrameResult result = evaluate(given, changed, toleranceFor(Equality::sums));
+    EXPECT_FALSE(result.passes());
+    EXPECT_EQ(result.worst()->x, 5);
     // Surface channels are not sums of light.
     changed = given;
     changed.channels[relatedAlbedo].at(3, 2, 0) = above(0.5f);
-    EXPECT_FALSE(hold(given, changed, granted(Alike::sums)).holds());
+    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
 }
 
 TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
@@ -140,26 +140,26 @@ TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
     for (int y = 0; y < relatedHeight; ++y) given.channels[relatedLight].at(4, y, 0) = 0.6f;
     Frame changed = given;
     changed.channels[relatedLight].at(4, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
-    EXPECT_TRUE(hold(given, changed, granted(Alike::rounding)).holds());
+    EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     changed.channels[relatedLight].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
-    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     // No tolerance where neighbouring pixels are equal.
     changed = given;
     changed.channels[relatedLight].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
-    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
 }
 
 TEST(Relations, LightFollowsANormalAsFastAsItsLobe) {
     const Frame given = twoWalls();
     Frame changed = given;
     // Roughness 0.5, alpha 0.25: light may change by 12 times the normal's rotation.
-    Grant grant = granted(Alike::rounding);
-    grant.relative = 1e-5;
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.relative = 1e-5;
     changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
     changed.channels[relatedLight].at(2, 3, 0) *= 1 + 11 * 0.9e-5f;
-    EXPECT_TRUE(hold(given, changed, grant).holds());
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     changed.channels[relatedLight].at(2, 3, 0) *= 1 + 5 * 0.9e-5f;
-    EXPECT_FALSE(hold(given, changed, grant).holds());
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
 TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
@@ -171,73 +171,74 @@ TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
         changed.channels[relatedLight].at(x, y, 0) = 0.9f;
         return changed;
     };
-    const Held beside = hold(given, shows(relatedWidth / 2 - 1, 3), granted(Alike::rounding));
-    EXPECT_TRUE(beside.holds());
+    const FrameResult beside =
+        evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::rounding));
+    EXPECT_TRUE(beside.passes());
     EXPECT_EQ(beside.aside, 1u);
     EXPECT_EQ(beside.most_aside, 8u) << "of few edges";
     // In the middle of a wall the changed pixel makes its own edge, but the given image has none there.
-    EXPECT_FALSE(hold(given, shows(2, 3), granted(Alike::rounding)).holds());
+    EXPECT_FALSE(evaluate(given, shows(2, 3), toleranceFor(Equality::rounding)).passes());
     // A whole column exceeds the allowed number of pixels.
     Frame changed = given;
     for (int y = 0; y < relatedHeight; ++y)
         for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
             changed.channels[relatedId].at(x, y) = 1 - given.channels.at(relatedId).at(x, y);
-    EXPECT_GT(hold(given, changed, granted(Alike::rounding)).aside, 8u);
-    EXPECT_FALSE(hold(given, changed, granted(Alike::rounding)).holds());
+    EXPECT_GT(evaluate(given, changed, toleranceFor(Equality::rounding)).aside, 8u);
+    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     // Bitwise equality has no tolerance at edges.
-    EXPECT_FALSE(hold(given, shows(relatedWidth / 2 - 1, 3), granted(Alike::bits)).holds());
+    EXPECT_FALSE(evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::bits)).passes());
 }
 
 TEST(Relations, OfOneDepthEitherSurfaceMayBeSeen) {
     const Frame given = twoWalls();
-    Grant grant = granted(Alike::bits);
-    grant.reorders = true;
+    RelationTolerance tolerance = toleranceFor(Equality::bits);
+    tolerance.reorders = true;
     Frame changed = given;
     changed.channels[relatedId].at(2, 3) = 1;
     changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
-    EXPECT_TRUE(hold(given, changed, grant).holds());
-    EXPECT_EQ(hold(given, changed, grant).aside, 1u);
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(given, changed, tolerance).aside, 1u);
     changed.channels[relatedDepth].at(2, 3) = 1.5f;
-    EXPECT_FALSE(hold(given, changed, grant).holds());
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
     // The same surface must have the same light.
     changed = given;
     changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
-    EXPECT_FALSE(hold(given, changed, grant).holds());
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
 TEST(Relations, AFilterMayWeightOtherwiseOfFewPixels) {
     const Frame given = twoWalls();
-    Grant grant = granted(Alike::rounding);
-    grant.textured = {true, false};
-    grant.filter_step = 0x1p-7;
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.textured = {true, false};
+    tolerance.filter_step = 0x1p-7;
     Frame changed = given;
     changed.channels[relatedAlbedo].at(2, 3, 1) += 0x1p-8f;
     changed.channels[relatedLight].at(2, 3, 1) += 0x1p-8f;
-    EXPECT_TRUE(hold(given, changed, grant).holds());
-    EXPECT_EQ(hold(given, changed, grant).filtered, 1u);
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(given, changed, tolerance).filtered, 1u);
     Frame wrong = changed;
     wrong.channels[relatedAlbedo].at(2, 3, 1) += 0.25f;
-    EXPECT_FALSE(hold(given, wrong, grant).holds()) << "its light alone is excused";
+    EXPECT_FALSE(evaluate(given, wrong, tolerance).passes()) << "its light alone is excused";
     Frame more = given;
     for (int y = 0; y < relatedHeight; ++y)
         for (int x = 0; x < 2; ++x) more.channels[relatedAlbedo].at(x, y, 1) += 0x1p-8f;
-    EXPECT_FALSE(hold(given, more, grant).holds());
-    grant.textured = {false, false};
-    EXPECT_FALSE(hold(given, changed, grant).holds()) << "there is no texture";
+    EXPECT_FALSE(evaluate(given, more, tolerance).passes());
+    tolerance.textured = {false, false};
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "there is no texture";
 }
 
 TEST(Relations, WhatIsNoNumberIsBroken) {
     const Frame given = twoWalls();
-    for (const Alike alike : {Alike::bits, Alike::sums, Alike::rounding}) {
+    for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding}) {
         Frame changed = given;
         changed.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
-        EXPECT_FALSE(hold(given, changed, granted(alike)).holds()) << nameOf(alike);
+        EXPECT_FALSE(evaluate(given, changed, toleranceFor(equality)).passes()) << nameOf(equality);
     }
     // A share of infinite light is infinite and must not allow anything.
     Frame endless = given;
     endless.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::infinity();
-    for (const Alike alike : {Alike::bits, Alike::sums, Alike::rounding})
-        EXPECT_FALSE(hold(endless, given, granted(alike)).holds()) << nameOf(alike);
+    for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding})
+        EXPECT_FALSE(evaluate(endless, given, toleranceFor(equality)).passes()) << nameOf(equality);
 }
 
 TEST(Relations, PicturesAreMappedBack) {
@@ -376,34 +377,34 @@ TEST(Relations, TwoFilesOfOneSceneAreRead) {
 
 TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
     const auto series = [](Path path, bool holds) {
-        SeriesHeld of;
+        SeriesResult of;
         of.series.path = path;
-        ChannelHeld channel;
+        ChannelResult channel;
         channel.beyond = holds ? 0 : 1;
-        of.held.channels.push_back(channel);
+        of.comparison.channels.push_back(channel);
         return of;
     };
-    RelationHeld held;
-    held.relation = &relations().front();
-    held.series = {series(Path::deferred, true), series(Path::forward_plus, false),
-                   series(Path::reference, true)};
-    EXPECT_FALSE(held.holds());
-    EXPECT_EQ(held.blame(true), Blame::ours_likely);
-    EXPECT_EQ(held.blame(false), Blame::driver_or_ours);
+    RelationResult result;
+    result.relation = &relations().front();
+    result.series = {series(Path::deferred, true), series(Path::forward_plus, false),
+                     series(Path::reference, true)};
+    EXPECT_FALSE(result.passes());
+    EXPECT_EQ(result.blame(true), Blame::ours_likely);
+    EXPECT_EQ(result.blame(false), Blame::driver_or_ours);
     const ReportDevice gpu{"Some GPU", "driver 1.2", "discrete"};
-    const std::string words = inWords(held, gpu);
+    const std::string words = inWords(result, gpu);
     EXPECT_NE(words.find("BROKEN"), words.npos) << words;
     EXPECT_NE(words.find("a bug of the driver or of Diptych, on Some GPU with driver 1.2"), words.npos)
         << words;
-    EXPECT_NE(blameInWords(held, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
+    EXPECT_NE(blameInWords(result, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
               words.npos);
-    held.series[2] = series(Path::reference, false);
-    EXPECT_EQ(held.blame(false), Blame::relation);
-    held.series[1] = series(Path::forward_plus, true);
-    EXPECT_TRUE(held.holds()) << "the reference only tells whose fault it is";
-    EXPECT_EQ(held.blame(false), Blame::none);
-    held.series[1].held.failed = "no memory";
-    EXPECT_FALSE(held.holds());
+    result.series[2] = series(Path::reference, false);
+    EXPECT_EQ(result.blame(false), Blame::relation);
+    result.series[1] = series(Path::forward_plus, true);
+    EXPECT_TRUE(result.passes()) << "the reference only tells whose fault it is";
+    EXPECT_EQ(result.blame(false), Blame::none);
+    result.series[1].comparison.failed = "no memory";
+    EXPECT_FALSE(result.passes());
 }
 
 TEST(Relations, AnUnknownNameIsRefused) {

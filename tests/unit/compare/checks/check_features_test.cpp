@@ -3,7 +3,7 @@
 #include "compare/checks/check_features.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
-#include "tests/support/checks_maker.h"
+#include "tests/support/checks_builder.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -142,6 +142,10 @@ TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
     EXPECT_TRUE(cuts());
     scene.images[0] = {"image", 1, 1, {}, {0, 0, 0, 32768}};
     EXPECT_FALSE(cuts());
+    scene.images[0] = {"image", 2, 1, {}, {}, {0, 0, 0, 2, 0, 0, 0, 0.49f}};
+    EXPECT_TRUE(cuts());
+    scene.images[0] = {"image", 2, 1, {}, {}, {0, 0, 0, 2, 0, 0, 0, 0.5f}};
+    EXPECT_FALSE(cuts());
     m.base_color.a = 0.9f;
     EXPECT_TRUE(cuts());
     m.alpha_cutoff = 0.4f;
@@ -158,23 +162,53 @@ TEST(CheckFeatures, MirroredPicturesNeedNotBeReadable) {
     EXPECT_EQ(featuresIn(scene), (std::set<std::string>{"mirrored instances"}));
 }
 
-TEST(CheckFeatures, WhatIsDrawnOtherwise) {
+TEST(CheckFeatures, BlendingShowsWhatIsBehindUnlessAlphaIsOne) {
     Scene scene = plainScene();
-    scene.materials[0].alpha_mode = AlphaMode::blend;
-    EXPECT_NE(what(scene, "blending").find("drawn opaque"), std::string::npos);
+    Material& m = scene.materials[0];
+    m.alpha_mode = AlphaMode::blend;
+    m.base_color_texture.texture = 0;
+    const auto isTransparent = [&] {
+        const std::string sentence = what(scene, "blending");
+        EXPECT_NE(sentence, "");
+        return sentence.starts_with("Transparent: ");
+    };
+    EXPECT_FALSE(isTransparent());
+    scene.images[0].rgba[3] = 254;
+    EXPECT_TRUE(isTransparent());
+    scene.images[0] = {"image", 1, 1, {}, {}, {0, 0, 0, 1}};
+    EXPECT_FALSE(isTransparent());
+    scene.images[0].rgba32[3] = 0.99f;
+    EXPECT_TRUE(isTransparent());
+    scene.images[0].rgba32[3] = 1;
+    m.transmission = 0.5f;
+    EXPECT_TRUE(isTransparent());
+    m.unlit = true;
+    EXPECT_FALSE(isTransparent()) << "transmission has no effect";
+    m.base_color.a = 0.5f;
+    EXPECT_TRUE(isTransparent());
+}
 
-    scene = plainScene();
-    scene.meshes[0].primitives[0].targets.resize(2);
-    EXPECT_NE(what(scene, "morph targets").find("its 2 morph targets"), std::string::npos);
+TEST(CheckFeatures, MorphTargetsDeformUnlessTheirWeightsAreZero) {
+    Scene scene = plainScene();
+    Mesh& mesh = scene.meshes[0];
+    mesh.primitives[0].targets.resize(2);
+    mesh.weights = {0, 0};
+    EXPECT_EQ(what(scene, "morph targets"),
+              "Its 2 morph targets have weight 0 at this time: the mesh as modelled.");
+    mesh.weights = {0, 0.5f};
+    for (MorphTarget& target : mesh.primitives[0].targets) target.positions.resize(4);
+    EXPECT_EQ(what(scene, "morph targets"), "Deformed by its 2 morph targets: no vertex is out of place.");
+}
 
-    scene = plainScene();
+TEST(CheckFeatures, SkinsWhereJointsMoveTheMesh) {
+    Scene scene = plainScene();
     scene.nodes[0].skin = 0;
     scene.skins.push_back({"skin", {0}, {glm::mat4(1)}});
-    EXPECT_EQ(what(scene, "skins"), "") << "nothing of the mesh moves with it";
+    EXPECT_EQ(what(scene, "skins"), "") << "no vertex has a joint";
     const std::size_t count = scene.meshes[0].primitives[0].positions.size();
     scene.meshes[0].primitives[0].joint_sets = {
         {std::vector<glm::u16vec4>(count, glm::u16vec4(0)), std::vector<glm::vec4>(count, {1, 0, 0, 0})}};
-    EXPECT_NE(what(scene, "skins").find("bind pose"), std::string::npos);
+    EXPECT_TRUE(what(scene, "skins").starts_with("Follows its joints: "));
 }
 
 TEST(CheckFeatures, FlatNormalsWhereTheyCanBeTold) {

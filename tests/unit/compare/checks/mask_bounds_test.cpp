@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Alpha exactly at the mask's cutoff is kept (glTF 2.0, 3.9.4).
-#include "tests/support/checks_maker.h"
+#include "tests/support/checks_builder.h"
 
 #include <gtest/gtest.h>
 

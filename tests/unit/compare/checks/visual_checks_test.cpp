@@ -3,7 +3,7 @@
 #include "compare/checks/material_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/motion/bounds.h"
-#include "tests/support/checks_maker.h"
+#include "tests/support/checks_builder.h"
 
 #include <glm/ext/matrix_transform.hpp>
 

@@ -63,7 +63,7 @@ std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
 
 Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
                    const ReplayNoise& noise, std::uint64_t seed) {
-    RecordedLab lab(sweep, noise, seed);
+    RecordedEvaluator evaluator(sweep, noise, seed);
     SearchOptions options;
     options.budget = budget;
     options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
@@ -73,12 +73,12 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
                                                                                 : std::nullopt;
     };
     const std::vector<Settings> table = tableOf(candidates);
-    const Choice choice = search(table, lab, options);
+    const Choice choice = search(table, evaluator, options);
     // Compare the time limit with the device's speed in the middle of the race.
     double raced = 0;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.standing) raced += 2 * candidate.standing->rounds;
-    if (budget.ms) *budget.ms /= lab.drift(0.5 * raced);
+        if (candidate.race_time) raced += 2 * candidate.race_time->rounds;
+    if (budget.ms) *budget.ms /= evaluator.drift(0.5 * raced);
     Outcome outcome;
     outcome.timings =
         static_cast<double>(choice.timings) / (frames_of_each * static_cast<double>(sweep.rows.size()));
@@ -178,7 +178,7 @@ TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
 }
 
 // Each option value multiplies the time and adds to the error by a given law.
-class LawfulLab final : public Lab {
+class LawfulEvaluator final : public Evaluator {
 public:
     std::map<std::pair<std::string, std::string>, std::pair<double, double>> law;
     std::size_t judged = 0;
@@ -215,13 +215,13 @@ std::optional<Settings> anyOf(const Settings& of, std::span<const Change> change
 }
 
 TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
-    LawfulLab lab;
-    lab.law = {{{"shadow-size", "512"}, {0.8, 0.001}},  {{"lit-format", "fp16"}, {0.9, 0.001}},
-               {{"depth-format", "d24"}, {0.9, 0.001}}, {{"spec-aa", "on"}, {0.5, 1}},
-               {{"light-kernel", "gather"}, {2, 0}},    {{"shadow-kernel", "1"}, {0.7, 0.001}}};
+    LawfulEvaluator evaluator;
+    evaluator.law = {{{"shadow-size", "512"}, {0.8, 0.001}},  {{"lit-format", "fp16"}, {0.9, 0.001}},
+                     {{"depth-format", "d24"}, {0.9, 0.001}}, {{"spec-aa", "on"}, {0.5, 1}},
+                     {{"light-kernel", "gather"}, {2, 0}},    {{"shadow-kernel", "1"}, {0.7, 0.001}}};
     const Settings first;
     std::vector<Settings> table{first};
-    for (const auto& [change, does] : lab.law) {
+    for (const auto& [change, does] : evaluator.law) {
         if (change.first == "shadow-kernel") continue;  // the table lacks this option
         table.push_back(first);
         table.back().set(change.first, change.second);
@@ -230,37 +230,37 @@ TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     options.budget.error = 0.02;
     options.combine = anyOf;
     options.changes = {{first.path, "shadow-kernel", "1"}};
-    const Choice choice = search(table, lab, options);
+    const Choice choice = search(table, evaluator, options);
     ASSERT_TRUE(choice.chosen);
     EXPECT_NEAR(choice.ms, 100 * 0.8 * 0.9 * 0.9 * 0.7, 1e-9);
-    EXPECT_EQ(choice.judged, lab.judged);
+    EXPECT_EQ(choice.judged, evaluator.judged);
     EXPECT_LE(choice.judged, 16u);
-    EXPECT_TRUE(choice.sure);
-    EXPECT_EQ(choice.candidates[*choice.chosen].fate, Fate::raced);
+    EXPECT_TRUE(choice.significant);
+    EXPECT_EQ(choice.candidates[*choice.chosen].status, CandidateStatus::raced);
     for (const Candidate& candidate : choice.candidates)
         if (candidate.settings.valueOf("spec-aa") == "on") {
-            EXPECT_NE(candidate.fate, Fate::raced);
+            EXPECT_NE(candidate.status, CandidateStatus::raced);
         }
 }
 
 TEST(ChooseSearch, WhereNothingFitsTheNearestIsNamed) {
-    LawfulLab lab;
-    lab.law = {{{"shadow-size", "512"}, {1, 0.02}}, {{"shadow-size", "4096"}, {1, -0.005}}};
+    LawfulEvaluator evaluator;
+    evaluator.law = {{{"shadow-size", "512"}, {1, 0.02}}, {{"shadow-size", "4096"}, {1, -0.005}}};
     const Settings first;
     std::vector<Settings> table(3, first);
     table[1].set("shadow-size", "512");
     table[2].set("shadow-size", "4096");
     SearchOptions options;
     options.budget.error = 0.001;
-    const Choice choice = search(table, lab, options);
+    const Choice choice = search(table, evaluator, options);
     EXPECT_FALSE(choice.chosen);
     EXPECT_EQ(choice.nearest, 2u);
-    for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.fate, Fate::misses);
+    for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.status, CandidateStatus::misses);
 }
 
 TEST(ChooseSearch, TheMostAccurateWithinATime) {
-    LawfulLab lab;
-    lab.law = {{{"shadow-size", "4096"}, {1.3, -0.005}}, {{"spec-aa", "on"}, {1.3, -0.004}}};
+    LawfulEvaluator evaluator;
+    evaluator.law = {{{"shadow-size", "4096"}, {1.3, -0.005}}, {{"spec-aa", "on"}, {1.3, -0.004}}};
     const Settings first;
     std::vector<Settings> table(3, first);
     table[1].set("shadow-size", "4096");
@@ -269,12 +269,12 @@ TEST(ChooseSearch, TheMostAccurateWithinATime) {
     options.combine = anyOf;
     for (const auto& [most, ms] : {std::pair{110.0, 100.0}, {140.0, 130.0}, {170.0, 169.0}}) {
         options.budget.ms = most;
-        const Choice choice = search(table, lab, options);
+        const Choice choice = search(table, evaluator, options);
         ASSERT_TRUE(choice.chosen);
         EXPECT_NEAR(choice.ms, ms, 1e-9);
     }
     options.budget.ms = 90;
-    EXPECT_FALSE(search(table, lab, options).chosen);
+    EXPECT_FALSE(search(table, evaluator, options).chosen);
 }
 
 // The table has each path's first candidate and its single default changes; of a few candidates, all.

@@ -30,9 +30,9 @@ const Settings compactOne = known(Path::deferred, "compact"), standardOne = know
                fullOne = known(Path::deferred, "full"), forwardOne = known(Path::forward_plus, "standard");
 
 // Times and errors of the four Settings above, in this order.
-class KnownLab final : public Lab {
+class KnownEvaluator final : public Evaluator {
 public:
-    explicit KnownLab(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
+    explicit KnownEvaluator(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
         : of_(of), deviation_(deviation), random_(seed) {}
     Judged judge(const Settings& settings) override {
         ++judged;
@@ -77,13 +77,13 @@ struct ForAll {
         }
         for (const Choice& choice : own) pointers.push_back(&choice);
         options.budget = budget;
-        std::vector<KnownLab*> by_number;
-        for (KnownLab& lab : labs) by_number.push_back(&lab);
+        std::vector<KnownEvaluator*> by_number;
+        for (KnownEvaluator& evaluator : labs) by_number.push_back(&evaluator);
         result = chooseForAll(
-            pointers, [&](std::size_t i) -> Lab& { return *by_number[i]; }, options);
+            pointers, [&](std::size_t i) -> Evaluator& { return *by_number[i]; }, options);
     }
     const Settings& chosen() const { return result.candidates.at(result.chosen.value()).settings; }
-    std::list<KnownLab> labs;
+    std::list<KnownEvaluator> labs;
     std::vector<Choice> own;
     CommonChoice result;
 };
@@ -98,7 +98,7 @@ TEST(ChooseForAll, TheLeastSumOfLogarithmsThoughNoScenesOwn) {
     EXPECT_EQ(all.own[0].candidates[*all.own[0].chosen].settings, compactOne);
     EXPECT_EQ(all.own[1].candidates[*all.own[1].chosen].settings, standardOne);
     EXPECT_EQ(all.chosen(), forwardOne);
-    EXPECT_TRUE(all.result.sure);
+    EXPECT_TRUE(all.result.significant);
     ASSERT_EQ(all.result.slower.size(), 2u);
     for (const auto& slower : all.result.slower) {
         ASSERT_TRUE(slower);
@@ -168,16 +168,16 @@ TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
     for (const auto& [settings, error] :
          {std::pair(compactOne, 0.5), std::pair(fullOne, 0.03), std::pair(standardOne, 0.03)})
         own.candidates.push_back({.settings = settings, .judged = Judged{error, 1000}});
-    KnownLab lab({});
+    KnownEvaluator evaluator({});
     const Choice* const pointer = &own;
     CommonOptions options;
     options.budget = {.error = 0.02, .ms = {}, .bytes = {}};
     const CommonChoice all = chooseForAll(
-        std::span(&pointer, 1), [&](std::size_t) -> Lab& { return lab; }, options);
+        std::span(&pointer, 1), [&](std::size_t) -> Evaluator& { return evaluator; }, options);
     ASSERT_EQ(all.candidates.size(), 2u);
     EXPECT_EQ(all.candidates[0].settings, compactOne);
     EXPECT_EQ(all.candidates[1].settings, fullOne);
-    EXPECT_EQ(lab.judged, 0u) << "both are known";
+    EXPECT_EQ(evaluator.judged, 0u) << "both are known";
 }
 
 TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {

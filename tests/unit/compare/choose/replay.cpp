@@ -54,16 +54,17 @@ std::vector<RecordedSweep> recordedSweeps() {
     return sweeps;
 }
 
-choose::Judged RecordedLab::judge(const Settings& settings) {
+choose::Judged RecordedEvaluator::judge(const Settings& settings) {
     const RecordedRow& row = sweep_.find(settings);
     return {row.error, row.bytes};
 }
 
-double RecordedLab::drift(double timings_ago) const {
+double RecordedEvaluator::drift(double timings_ago) const {
     return 1 + noise_.drift * (std::clamp((timed_ - timings_ago) / noise_.drifts, 0.0, 1.0) - 0.5);
 }
 
-std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {
+std::vector<double> RecordedEvaluator::time(std::span<const Settings> frames,
+                                            std::span<const std::size_t> order) {
     std::vector<double> recorded, times;
     for (const Settings& settings : frames) recorded.push_back(sweep_.find(settings).ms);
     std::normal_distribution<double> noise(0, noise_.deviation);
@@ -74,7 +75,7 @@ std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::spa
     return times;
 }
 
-std::vector<PassTime> RecordedLab::profile(const Settings& settings) {
+std::vector<PassTime> RecordedEvaluator::profile(const Settings& settings) {
     return sweep_.find(settings).passes;
 }
 

@@ -34,9 +34,9 @@ struct ReplayNoise {
     double drifts = 100;
 };
 
-class RecordedLab final : public choose::Lab {
+class RecordedEvaluator final : public choose::Evaluator {
 public:
-    RecordedLab(const RecordedSweep& sweep, const ReplayNoise& noise, std::uint64_t seed)
+    RecordedEvaluator(const RecordedSweep& sweep, const ReplayNoise& noise, std::uint64_t seed)
         : sweep_(sweep), noise_(noise), random_(seed) {}
 
     choose::Judged judge(const Settings& settings) override;

@@ -56,10 +56,10 @@ TEST(VerdictWords, CompareIsTold) {
         words.insert(words.begin(), "compare");
         return cli::compareOptions(cli::parseCommandLine(words));
     };
-    const CompareOptions usual = told({});
-    EXPECT_FALSE(usual.allow_noise || usual.strict || usual.allow_empty);
-    EXPECT_EQ(usual.baseline, Path::deferred);
-    EXPECT_TRUE(usual.required.empty());
+    const CompareOptions defaults = told({});
+    EXPECT_FALSE(defaults.allow_noise || defaults.strict || defaults.allow_empty);
+    EXPECT_EQ(defaults.baseline, Path::deferred);
+    EXPECT_TRUE(defaults.required.empty());
     EXPECT_TRUE(told({"--allow-noise"}).allow_noise);
     EXPECT_TRUE(told({"--strict"}).strict);
     EXPECT_TRUE(told({"--allow-empty"}).allow_empty);

@@ -3,7 +3,7 @@
 #include "compare/explain/html.h"
 #include "compare/explain/pictures.h"
 #include "compare/explain/words.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planted deviations of a renderer, one and two at a time: exactly these are reported.
+// Injected deviations of a renderer, one and two at a time: exactly these are reported.
 #include "compare/external/calibration.h"
 
 #include "compare/external/placement.h"
@@ -112,7 +112,7 @@ std::vector<Fault> faults() {
 class Studio {
 public:
     Studio() : charts_(loadScene("builtin:calibration")) {
-        for (const Lamp lamp : lamps) truths_[lamp] = truthUnder(charts_, lamp);
+        for (const Lamp lamp : lamps) truths_[lamp] = referenceUnder(charts_, lamp);
     }
     const Scene& charts() const { return charts_; }
 
@@ -130,8 +130,8 @@ private:
         const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random);
         const auto found = fake.factors.find(lamp);
         const double factor = (found == fake.factors.end() ? 1 : found->second) * model;
-        const ChartTruth& lit = drawn(fake, lamp);
-        const ChartTruth& dark = drawn(fake, Lamp::none);
+        const ChartReference& lit = drawn(fake, lamp);
+        const ChartReference& dark = drawn(fake, Lamp::none);
         Image image = lit.lit;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
@@ -149,7 +149,7 @@ private:
         return image;
     }
 
-    const ChartTruth& drawn(const Fake& fake, Lamp lamp) {
+    const ChartReference& drawn(const Fake& fake, Lamp lamp) {
         const bool sky = lamp == Lamp::environment;
         const std::string key = fmt::format(
             "{} {} {} {} {} {} {} {} {}", nameOf(lamp), fake.fov, fake.right, fake.down, fake.colour_linear,
@@ -161,7 +161,7 @@ private:
 
     // An additional column or row moves the projection's centre by half a pixel; the image is cropped to its
     // original size.
-    ChartTruth draw(const Fake& fake, Lamp lamp) const {
+    ChartReference draw(const Fake& fake, Lamp lamp) const {
         Scene scene = chartsUnder(charts_, lamp);
         Settings settings = chartSettings(lamp);
         // Under the environment, where pixels are slow and only the centres of faces count, at a quarter
@@ -199,7 +199,7 @@ private:
         const Frame frame =
             std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
         const Image& whole = frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
-        ChartTruth shown{Image(whole_size.width, whole_size.height, 3), {}};
+        ChartReference shown{Image(whole_size.width, whole_size.height, 3), {}};
         for (int y = 0; y < whole_size.height; ++y)
             for (int x = 0; x < whole_size.width; ++x)
                 for (int c = 0; c < 3; ++c) shown.lit.at(x, y, c) = whole.at(x / coarse, y / coarse, c);
@@ -207,8 +207,8 @@ private:
     }
 
     const Scene charts_;
-    std::map<Lamp, ChartTruth> truths_;
-    std::map<std::string, ChartTruth> drawn_;
+    std::map<Lamp, ChartReference> truths_;
+    std::map<std::string, ChartReference> drawn_;
 };
 
 Studio& studio() {
@@ -280,30 +280,30 @@ TEST(Calibration, TwoAtOnceAreNamed) {
 
 // An input correction undoes the deviation.
 TEST(Calibration, GrantsAreTheWayBack) {
-    const auto grantOf = [&](const Fake& fake) {
-        nlohmann::ordered_json granted = nlohmann::ordered_json::object();
+    const auto correctionOf = [&](const Fake& fake) {
+        nlohmann::ordered_json corrections = nlohmann::ordered_json::object();
         for (const Deviation& one : deviationsOf(studio().charts(), studio().pictures(fake, 7)))
-            granted.update(one.grant);
-        return granted;
+            corrections.update(one.correction);
+        return corrections;
     };
     Fake fake;
     fake.fov = 1;
-    EXPECT_NEAR(grantOf(fake)["fov_offset"].get<double>(), -1, 0.1);
+    EXPECT_NEAR(correctionOf(fake)["fov_offset"].get<double>(), -1, 0.1);
     fake = {};
     fake.right = 1;
-    EXPECT_NEAR(grantOf(fake)["shift_x"].get<double>(), -0.5, 0.1);
+    EXPECT_NEAR(correctionOf(fake)["shift_x"].get<double>(), -0.5, 0.1);
     fake = {};
     fake.turned = 90;
-    EXPECT_EQ(grantOf(fake)["environment_rotation"], -90);
+    EXPECT_EQ(correctionOf(fake)["environment_rotation"], -90);
     fake = {};
     for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot, Lamp::area})
         fake.factors[lamp] = 1 / glm::radians(180.0);
-    EXPECT_NEAR(grantOf(fake)["light_factor"].get<double>(), glm::radians(180.0), 1e-9);
+    EXPECT_NEAR(correctionOf(fake)["light_factor"].get<double>(), glm::radians(180.0), 1e-9);
 }
 
 TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
     const Scene& charts = studio().charts();
-    const Image ids = truthUnder(charts, Lamp::environment).ids;
+    const Image ids = referenceUnder(charts, Lamp::environment).ids;
     const Image lit = std::move(studio().pictures({}, 3).back().picture);
     int faces = 0;
     for (const Mesh& mesh : charts.meshes) {

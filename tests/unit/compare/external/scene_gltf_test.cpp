@@ -55,10 +55,10 @@ TEST(SceneGltf, ARigIsReadBackAsItIs) {
         const WrittenScene rig = rigGltf(view);
         const Scene back = readBack(rig.glb);
         const Pose pose = poseAt(back, 0);
-        const std::vector<Light> told = punctual(view.lights);
-        ASSERT_EQ(pose.lights.size(), told.size()) << name;
-        for (std::size_t i = 0; i < told.size(); ++i) {
-            const Light &a = told[i], &b = pose.lights[i];
+        const std::vector<Light> passed = punctual(view.lights);
+        ASSERT_EQ(pose.lights.size(), passed.size()) << name;
+        for (std::size_t i = 0; i < passed.size(); ++i) {
+            const Light &a = passed[i], &b = pose.lights[i];
             EXPECT_EQ(a.kind, b.kind);
             EXPECT_EQ(a.intensity, b.intensity);
             EXPECT_EQ(a.color, b.color);
@@ -73,7 +73,7 @@ TEST(SceneGltf, ARigIsReadBackAsItIs) {
                 EXPECT_EQ(a.outer_cone, b.outer_cone);
             }
         }
-        EXPECT_EQ(rig.notes.empty(), told.size() == view.lights.size()) << "area lights are counted";
+        EXPECT_EQ(rig.notes.empty(), passed.size() == view.lights.size()) << "area lights are counted";
         ASSERT_EQ(back.cameras.size(), 1u);
         EXPECT_NEAR(back.cameras[0].yfov, view.view.camera.yfov, 1e-9);
     }
@@ -92,19 +92,19 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             drawn += !primitiveOf(scene, instance).indices.empty();
         ASSERT_EQ(pose.instances.size(), drawn) << name;
         for (std::size_t i = 0, k = 0; i < view.pose.instances.size(); ++i) {
-            const Instance& told = view.pose.instances[i];
-            if (primitiveOf(scene, told).indices.empty()) continue;
+            const Instance& passed = view.pose.instances[i];
+            if (primitiveOf(scene, passed).indices.empty()) continue;
             const Instance& written = pose.instances[k++];
             // The loader drops vertices that no triangle uses and flips the triangles of a mirrored
             // skeleton.
-            const std::vector<glm::dvec3> a = middlesOf(scene, view.pose, told),
+            const std::vector<glm::dvec3> a = middlesOf(scene, view.pose, passed),
                                           b = middlesOf(back, pose, written);
             ASSERT_EQ(a.size(), b.size()) << name;
             double far = 0;
             for (std::size_t t = 0; t < a.size(); ++t) far = std::max(far, glm::distance(a[t], b[t]));
             EXPECT_LT(far, 1e-5) << name << " " << i;
             const Material& one =
-                materialsOf(scene, view.pose)[static_cast<std::size_t>(primitiveOf(scene, told).material)];
+                materialsOf(scene, view.pose)[static_cast<std::size_t>(primitiveOf(scene, passed).material)];
             const Material& other =
                 back.materials[static_cast<std::size_t>(primitiveOf(back, written).material)];
             EXPECT_EQ(one.name, other.name);

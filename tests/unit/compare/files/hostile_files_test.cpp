@@ -2,8 +2,8 @@
 // Our file formats, written by an attacker. Every reader accepts the content or reports one line, and
 // nothing outside the output is read or changed.
 #include "compare/cli/commands.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/file_moves.h"
-#include "compare/files/kept_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
 #include "compare/plot/log_axis.h"
@@ -17,7 +17,7 @@
 #include "shared/text/one_line.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -436,7 +436,7 @@ TEST(HostileFuzz, Tradeoffs) {
     std::ofstream(root / "secret.png") << "secret";
     MeasuredRow measured;
     measured.row.cameras.resize(1);
-    measured.row.cameras[0].visits = {{2, 1, 3, 5}};
+    measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.cameras[0].passes = {{"shade", 1}};
     measured.row.cameras[0].errors = measured.row.errors = {0.1, 0.2, 0.3};
     measured.row.warnings = {"a warning"};
@@ -528,7 +528,7 @@ TEST(HostileFuzz, KeysAndPlansAndLists) {
         const std::string kept = mutator.mutated(key.dump());
         std::ofstream(root / ".out.kept/key.json") << kept;
         std::ofstream(root / ".out.kept/part.json") << mutator.mutated(R"({"a": [1, 2, {"b": "c"}]})");
-        expectALine([&] { KeptFolder(root / "out", "kept", key).find("part"); }, kept);
+        expectALine([&] { CheckpointFolder(root / "out", "kept", key).find("part"); }, kept);
 
         fs::remove_all(root / "out");
         fs::create_directories(root / "out/.diptych.put");
@@ -554,7 +554,7 @@ TEST(HostileFolders, AKeptFolderThatIsALinkIsRefused) {
     std::ofstream(root / "elsewhere/mine.txt") << "mine";
     fs::create_directory_symlink("elsewhere", root / ".out.scenes");
     try {
-        KeptFolder kept(root / "out", "scenes", key);
+        CheckpointFolder kept(root / "out", "scenes", key);
         ADD_FAILURE() << "was taken";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find(".out.scenes: is a symbolic link"), std::string::npos)
@@ -586,7 +586,7 @@ TEST(HostileFolders, WhatStandsInPlaceOfOurFilesIsSaidAtOnce) {
     EXPECT_EQ(line([&] { scenesOf({"@/dev/zero"}); }), "@/dev/zero: is not a regular file");
     EXPECT_NE(line([&] { shards::choose({root}, "shard.json"); }).find("shard.json is not a regular file"),
               std::string::npos);
-    EXPECT_NE(line([&] { KeptFolder(root / "out", "kept", Json{{"schema", 1}}); }), "x");
+    EXPECT_NE(line([&] { CheckpointFolder(root / "out", "kept", Json{{"schema", 1}}); }), "x");
     EXPECT_EQ(shards::filesOf((root / "scene.gltf").string()).size(), 1u);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rewriting a folder keeps its mode, its attributes and links to it.
 #include "compare/files/output_folder.h"
-#include "compare/files/kept_folder.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/shards/slurm.h"
 #include "tests/support/files.h"
 
@@ -89,14 +89,15 @@ TEST(OutputFolder, LinksInsideAreNotFollowed) {
 }
 
 // The checkpoint folder beside an output, used by a long command.
-TEST(KeptFolder, ALinkIsRefusedAndItsFolderKept) {
+TEST(CheckpointFolder, ALinkIsRefusedAndItsFolderKept) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
     fs::create_directory(elsewhere);
     std::ofstream(elsewhere / "mine.txt") << "mine";
     std::ofstream(elsewhere / "key.json") << R"({"software": "diptych", "schema": 1})";
     fs::create_directory_symlink("elsewhere", home / ".r.scenes");
     try {
-        const KeptFolder kept(home / "r", "scenes", {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
+        const CheckpointFolder kept(home / "r", "scenes",
+                                    {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find(".r.scenes: is a symbolic link"), std::string::npos)
@@ -105,12 +106,12 @@ TEST(KeptFolder, ALinkIsRefusedAndItsFolderKept) {
     EXPECT_EQ(namesIn(elsewhere), (std::vector<std::string>{"key.json", "mine.txt"}));
 }
 
-TEST(KeptFolder, LinksInItAreReplacedAndNotFollowed) {
+TEST(CheckpointFolder, LinksInItAreReplacedAndNotFollowed) {
     const fs::path home = folder();
     std::ofstream(home / "mine.json") << "mine";
     std::ofstream(home / "inner.txt") << "mine";
     const nlohmann::ordered_json key{{"software", "diptych"}, {"schema", 1}};
-    KeptFolder kept(home / "r", "scenes", key);
+    CheckpointFolder kept(home / "r", "scenes", key);
     fs::create_symlink(home / "mine.json", kept / "part.json");
     kept.keep("part", {{"of", "ours"}});
     EXPECT_EQ(contentsOf(home / "mine.json"), "mine");
@@ -121,20 +122,20 @@ TEST(KeptFolder, LinksInItAreReplacedAndNotFollowed) {
 }
 
 // A resumed command writes into the scene folders that it finds there.
-TEST(KeptFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
+TEST(CheckpointFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
     fs::create_directory(elsewhere);
     std::ofstream(elsewhere / "part.json") << "{}";
     const nlohmann::ordered_json key{{"software", "diptych"}, {"schema", 1}};
     {
-        const KeptFolder kept(home / "r", "scenes", key);
+        const CheckpointFolder kept(home / "r", "scenes", key);
         kept.keep("part", {{"of", "ours"}});
         fs::create_directory(kept / "Box");
         fs::create_directory_symlink(elsewhere, kept / "Sphere");
         fs::create_directory_symlink(elsewhere, kept / "Box/top");
         fs::create_symlink(elsewhere / "part.json", kept / "theirs.json");
     }
-    const KeptFolder again(home / "r", "scenes", key);
+    const CheckpointFolder again(home / "r", "scenes", key);
     EXPECT_EQ(filesIn(again.path()), (std::vector<std::string>{"key.json", "part.json"}));
     EXPECT_FALSE(again.isRenewed());
     EXPECT_EQ(filesIn(elsewhere), std::vector<std::string>{"part.json"});

@@ -2,7 +2,7 @@
 // Structural similarity, compared with its formula and with closed forms.
 #include "compare/metrics/ssim.h"
 
-#include "compare/metrics/plain.h"
+#include "compare/metrics/standard.h"
 #include "tests/support/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ TEST(Ssim, SmallPicturesHaveNoWindow) {
 }
 
 double ofColors(const Image& a, const Image& b, Range range) {
-    return plainMetrics(a, b, ChannelKind::color, range, everyPixel(a.pixels())).ssim.value();
+    return standardMetrics(a, b, ChannelKind::color, range, everyPixel(a.pixels())).ssim.value();
 }
 
 TEST(Ssim, OfDisplayColoursIsOfTheirLuma) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Channels as images.
 #include "compare/picture/picture.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -16,18 +16,18 @@ namespace {
 constexpr std::size_t some_rows = 4096;
 
 // Results of a device with the error that Vulkan allows.
-std::vector<float> sloppyRows(const Probe& probe, const std::vector<float>& in) {
+std::vector<float> inexactRows(const Probe& probe, const std::vector<float>& in) {
     std::vector<float> out(in.size() / probe.ins * probe.outs);
     for (std::size_t i = 0; i * probe.ins < in.size(); ++i)
-        probe.sloppy(&in[i * probe.ins], &out[i * probe.outs]);
+        probe.inexact(&in[i * probe.ins], &out[i * probe.outs]);
     return out;
 }
 
 TEST(DeviceProbes, ADeviceThatIsAsInexactAsVulkanAllowsPasses) {
     for (const Probe& probe : allProbes()) {
-        if (!probe.sloppy) continue;
+        if (!probe.inexact) continue;
         const std::vector<float> in = inputsOf(probe, 0, some_rows / probe.line * probe.line);
-        const Result result = concluded(probe, judged(probe, 0, in, sloppyRows(probe, in)));
+        const Result result = concluded(probe, judged(probe, 0, in, inexactRows(probe, in)));
         EXPECT_EQ(result.tally.failures, 0u) << tableOf(std::array{result}, true);
         EXPECT_GT(result.tally.results, result.tally.unpromised) << probe.name;
     }

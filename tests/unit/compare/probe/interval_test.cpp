@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interval arithmetic with Vulkan's error bounds, and the counts of results.
+#include "compare/probe/inexact.h"
 #include "compare/probe/probe.h"
-#include "compare/probe/sloppy.h"
 
 #include <gtest/gtest.h>
 

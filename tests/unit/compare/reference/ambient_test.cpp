@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Uniform ambient light: the reference's integral against closed forms and brute force, and the paths'
 // integral against the reference's.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/quadrature.h"

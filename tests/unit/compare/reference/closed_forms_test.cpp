@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's lights on a white plane, compared with closed forms.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/punctual.h"
 

@@ -3,7 +3,7 @@
 #include "tests/support/reference_scene.h"
 
 #include "compare/reference/checkpoint.h"
-#include "compare/reference/pace.h"
+#include "compare/reference/time_estimate.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
 #include "tests/support/files.h"

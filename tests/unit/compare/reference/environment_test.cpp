@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference under environments: directions, furnace tests, and its confidence intervals.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/environment.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The reference's results for glTF files, compared with values computed by hand. Both paths and the
 // reference share the loader, so only this finds its faults.
-#include "tests/support/gltf_maker.h"
-#include "tests/support/png_maker.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/png_builder.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's material and its reflection of area lights, compared with independent formulas and sums.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/brdf.h"
 

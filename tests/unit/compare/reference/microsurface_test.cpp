@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The microsurface by random walk: its single reflection is the analytic BRDF, it loses no light, and the
 // compensations' distance from it is known.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/microsurface.h"

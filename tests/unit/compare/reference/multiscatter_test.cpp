@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's energy compensations, compared with their papers' values and in a white furnace.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/multiscatter.h"

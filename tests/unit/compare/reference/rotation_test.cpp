@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference applies a file's quaternion of any length: a tilted plane at its exact positions.
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {

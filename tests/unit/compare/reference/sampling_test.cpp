@@ -2,7 +2,7 @@
 // The confidence interval of a mean of independent estimates, and the sample points.
 #include "compare/reference/sampling.h"
 
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include <set>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's shadows of area lights, compared with the visible part of their polygon.
-#include "tests/support/reference_maker.h"
+#include "tests/support/reference_builder.h"
 
 #include "compare/reference/sampling.h"
 

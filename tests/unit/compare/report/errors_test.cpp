@@ -3,7 +3,7 @@
 #include "compare/report/error_figures.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "tests/support/error_spread.h"
 #include "tests/support/files.h"
 #include "tests/support/frames.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

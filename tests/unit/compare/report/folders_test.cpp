@@ -5,7 +5,7 @@
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "compare/report/layout.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

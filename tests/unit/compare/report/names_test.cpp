@@ -6,7 +6,7 @@
 #include "compare/report/picture_diff_report.h"
 #include "shared/image/exr.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

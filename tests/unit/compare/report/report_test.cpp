@@ -10,7 +10,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

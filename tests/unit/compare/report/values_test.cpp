@@ -3,7 +3,7 @@
 #include "compare/report/values.h"
 #include "compare/report/html.h"
 #include "tests/support/files.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>

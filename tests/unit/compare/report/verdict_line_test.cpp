@@ -6,7 +6,7 @@
 #include "compare/verdict/criterion.h"
 #include "shared/text/did_you_mean.h"
 #include "tests/support/modes.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "tests/support/nonfinite.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TradeoffRow row(const char* path, const char* option, const char* value, double 
     if (*option) made.settings.set(option, value);
     CameraRow camera;
     camera.camera = "a, \"b\" <c>";
-    camera.visits = {{ms, 0.9 * ms, 1.5 * ms, 5}};
+    camera.blocks = {{ms, 0.9 * ms, 1.5 * ms, 5}};
     camera.passes = {{"shade", ms / 2}};
     camera.bytes = {1000, 200, 24};
     camera.errors = errors;
@@ -49,7 +49,8 @@ Tradeoff several() {
     for (TradeoffRow& made : tradeoff.rows) made.settings.camera = "0";
     tradeoff.given.camera = "0";
     tradeoff.rows[1].warnings = {"one, \"two\""};
-    tradeoff.skips = {{{{"path", "deferred"}, {"msaa", "4"}}, "--msaa 4 is not built yet; use 1"}};
+    tradeoff.skips = {{{{"path", "deferred"}, {"msaa-edges", "all"}},
+                       "--msaa-edges all has no effect without --msaa 4; use exact"}};
     return tradeoff;
 }
 
@@ -136,13 +137,13 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
 
 TEST(TradeoffOutput, RowsSurviveTheirJson) {
     for (TradeoffRow made : several().rows) {
-        made.cameras[0].visits[0].median = 1.0 / 3;
+        made.cameras[0].blocks[0].median = 1.0 / 3;
         made.settings.camera = "eye=1,2,3";
         const TradeoffRow back = tradeoffRowFrom(nlohmann::ordered_json::parse(jsonOf(made).dump()));
         EXPECT_EQ(jsonOf(back), jsonOf(made));
         EXPECT_EQ(back.settings, made.settings);
         EXPECT_EQ(back.errors, made.errors);
-        EXPECT_EQ(back.cameras[0].visits[0].median, 1.0 / 3);
+        EXPECT_EQ(back.cameras[0].blocks[0].median, 1.0 / 3);
     }
 }
 
@@ -204,7 +205,7 @@ TEST(TradeoffOutput, FrontsAreOfWhatTheirPlotShows) {
 TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
     TradeoffRow made = row("deferred", "", "", 2, {0.5, 0.5, 0.5});
     made.cameras.push_back(made.cameras[0]);
-    made.cameras[1].visits = {{4, 3, 10, 5}};
+    made.cameras[1].blocks = {{4, 3, 10, 5}};
     made.cameras[1].errors = {0.25, 1, 0.5};
     made.cameras[1].bytes = {5000, 0, 24};
     const Spread time = timeOf(made);
@@ -220,9 +221,9 @@ TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
 TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
     Tradeoff tradeoff = several();
     EXPECT_FALSE(driftOf(tradeoff)) << "one visit";
-    for (TradeoffRow& made : tradeoff.rows) made.cameras[0].visits.push_back(made.cameras[0].visits[0]);
-    tradeoff.rows[0].cameras[0].visits[1] = {16, 15, 17, 2};
-    tradeoff.rows[2].cameras[0].visits[1] = {0.5, 0.25, 0.5, 2};
+    for (TradeoffRow& made : tradeoff.rows) made.cameras[0].blocks.push_back(made.cameras[0].blocks[0]);
+    tradeoff.rows[0].cameras[0].blocks[1] = {16, 15, 17, 2};
+    tradeoff.rows[2].cameras[0].blocks[1] = {0.5, 0.25, 0.5, 2};
     const FrameTime time = timeOf(tradeoff.rows[0].cameras[0]);
     EXPECT_DOUBLE_EQ(time.median, 12) << "8 of five frames and 16 of two";
     EXPECT_DOUBLE_EQ(time.min, 7.2);

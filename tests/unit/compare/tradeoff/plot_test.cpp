@@ -55,7 +55,7 @@ TradeoffRow timed(const char* path, double ms, double error) {
     TradeoffRow made;
     made.settings.set("path", path);
     CameraRow camera;
-    camera.visits = {{ms, ms, ms, 5}};
+    camera.blocks = {{ms, ms, ms, 5}};
     camera.errors = {error, error, error};
     made.cameras = {camera};
     made.errors = camera.errors;

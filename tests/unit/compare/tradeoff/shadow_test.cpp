@@ -106,8 +106,8 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     std::vector<bool> time, memory;
     for (const ShadowRow& row : rows) {
         order.push_back(row.row);
-        time.push_back(row.beaten_in_time);
-        memory.push_back(row.beaten_in_memory);
+        time.push_back(row.dominated_in_time);
+        memory.push_back(row.dominated_in_memory);
     }
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 1, 2}));
     EXPECT_EQ(time, (std::vector{false, false, true, true}));
@@ -130,12 +130,12 @@ TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
 TEST(TradeoffShadow, TheTruthHasShadowsWhereAnyRowDoes) {
     Settings given;
     given.shadows = Shadows::off;
-    EXPECT_EQ(truthFor(given, {given, given}), given);
+    EXPECT_EQ(referenceFor(given, {given, given}), given);
     Settings shadowed = given;
     shadowed.shadows = Shadows::evsm;
-    EXPECT_NE(truthFor(given, {given, shadowed}).shadows, Shadows::off);
-    EXPECT_EQ(referenceSettings(truthFor(given, {given, shadowed})).shadows, Shadows::pcf);
-    EXPECT_EQ(truthFor(shadowed, {given}), shadowed);
+    EXPECT_NE(referenceFor(given, {given, shadowed}).shadows, Shadows::off);
+    EXPECT_EQ(referenceSettings(referenceFor(given, {given, shadowed})).shadows, Shadows::pcf);
+    EXPECT_EQ(referenceFor(shadowed, {given}), shadowed);
 }
 
 }  // namespace

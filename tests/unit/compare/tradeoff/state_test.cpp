@@ -25,7 +25,7 @@ std::string kept(SweepState& state, const Settings& settings) {
     MeasuredRow measured;
     measured.row.settings = settings;
     measured.row.cameras.resize(1);
-    measured.row.cameras[0].visits = {{2, 1, 3, 5}};
+    measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.drawing_ms = 8;
     measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
     state.keep(measured);

@@ -16,8 +16,8 @@ using namespace tradeoff;
 
 namespace {
 
-SweepRows usualSweep(const Settings& given = {}) {
-    return makeSweepRows(given, usualGrids(given));
+SweepRows defaultSweep(const Settings& given = {}) {
+    return makeSweepRows(given, defaultGrids(given));
 }
 
 std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& given = {}) {
@@ -39,7 +39,7 @@ std::vector<std::string> reasonsOf(const SweepRows& sweep, const std::string& op
 }
 
 TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
-    const SweepRows sweep = usualSweep();
+    const SweepRows sweep = defaultSweep();
     ASSERT_FALSE(sweep.rows.empty());
     EXPECT_EQ(sweep.rows.front(), Settings());
     for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
@@ -52,7 +52,7 @@ TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
 // For any base Settings, each swept value of each Setting is a row for each path, or a skip with a reason.
 TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     const Settings given;
-    const SweepRows sweep = usualSweep(given);
+    const SweepRows sweep = defaultSweep(given);
     std::size_t tried = 0;
     Settings::fields(given, [&](const Field& field, const auto&) {
         for (const std::string& value : sweptValues(given, field.option)) {
@@ -78,7 +78,7 @@ TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
 }
 
 TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
-    const std::vector<std::string> rows = wordsOfRows(usualSweep());
+    const std::vector<std::string> rows = wordsOfRows(defaultSweep());
     for (const char* row :
          {"forward_plus", "deferred", "deferred, gbuffer full", "forward_plus, size 320x180",
           "deferred, gbuffer full, size 320x180", "forward_plus, prepass off"})
@@ -89,17 +89,18 @@ TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
 TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
     Settings given;
     given.shadows = Shadows::off;
-    const SweepRows sweep = usualSweep(given);
+    const SweepRows sweep = defaultSweep(given);
     const std::vector<std::string> gbuffer = reasonsOf(sweep, "gbuffer"),
                                    prepass = reasonsOf(sweep, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
     EXPECT_EQ(prepass, (std::vector<std::string>(2, "deferred has no depth pre-pass"))) << "on and off";
     EXPECT_FALSE(holds(wordsOfRows(sweep, given), "forward_plus, gbuffer full"));
-    EXPECT_TRUE(holds(wordsOfRows(usualSweep()), "forward_plus, gbuffer full")) << "with shadows it is read";
+    EXPECT_TRUE(holds(wordsOfRows(defaultSweep()), "forward_plus, gbuffer full"))
+        << "with shadows it is read";
 }
 
 TEST(TradeoffSweep, TheReferenceIsNoRow) {
-    const SweepRows sweep = usualSweep();
+    const SweepRows sweep = defaultSweep();
     EXPECT_EQ(reasonsOf(sweep, "path").front(), "is the reference that all rows are compared with");
     for (const Settings& row : sweep.rows) EXPECT_NE(row.path, Path::reference);
 }
@@ -108,7 +109,7 @@ TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
     Settings given;
     given.spp = 64;
     given.reference_mode = ReferenceMode::scene;
-    for (const Settings& row : usualSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
+    for (const Settings& row : defaultSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
 // Against a ground truth with one sample per pixel, or with other weights, the mean of several samples
@@ -200,27 +201,34 @@ TEST(TradeoffSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
 }
 
 TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
+    const auto refused = [](const std::string& path, const std::string& option, const std::string& value) {
+        Settings settings;
+        settings.set("path", path);
+        settings.set(option, value);
+        return SweepSkip{{{"path", path}, {option, value}}, settings.problem().value()};
+    };
     const std::vector<SweepSkip> skips{
-        {{{"path", "deferred"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
-        {{{"path", "forward_plus"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
-        {{{"path", "deferred"}, {"assign", "clustered"}}, "--assign clustered is not built yet; use every"},
-        {{{"path", "deferred"}, {"msaa", "4"}}, "--msaa 4 is not built yet; use 1"},
+        refused("deferred", "msaa-edges", "all"),
+        refused("forward_plus", "msaa-edges", "all"),
+        refused("deferred", "msaa-edges", "similar"),
+        refused("deferred", "msaa-shading", "sample"),
         {{{"path", "deferred"}, {"prepass", "on"}}, "deferred has no depth pre-pass"},
         {{{"path", "deferred"}, {"msaa", "4"}, {"size", "9x9"}}, "together too large"}};
+    EXPECT_EQ(skips[0].reason, "--msaa-edges all has no effect without --msaa 4; use exact");
     const std::vector<SkipGroup> groups = groupsOf(skips);
     ASSERT_EQ(groups.size(), 3u);
-    EXPECT_EQ(groups[0].reason, "is not built yet");
-    EXPECT_EQ(groups[0].tried, (std::vector<std::string>{"assign tiled|clustered", "msaa 4"}));
+    EXPECT_EQ(groups[0].reason, "has no effect without --msaa 4");
+    EXPECT_EQ(groups[0].tried, (std::vector<std::string>{"msaa-edges all|similar", "msaa-shading sample"}));
     EXPECT_EQ(groups[1].tried, std::vector<std::string>{"prepass on"});
     EXPECT_EQ(groups[2].tried, std::vector<std::string>{"deferred, msaa 4, size 9x9"});
 }
 
 TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
-    const Settings usual;
+    const Settings defaults;
     std::set<std::string> options{"*"};
-    Settings::fields(usual, [&](const Field& field, const auto&) {
+    Settings::fields(defaults, [&](const Field& field, const auto&) {
         options.emplace(field.option);
-        for (const std::string& value : sweptValues(usual, field.option)) {
+        for (const std::string& value : sweptValues(defaults, field.option)) {
             Settings other;
             EXPECT_NO_THROW(other.set(field.option, value)) << field.option << " " << value;
         }
@@ -243,13 +251,13 @@ TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
         return values;
     };
     Settings given;
-    const SweepRows usual = usualSweep(given);
-    EXPECT_EQ(tried(usual), std::set{Multiscatter::off});
-    EXPECT_EQ(truthFor(given, usual.rows), given);
+    const SweepRows defaults = defaultSweep(given);
+    EXPECT_EQ(tried(defaults), std::set{Multiscatter::off});
+    EXPECT_EQ(referenceFor(given, defaults.rows), given);
     given.multiscatter = Multiscatter::energy;
-    const SweepRows asked = usualSweep(given);
+    const SweepRows asked = defaultSweep(given);
     EXPECT_EQ(tried(asked), (std::set{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez}));
-    const Settings truth = truthFor(given, asked.rows);
+    const Settings truth = referenceFor(given, asked.rows);
     EXPECT_EQ(truth.multiscatter, Multiscatter::walk);
     EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
 }
@@ -262,13 +270,13 @@ TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
         return values;
     };
     Settings given;
-    const SweepRows usual = usualSweep(given);
-    EXPECT_EQ(tried(usual), std::set{0});
-    EXPECT_EQ(truthFor(given, usual.rows), given);
+    const SweepRows defaults = defaultSweep(given);
+    EXPECT_EQ(tried(defaults), std::set{0});
+    EXPECT_EQ(referenceFor(given, defaults.rows), given);
     given.haze = true;
-    const SweepRows asked = usualSweep(given);
+    const SweepRows asked = defaultSweep(given);
     EXPECT_EQ(tried(asked), (std::set{0, 8, 32}));
-    EXPECT_GT(truthFor(given, asked.rows).haze_march_steps, 0);
+    EXPECT_GT(referenceFor(given, asked.rows).haze_march_steps, 0);
 }
 
 // Against one sample per pixel, filtered roughness would always count as an error.
@@ -280,12 +288,12 @@ TEST(TradeoffSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
     };
     using enum SpecularNormals;
     Settings given;
-    EXPECT_EQ(tried(usualSweep(given)), (std::set{std::pair(false, geometry)}));
+    EXPECT_EQ(tried(defaultSweep(given)), (std::set{std::pair(false, geometry)}));
     given.spec_aa = true;
-    EXPECT_EQ(tried(usualSweep(given)), (std::set{std::pair(true, geometry)}));
+    EXPECT_EQ(tried(defaultSweep(given)), (std::set{std::pair(true, geometry)}));
     given.spec_aa = false;
     given.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(tried(usualSweep(given)),
+    EXPECT_EQ(tried(defaultSweep(given)),
               (std::set{std::pair(false, geometry), std::pair(true, geometry), std::pair(true, mapped)}));
 }
 

@@ -5,7 +5,7 @@
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "tests/support/frames.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -123,7 +123,7 @@ TEST(BaselineMismatches, SceneDeviceDriverAndCommitAreNamed) {
 // Every Setting by name, with both values. The path is the frames' own, and a size must be the same.
 TEST(BaselineMismatches, EverySettingIsNamed) {
     const Frame then = drawnNow(), baseline = kept(then);
-    const auto usual = nlohmann::json::parse(toJson(then.settings));
+    const auto defaults = nlohmann::json::parse(toJson(then.settings));
     std::size_t cases = 0;
     for (const Field& field : settingFields()) {
         if (field.option == "path" || field.option == "size") continue;
@@ -141,13 +141,13 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
         std::string key(field.option);
         std::ranges::replace(key, '-', '_');
         const auto changed = nlohmann::json::parse(toJson(now.settings));
-        ASSERT_NE(changed.at(key), usual.at(key)) << key << ": no value here changes it";
+        ASSERT_NE(changed.at(key), defaults.at(key)) << key << ": no value here changes it";
         EXPECT_EQ(baselineMismatches(baseline, now, aCpu),
-                  Lines{fmt::format("baseline: different Settings: {} {} (now {})", key, usual.at(key).dump(),
-                                    changed.at(key).dump())});
+                  Lines{fmt::format("baseline: different Settings: {} {} (now {})", key,
+                                    defaults.at(key).dump(), changed.at(key).dump())});
         ++cases;
     }
-    EXPECT_EQ(cases + 2, usual.size());
+    EXPECT_EQ(cases + 2, defaults.size());
 }
 
 TEST(Baseline, AReferenceOfFewerSamplesIsNoTruthOfThem) {

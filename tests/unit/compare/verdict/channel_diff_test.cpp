@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A channel's verdict: the last value that passes, the first that fails, and the tolerance for another
 // device and for noise.
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/modes.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

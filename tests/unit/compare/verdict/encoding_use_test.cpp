@@ -6,7 +6,7 @@
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/gbuffer.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <cmath>
 #include <limits>

@@ -13,7 +13,7 @@ using namespace error_spread;
 
 namespace {
 
-Figures plainFigures(const Errors& e) {
+Figures standardFigures(const Errors& e) {
     const double mse = rootMeanSquareOf(e.components) * rootMeanSquareOf(e.components);
     return {{"mse", mse},
             {"mae", meanOf(e.components)},
@@ -47,7 +47,7 @@ void expectFigures(const Measurement& m, const Figures& expected, const std::set
 
 TEST(Figures, NoTwoOfTheSpreadAreAlike) {
     const Errors e = errorsOf(spread());
-    Figures all = plainFigures(e);
+    Figures all = standardFigures(e);
     for (const auto& [metric, errors] : {std::pair{"absolute", &e.absolute}, {"angular", &e.angles}})
         for (const auto& [name, value] : ofPixels(*errors)) all[std::string(metric) + " " + name] = value;
     for (const auto& [a, x] : all)
@@ -99,7 +99,7 @@ double longestApart(const Spread& s) {
 TEST(Figures, AreGivenByTheirNames) {
     const Spread s = spread();
     const Errors e = errorsOf(s);
-    Figures vectors = plainFigures(e);
+    Figures vectors = standardFigures(e);
     vectors.merge(Figures{{"angle_max", errorOfRank(e.angles, counted)},
                           {"angle_mean", meanOf(e.angles)},
                           {"length_max", longestApart(s)}});
@@ -108,7 +108,7 @@ TEST(Figures, AreGivenByTheirNames) {
     expectFigures(angular, vectors, {});
 
     // For absolute errors, mean and RMSE are over components, as in other programs.
-    Figures colors = plainFigures(e), pixels = ofPixels(e.absolute);
+    Figures colors = standardFigures(e), pixels = ofPixels(e.absolute);
     pixels["mean"] = meanOf(e.components);
     pixels["rmse"] = rootMeanSquareOf(e.components);
     colors.merge(pixels);
@@ -131,7 +131,8 @@ TEST(Figures, AreGivenByTheirNames) {
 
 TEST(Figures, OfPlainMetricsArePixelsToo) {
     const Spread s = spread();
-    const PlainMetrics m = plainMetrics(s.reference, s.test, ChannelKind::color, Range::linear, s.covered);
+    const StandardMetrics m =
+        standardMetrics(s.reference, s.test, ChannelKind::color, Range::linear, s.covered);
     EXPECT_EQ(m.pixels, counted);
     EXPECT_EQ(m.different, counted);
 }
@@ -144,13 +145,13 @@ TEST(Figures, FlipIsToldItsOptions) {
                             nullptr, flip})({"flip", 0})
             .value_or(-1);
     };
-    HdrFlipOptions usual, near, one;
+    HdrFlipOptions defaults, near, one;
     near.pixels_per_degree = 20;
     one.start_exposure = one.stop_exposure = 0;
     one.exposures = 1;
-    EXPECT_NE(mean(usual, false), mean(near, false));
-    EXPECT_NE(mean(usual, true), mean(near, true));
-    EXPECT_NE(mean(usual, false), mean(one, false));
+    EXPECT_NE(mean(defaults, false), mean(near, false));
+    EXPECT_NE(mean(defaults, true), mean(near, true));
+    EXPECT_NE(mean(defaults, false), mean(one, false));
 }
 
 // A fraction of failing pixels: an error equal to the bound passes.

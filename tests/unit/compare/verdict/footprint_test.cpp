@@ -5,7 +5,7 @@
 #include "compare/metrics/flip.h"
 #include "compare/verdict/comparison.h"
 #include "shared/frame/made_channels.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

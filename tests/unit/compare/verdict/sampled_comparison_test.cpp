@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MSAA paths against the reference: only lit has the same meaning in both.
 #include "shared/frame/made_channels.h"
-#include "tests/support/report_maker.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 

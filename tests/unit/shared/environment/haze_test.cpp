@@ -4,7 +4,7 @@
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/environment/haze.h"
-#include "tests/support/haze_maker.h"
+#include "tests/support/haze_builder.h"
 
 #include <gtest/gtest.h>
 #include <glm/exponential.hpp>

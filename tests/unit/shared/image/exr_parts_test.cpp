@@ -3,7 +3,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
-#include "tests/support/exr_maker.h"
+#include "tests/support/exr_builder.h"
 
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>

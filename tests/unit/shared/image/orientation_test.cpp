@@ -2,7 +2,7 @@
 // Exif orientation in JPEG and PNG files, rotated as viewers show them.
 #include "shared/image/orientation.h"
 #include "shared/image/picture_file.h"
-#include "tests/support/png_maker.h"
+#include "tests/support/png_builder.h"
 
 #include <gtest/gtest.h>
 

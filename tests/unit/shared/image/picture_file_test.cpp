@@ -9,7 +9,7 @@
 #include "shared/image/radiance.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
-#include "tests/support/png_maker.h"
+#include "tests/support/png_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "shared/image/picture_rows.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
-#include "compare/metrics/plain.h"
 #include "compare/metrics/ssim.h"
+#include "compare/metrics/standard.h"
 #include "tests/support/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ void expectSame(const ChannelStats& a, const ChannelStats& b) {
     EXPECT_EQ(a.worst_y, b.worst_y);
     EXPECT_EQ(a.different, b.different);
 }
-void expectSame(const PlainMetrics& a, const PlainMetrics& b) {
+void expectSame(const StandardMetrics& a, const StandardMetrics& b) {
     EXPECT_EQ(a.mse, b.mse);
     EXPECT_EQ(a.mae, b.mae);
     EXPECT_EQ(a.relative_mse, b.relative_mse);
@@ -83,8 +83,8 @@ TEST(PictureRows, EightBitsAndFloatsHaveTheSameFigures) {
             Coverage all = everyPixel(fa.pixels());
             expectSame(channelStats(Metric::absolute, ChannelKind::color, ca, cb, all),
                        channelStats(Metric::absolute, ChannelKind::color, fa, fb, all));
-            expectSame(plainMetrics(ca, cb, ChannelKind::color, Range::display, all),
-                       plainMetrics(fa, fb, ChannelKind::color, Range::display, all));
+            expectSame(standardMetrics(ca, cb, ChannelKind::color, Range::display, all),
+                       standardMetrics(fa, fb, ChannelKind::color, Range::display, all));
             const FlipResult flip = ldrFlip(fa, fb);
             EXPECT_EQ(ldrFlip(ca, cb).error.data, flip.error.data);
             EXPECT_EQ(ldrFlip(ca, fb).error.data, flip.error.data) << "one of each";

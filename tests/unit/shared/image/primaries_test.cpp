@@ -4,9 +4,9 @@
 #include "compare/files/layers.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
-#include "tests/support/exr_maker.h"
+#include "tests/support/exr_builder.h"
 #include "tests/support/files.h"
-#include "tests/support/png_maker.h"
+#include "tests/support/png_builder.h"
 
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <gtest/gtest.h>

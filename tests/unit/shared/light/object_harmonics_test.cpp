@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Spherical harmonics of assignment per_object, compared with numeric integration. Also: every light is in
 // one of the three groups, and none jumps from one to another.
-#include "tests/support/object_lights_maker.h"
+#include "tests/support/object_lights_builder.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Assignment per_object: ranking, fading and importance, compared with their definitions.
-#include "tests/support/object_lights_maker.h"
+#include "tests/support/object_lights_builder.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

@@ -21,7 +21,7 @@ namespace {
 
 using Place = DefaultView::Place;
 
-const glm::dvec3 usualSide = glm::normalize(glm::dvec3(1, 0.6, 1));
+const glm::dvec3 standardSide = glm::normalize(glm::dvec3(1, 0.6, 1));
 
 // A box with one primitive per side, facing outwards or, if `inwards`, inwards.
 void addBox(Scene& scene, const glm::vec3& low, const glm::vec3& high, bool inwards, int without = -1) {
@@ -162,8 +162,8 @@ TEST(DefaultView, OfAnObjectIsTheUsual) {
     Scene crate;
     addBox(crate, {3, 4, 5}, {4, 5, 7}, false);
     const DefaultView view = chooseDefaultView(crate);
-    EXPECT_EQ(view.place, Place::usual);
-    EXPECT_EQ(view.backward, usualSide);
+    EXPECT_EQ(view.place, Place::standard);
+    EXPECT_EQ(view.backward, standardSide);
     EXPECT_GT(view.covered, 0.1);
     EXPECT_LT(view.covered, 0.6);
     EXPECT_NE(wordsOf(view).find("from outside; "), std::string::npos) << wordsOf(view);
@@ -173,7 +173,7 @@ TEST(DefaultView, OfAnObjectIsTheUsual) {
 TEST(DefaultView, OfASolidBlockAsLargeAsARoomIsTheUsual) {
     Scene block;
     addBox(block, {0, 0, 0}, {8, 3, 6}, false);
-    EXPECT_EQ(chooseDefaultView(block).place, Place::usual);
+    EXPECT_EQ(chooseDefaultView(block).place, Place::standard);
 }
 
 TEST(DefaultView, OfAClosedRoomIsFromInside) {
@@ -190,7 +190,7 @@ TEST(DefaultView, OfAClosedRoomIsFromInside) {
 // Low like a doll's house or a crawl space: nobody can stand in it.
 TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
     for (const auto& [scale, place] :
-         {std::pair{0.1, Place::usual}, {0.65, Place::usual}, {0.7, Place::inside}}) {
+         {std::pair{0.1, Place::standard}, {0.65, Place::standard}, {0.7, Place::inside}}) {
         Scene scene = closedRoom();
         for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(scale));
         EXPECT_EQ(chooseDefaultView(scene).place, place) << 3 * scale << " m";
@@ -219,7 +219,7 @@ TEST(DefaultView, OfAnOpenFloorIsFromOutside) {
     Scene floor;
     addBox(floor, {0, 0, 0}, {20, 0.1f, 20}, false);
     for (const float x : {2.0f, 8.0f, 14.0f}) addBox(floor, {x, 0.1f, x}, {x + 2, 3, x + 2}, false);
-    EXPECT_EQ(chooseDefaultView(floor).place, Place::usual) << "half of what is around is sky";
+    EXPECT_EQ(chooseDefaultView(floor).place, Place::standard) << "half of what is around is sky";
 }
 
 // A stage with its back to the default view, and much to see on the other side.

@@ -53,7 +53,8 @@ struct Case {
     glm::dvec3 clip(const CascadeArea& area, const glm::dvec3& place) const {
         return cascades.clipFromWorld(area, request.size, view.eye()) * glm::dvec4(place, 1);
     }
-    ReceiverMask mask(const CascadeArea& area, const std::vector<SeenBox>& seen, bool compares = true) const {
+    ReceiverMask mask(const CascadeArea& area, const std::vector<VisibleBox>& seen,
+                      bool compares = true) const {
         return {cascades, area, view, seen, request, compares};
     }
     double texel() const { return 2.0 / request.size; }
@@ -65,7 +66,7 @@ ClipBox pointBox(const glm::dvec3& at) {
 }
 
 // Everything that is drawn, in one box larger than the view.
-const std::vector<SeenBox> everything{{{0, 0, 0}, {glm::dvec3(90, 0, 0), {0, 90, 0}, {0, 0, 90}}}};
+const std::vector<VisibleBox> everything{{{0, 0, 0}, {glm::dvec3(90, 0, 0), {0, 90, 0}, {0, 0, 90}}}};
 
 // Takes any visible point in a cascade's part of the view, up to its edges. Casters between it and the
 // light matter, and so do casters beside these within the filter.

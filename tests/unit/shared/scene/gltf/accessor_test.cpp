@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every shape, component type, layout and mode of glTF numbers, with values known by hand.
 #include "shared/scene/gltf/accessor.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>

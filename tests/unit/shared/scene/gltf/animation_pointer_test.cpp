@@ -3,7 +3,7 @@
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/requirements.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_draco_mesh_compression: streams from the library's own encoder, decoded by the loader.
 #include "shared/scene/gltf/gltf.h"
-#include "tests/support/draco_maker.h"
+#include "tests/support/draco_builder.h"
 #include "tests/support/files.h"
 
 #include <draco/compression/encode.h>

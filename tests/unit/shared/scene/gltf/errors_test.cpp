@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The loader's error messages, word by word: file, object, fault.
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <sys/stat.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/pose.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,7 @@
 // or a one-line error.
 #include "shared/scene/model/tangents.h"
 #include "shared/scene/motion/bounds.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

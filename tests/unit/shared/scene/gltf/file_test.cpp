@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <functional>
 

@@ -3,7 +3,7 @@
 #include "compare/reference/environment.h"
 #include "shared/image/png.h"
 #include "shared/scene/image/cube_map.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -40,8 +40,8 @@ GltfFile withCube(Json light = Json::object()) {
         writePng(testFolder() / name, {cubeSide, cubeSide, 4, rgba});
         f.json["images"].push_back({{"uri", name}});
     }
-    const Json usual{{"specularImages", {{0, 1, 2, 3, 4, 5}}}, {"specularImageSize", cubeSide}};
-    for (const auto& [key, value] : usual.items())
+    const Json valid{{"specularImages", {{0, 1, 2, 3, 4, 5}}}, {"specularImageSize", cubeSide}};
+    for (const auto& [key, value] : valid.items())
         if (!light.contains(key)) light[key] = value;
     f.json["extensionsUsed"] = {"EXT_lights_image_based"};
     f.json["extensions"]["EXT_lights_image_based"]["lights"] = {light};

@@ -2,7 +2,7 @@
 // EXT_mesh_gpu_instancing.
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/requirements.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <glm/geometric.hpp>
 

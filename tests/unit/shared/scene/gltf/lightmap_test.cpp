@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lightmaps in materials' extras.
 #include "shared/image/exr.h"
-#include "tests/support/gltf_material_maker.h"
+#include "tests/support/gltf_material_builder.h"
 
 #include "shared/scene/requirements.h"
 

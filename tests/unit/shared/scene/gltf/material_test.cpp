@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/requirements.h"
-#include "tests/support/gltf_material_maker.h"
+#include "tests/support/gltf_material_builder.h"
 
 #include <cmath>
 #include <utility>

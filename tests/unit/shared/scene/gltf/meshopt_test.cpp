@@ -3,7 +3,7 @@
 #include "shared/scene/gltf/compression.h"
 #include "shared/scene/gltf/gltf.h"
 #include "shared/scene/gltf/value.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <meshoptimizer.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Morph targets of texture coordinates and colours, and their effect on tangents.
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Common deviations from the specification in real files: the scene is drawn, with a note.
 #include "shared/scene/motion/pose.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 // unit length.
 #include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/pose.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

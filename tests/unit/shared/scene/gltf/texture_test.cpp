@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Textures of materials: slots, samplers, transforms, images.
 #include "shared/image/limits.h"
-#include "tests/support/gltf_material_maker.h"
+#include "tests/support/gltf_material_builder.h"
 
 #include <array>
 #include <cmath>

@@ -26,7 +26,7 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 // A PNG of 2 x 2 pixels; `rows` as the file stores them, 16 bits big-endian.
-struct PngMaker {
+struct PngBuilder {
     int depth = 8, color = PNG_COLOR_TYPE_RGBA;
     std::vector<Bytes> rows;
     int width = 2, height = 2;
@@ -125,13 +125,13 @@ void withPalette(png_structp png, png_infop info) {
 
 TEST(ImageDecode, EightBitsOfEveryColourType) {
     expectRgba(
-        PngMaker{8, PNG_COLOR_TYPE_RGBA, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}.made(),
+        PngBuilder{8, PNG_COLOR_TYPE_RGBA, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}.made(),
         {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0});
-    expectRgba(PngMaker{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}.made(),
+    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}.made(),
                {1, 2, 3, 255, 5, 6, 7, 255, 9, 10, 11, 255, 13, 14, 15, 255});
-    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 255}}}.made(),
+    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 255}}}.made(),
                {1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 255, 255, 255, 255});
-    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY_ALPHA, {{1, 20, 2, 30}, {3, 40, 4, 0}}}.made(),
+    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_GRAY_ALPHA, {{1, 20, 2, 30}, {3, 40, 4, 0}}}.made(),
                {1, 1, 1, 20, 2, 2, 2, 30, 3, 3, 3, 40, 4, 4, 4, 0});
 }
 
@@ -143,14 +143,14 @@ TEST(ImageDecode, FewBits) {
             for (const int c : {v, v, v, 255}) out.push_back(static_cast<unsigned char>(c));
         return out;
     };
-    expectRgba(PngMaker{1, PNG_COLOR_TYPE_GRAY, {{0x40}, {0x80}}}.made(), grey(0, 255));
-    expectRgba(PngMaker{2, PNG_COLOR_TYPE_GRAY, {{0x60}, {0x90}}}.made(), grey(85, 170));
-    expectRgba(PngMaker{4, PNG_COLOR_TYPE_GRAY, {{0x3f}, {0xf3}}}.made(), grey(51, 255));
+    expectRgba(PngBuilder{1, PNG_COLOR_TYPE_GRAY, {{0x40}, {0x80}}}.made(), grey(0, 255));
+    expectRgba(PngBuilder{2, PNG_COLOR_TYPE_GRAY, {{0x60}, {0x90}}}.made(), grey(85, 170));
+    expectRgba(PngBuilder{4, PNG_COLOR_TYPE_GRAY, {{0x3f}, {0xf3}}}.made(), grey(51, 255));
 }
 
 TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
     const auto build = [](int depth, std::vector<Bytes> rows, bool alpha) {
-        PngMaker maker{depth, PNG_COLOR_TYPE_PALETTE, std::move(rows)};
+        PngBuilder maker{depth, PNG_COLOR_TYPE_PALETTE, std::move(rows)};
         maker.extra = [alpha](png_structp png, png_infop info) {
             withPalette(png, info);
             png_byte values[] = {7, 8};
@@ -182,32 +182,33 @@ TEST(ImageDecode, OneTransparentColour) {
             png_set_tRNS(png, info, nullptr, 0, &key);
         };
     };
-    PngMaker grey{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 2}}};
+    PngBuilder grey{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 2}}};
     grey.extra = transparent(2, 0, 0, 0);
     expectRgba(grey.made(), {1, 1, 1, 255, 2, 2, 2, 0, 3, 3, 3, 255, 2, 2, 2, 0});
-    PngMaker color{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
+    PngBuilder color{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
     color.extra = transparent(0, 1, 2, 3);
     expectRgba(color.made(), {1, 2, 3, 0, 1, 2, 4, 255, 5, 2, 3, 255, 1, 2, 3, 0});
-    PngMaker deep{16, PNG_COLOR_TYPE_GRAY, {{0, 1, 0, 2}}, 2, 1};
+    PngBuilder deep{16, PNG_COLOR_TYPE_GRAY, {{0, 1, 0, 2}}, 2, 1};
     deep.extra = transparent(2, 0, 0, 0);
     EXPECT_EQ(decodeImage(deep.made()).rgba16, (std::vector<std::uint16_t>{1, 1, 1, 65535, 2, 2, 2, 0}));
 }
 
 TEST(ImageDecode, SixteenBitsStaySixteen) {
     const TextureImage color = decodeImage(
-        PngMaker{16, PNG_COLOR_TYPE_RGBA, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}, 1, 1}.made());
+        PngBuilder{16, PNG_COLOR_TYPE_RGBA, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}, 1, 1}.made());
     EXPECT_EQ(color.rgba16, (std::vector<std::uint16_t>{0x1234, 1, 0xfffe, 0x8000}));
     EXPECT_TRUE(color.rgba.empty());
-    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_RGB, {{0, 1, 0, 2, 0, 3}}, 1, 1}.made()).rgba16,
+    EXPECT_EQ(decodeImage(PngBuilder{16, PNG_COLOR_TYPE_RGB, {{0, 1, 0, 2, 0, 3}}, 1, 1}.made()).rgba16,
               (std::vector<std::uint16_t>{1, 2, 3, 65535}));
-    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY, {{0xab, 0xcd}}, 1, 1}.made()).rgba16,
+    EXPECT_EQ(decodeImage(PngBuilder{16, PNG_COLOR_TYPE_GRAY, {{0xab, 0xcd}}, 1, 1}.made()).rgba16,
               (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 65535}));
-    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY_ALPHA, {{0xab, 0xcd, 0, 9}}, 1, 1}.made()).rgba16,
-              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
+    EXPECT_EQ(
+        decodeImage(PngBuilder{16, PNG_COLOR_TYPE_GRAY_ALPHA, {{0xab, 0xcd, 0, 9}}, 1, 1}.made()).rgba16,
+        (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
 }
 
 TEST(ImageDecode, InterlacedImagesAreWhole) {
-    PngMaker maker{8, PNG_COLOR_TYPE_RGBA, {}, 13, 11};
+    PngBuilder maker{8, PNG_COLOR_TYPE_RGBA, {}, 13, 11};
     for (int y = 0; y < 11; ++y) {
         Bytes row;
         for (int x = 0; x < 13; ++x)
@@ -224,7 +225,7 @@ TEST(ImageDecode, InterlacedImagesAreWhole) {
 // glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are
 // skipped.
 TEST(ImageDecode, AncillaryChunksChangeNothing) {
-    PngMaker plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
+    PngBuilder plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
     const Bytes expected = decodeImage(plain.made()).rgba;
     plain.extra = [](png_structp png, png_infop info) {
         png_set_gAMA(png, info, 1.0);
@@ -292,10 +293,10 @@ TEST(ImageDecode, OtherFilesAreNeither) {
 
 // A file truncated anywhere gives a one-line error, and nothing is printed.
 TEST(ImageDecode, EveryTruncationIsRefused) {
-    const Bytes files[] = {PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
-                           PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
-                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}),
-                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, true)};
+    const Bytes files[] = {
+        PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
+        PngBuilder{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
+        jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, true)};
     testing::internal::CaptureStderr();
     for (const Bytes& file : files) {
         const bool png = file[0] == 0x89;
@@ -315,8 +316,8 @@ TEST(ImageDecode, EveryTruncationIsRefused) {
 // A file with any byte changed gives an image of the header's size, or a one-line error.
 TEST(ImageDecode, AnyByteMayBeWrong) {
     const Bytes files[] = {
-        PngMaker{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
-        PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}}.made(),
+        PngBuilder{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
+        PngBuilder{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}}.made(),
         jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_CMYK, JCS_YCCK, {200, 100, 50, 9}, true)};
     testing::internal::CaptureStderr();
     for (const Bytes& file : files)
@@ -342,7 +343,7 @@ TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
         std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
         return file;
     };
-    const Bytes png = PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made();
+    const Bytes png = PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made();
     EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})),
               "claims 16384 x 16384 pixels, too many for its " + std::to_string(png.size()) + " bytes");
     EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 1, 0, 0, 0, 1})),
@@ -386,6 +387,29 @@ TEST(ImageDecode, ArithmeticCodingIsNamed) {
 
 // ---- JPEG as an image --------------------------------------------------------------------------------
 
+// Width / height of a pixel is Y over X density, whether these are dots per unknown unit, inch or cm.
+TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
+    const auto notes = [](unsigned units, unsigned x, unsigned y) {
+        Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+        EXPECT_EQ(std::string(file.begin() + 6, file.begin() + 10), "JFIF");
+        file.at(13) = static_cast<unsigned char>(units);
+        file.at(14) = static_cast<unsigned char>(x >> 8);
+        file.at(15) = static_cast<unsigned char>(x & 255);
+        file.at(16) = static_cast<unsigned char>(y >> 8);
+        file.at(17) = static_cast<unsigned char>(y & 255);
+        return readPicture(std::as_bytes(std::span(file)), "a.jpg").notes.not_applied;
+    };
+    using Notes = std::vector<std::string>;
+    for (const unsigned units : {0u, 1u, 2u}) {
+        EXPECT_EQ(notes(units, 300, 600), Notes{"its pixels are not square (aspect 2) but are shown square"});
+        EXPECT_EQ(notes(units, 600, 150),
+                  Notes{"its pixels are not square (aspect 0.25) but are shown square"});
+        EXPECT_EQ(notes(units, 72, 72), Notes{});
+        EXPECT_EQ(notes(units, 0, 72), Notes{}) << "no density";
+        EXPECT_EQ(notes(units, 72, 0), Notes{}) << "no density";
+    }
+}
+
 // One decoder: diff compares the same bytes that a texture has.
 TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
     for (const bool grey : {false, true}) {
@@ -415,7 +439,7 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
     const std::vector<std::string> notes =
         readPicture(std::as_bytes(std::span(told)), "a.jpg").notes.not_applied;
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_EQ(notes[0], "its pixels are not square (aspect 2) but are shown square");
+    EXPECT_EQ(notes[0], "its pixels are not square (aspect 0.5) but are shown square");
     EXPECT_TRUE(notes[1].starts_with("its colour profile (3 bytes, ")) << notes[1];
     const auto pictureFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
         return faultOf([&] { readPicture(std::as_bytes(bytes), "a.jpg", {}, most); });

@@ -5,7 +5,7 @@
 
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/pose.h"
-#include "tests/support/gltf_maker.h"
+#include "tests/support/gltf_builder.h"
 
 #include <glm/geometric.hpp>
 

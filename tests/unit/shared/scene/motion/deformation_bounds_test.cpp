@@ -3,6 +3,7 @@
 #include "shared/scene/motion/deformation_bounds.h"
 
 #include "shared/scene/load.h"
+#include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr int poseCount = 256;
 
-struct PoseMaker {
+struct PoseBuilder {
     std::mt19937 random{20};
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -88,9 +89,10 @@ void check(const Scene& scene, Ratios& ratios, const std::string& what) {
 }
 
 Ratios ofRandomPoses(const Scene& scene, const std::string& what) {
-    PoseMaker maker;
+    PoseBuilder builder;
     Ratios ratios;
-    for (int i = 0; i < poseCount; ++i) check(maker.posed(scene), ratios, fmt::format("{} pose {}", what, i));
+    for (int i = 0; i < poseCount; ++i)
+        check(builder.posed(scene), ratios, fmt::format("{} pose {}", what, i));
     return ratios;
 }
 
@@ -205,8 +207,8 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
         }
         return least;
     };
-    PoseMaker maker;
-    Scene large = maker.posed(star(8, 8, 1000000)), small = maker.posed(star(8, 8, 20000));
+    PoseBuilder builder;
+    Scene large = builder.posed(star(8, 8, 1000000)), small = builder.posed(star(8, 8, 20000));
     const auto start = std::chrono::steady_clock::now();
     prepareDeformationBounds(large);
     const double prepared =
@@ -224,7 +226,7 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
 TEST(DeformationBounds, OfWhatATurnedMapPosesArePrepared) {
     const Scene scene = loadScene("builtin:tangents");
     for (const Instance& instance : poseAt(scene, 1).instances) {
-        EXPECT_TRUE(instance.map_turned);
+        EXPECT_TRUE(instance.map_rotated);
         EXPECT_FALSE(primitiveOf(scene, instance).deformation_bounds.empty());
     }
 }

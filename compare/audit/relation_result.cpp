@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+#include "compare/audit/relation_result.h"
+
+#include "compare/metrics/channel.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace diptych::audit {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr auto lightMode = static_cast<int>(gpu::DEBUG_lit),
+               idMode = static_cast<int>(gpu::DEBUG_material_id),
+               viewDepth = static_cast<int>(gpu::DEBUG_depth),
+               facet = static_cast<int>(gpu::DEBUG_geometric_normal);
+constexpr auto normalMode = static_cast<int>(gpu::DEBUG_normals),
+               roughnessMode = static_cast<int>(gpu::DEBUG_roughness);
+constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any pixel
+constexpr std::array compared{
+    lightMode,     static_cast<int>(gpu::DEBUG_albedo),   normalMode, static_cast<int>(gpu::DEBUG_metallic),
+    roughnessMode, static_cast<int>(gpu::DEBUG_emission), idMode,     viewDepth,
+    facet};
+
+// Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
+// steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
+constexpr std::uint64_t edgesForOneAside = 16;
+constexpr std::uint64_t fewPixels = 8;  // chance decides about so few
+// Surfaces of equal depth are modelling accidents.
+constexpr std::uint64_t pixelsForOneTie = 100;
+
+double largest(const float* pixel, int components) {
+    double most = 0;
+    for (int c = 0; c < components; ++c)
+        if (std::isfinite(pixel[c])) most = std::max(most, std::abs(double{pixel[c]}));
+    return most;
+}
+
+// Infinite if one value is not finite and the other is not the same.
+double apart(const float* a, const float* b, int components) {
+    double most = 0;
+    for (int c = 0; c < components; ++c) {
+        if (a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c]))) continue;
+        const double difference = std::abs(double{a[c]} - double{b[c]});
+        most = std::max(most, std::isfinite(difference) ? difference : unbounded);
+    }
+    return most;
+}
+
+// Fraction of the tolerance used; a non-finite error exceeds any tolerance, even an infinite one.
+double shareOf(double error, double allowed) {
+    if (error == 0) return 0;
+    return allowed > 0 && error < unbounded ? error / allowed : unbounded;
+}
+
+// In ulps of the largest component.
+double ulpsApart(const float* a, const float* b, int components) {
+    const double difference = apart(a, b, components);
+    if (difference == 0 || difference == unbounded) return difference;
+    const auto top = static_cast<float>(std::max(largest(a, components), largest(b, components)));
+    return difference / (double{std::nextafter(top, std::numeric_limits<float>::infinity())} - double{top});
+}
+
+// Calls visit(index) for the pixels around one.
+template <class Visit>
+void around(const Image& image, std::size_t pixel, const Visit& visit) {
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(image.width)),
+              y = static_cast<int>(pixel / static_cast<std::size_t>(image.width));
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
+            if (u != x || v != y)
+                visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                      static_cast<std::size_t>(u));
+}
+
+class Evaluation {
+public:
+    Evaluation(const Frame& given, const Frame& changed, const RelationTolerance& tolerance)
+        : given_(given), changed_(changed), tolerance_(tolerance), where_(coverage(given, changed)) {}
+
+    FrameResult run() {
+        FrameResult result;
+        result.covered = where_.count;
+        aside_.assign(where_.covered.size(), false);
+        filtered_.assign(where_.covered.size(), false);
+        if (tolerance_.equality == Equality::rounding) setEdgesAside(result);
+        if (tolerance_.reorders) setTiesAside(result);
+        if (tolerance_.equality == Equality::rounding) findFiltered(result);
+        double most = -1;
+        for (const int mode : compared) {
+            if (!given_.channels.contains(mode) || !changed_.channels.contains(mode)) continue;
+            Image used;
+            result.channels.push_back(channel(mode, used));
+            const ChannelResult& of = result.channels.back();
+            if (of.used > most && (most <= 1 || mode == lightMode)) {
+                most = of.used;
+                result.used = std::move(used);
+            }
+        }
+        return result;
+    }
+
+private:
+    const Image& given(int mode) const { return given_.channels.at(mode); }
+    const Image& changed(int mode) const { return changed_.channels.at(mode); }
+
+    // Largest change of a channel, in either image, to neighbouring pixels of the same material, or to all
+    // if none has it.
+    double variation(int mode, std::size_t pixel) const {
+        double alike = 0, any = 0;
+        bool found = false;
+        for (const Frame* frame : {&given_, &changed_}) {
+            const Image &image = frame->channels.at(mode), &ids = frame->channels.at(idMode);
+            around(image, pixel, [&](std::size_t other) {
+                const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
+                if (change == unbounded) return;
+                any = std::max(any, change);
+                if (ids.data[pixel] != ids.data[other]) return;
+                found = true;
+                alike = std::max(alike, change);
+            });
+        }
+        return found ? alike : any;
+    }
+
+    bool isTextured(std::size_t pixel) const {
+        const float id = given(idMode).data[pixel];
+        return id >= 0 && static_cast<std::size_t>(id) < tolerance_.textured.size() &&
+               tolerance_.textured[static_cast<std::size_t>(id)];
+    }
+
+    // Difference of shading normals, radians, beyond the packing error; normals are compared separately.
+    double normalApart(std::size_t pixel) const {
+        const auto packed = tolerance_.packed.find(normalMode);
+        return std::max(0.0, apart(given(normalMode).pixel(pixel), changed(normalMode).pixel(pixel), 3) -
+                                 (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
+    }
+    // Largest relative change of light per radian. ln D of GGX changes by 2 / alpha if the half vector is
+    // alpha away; cosines, Smith's and Fresnel's factors by some 4.
+    double lightPerNormal(std::size_t pixel) const {
+        const double roughness = given(roughnessMode).data[pixel];
+        return 2 / std::max(roughness * roughness, leastAlpha) + 4;
+    }
+
+    // Tolerance of `rounding` for the largest component, without steps of a texture filter.
+    double allowedByRounding(int mode, std::size_t pixel) const {
+        const Image &a = given(mode), &b = changed(mode);
+        const double size =
+            std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
+        if (mode == idMode) return 0;
+        // A light's end cancels: the remainder has rounding errors relative to the whole.
+        double allowed = tolerance_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
+                         std::numeric_limits<float>::min();
+        if (mode == facet) allowed += tolerance_.facet;
+        if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
+        if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
+            allowed += 2 * packed->second * (mode == static_cast<int>(gpu::DEBUG_emission) ? size : 1);
+        if (mode == lightMode) allowed += size * lightPerNormal(pixel) * normalApart(pixel);
+        if (mode == lightMode && tolerance_.packed_light)
+            allowed += double{tolerance_.packed_light->data[pixel]};
+        return allowed;
+    }
+    bool isWithinRounding(int mode, std::size_t pixel) const {
+        return apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), given(mode).components) <=
+               allowedByRounding(mode, pixel);
+    }
+
+    // For a textured surface, whose light follows its channels: without the change to the next pixel.
+    bool isFilteredAlike(int mode, std::size_t pixel) const {
+        const Image &a = given(mode), &b = changed(mode);
+        const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
+        const auto packed = tolerance_.packed.find(mode);
+        const double size =
+            std::max({1.0, largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components)});
+        return difference <=
+               size * (tolerance_.relative + (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
+    }
+
+    // Whether another surface is visible beside the pixel: another material, another triangle's normal, or
+    // a step in depth.
+    static bool isBesideEdge(const Frame& frame, std::size_t pixel) {
+        const Image &ids = frame.channels.at(idMode), &depth = frame.channels.at(viewDepth),
+                    &facets = frame.channels.at(facet);
+        bool found = false;
+        around(ids, pixel, [&](std::size_t other) {
+            const double far = std::max(depth.data[pixel], depth.data[other]);
+            found = found || ids.data[pixel] != ids.data[other] ||
+                    apart(facets.pixel(pixel), facets.pixel(other), 3) > 1e-3 ||
+                    std::abs(double{depth.data[pixel]} - double{depth.data[other]}) > 0.01 * far;
+        });
+        return found;
+    }
+
+    bool isBesideBlended(std::size_t pixel) const {
+        if (!tolerance_.blended) return false;
+        bool found = tolerance_.blended->data[pixel] > 0;
+        around(*tolerance_.blended, pixel,
+               [&](std::size_t other) { found = found || tolerance_.blended->data[other] > 0; });
+        return found;
+    }
+
+    void setEdgesAside(FrameResult& result) {
+        std::uint64_t edges = 0;
+        for (std::size_t i = 0; i < aside_.size(); ++i) {
+            const bool beside = isBesideEdge(given_, i), blended = isBesideBlended(i);
+            edges += beside || blended;
+            aside_[i] = (beside && (given(idMode).data[i] != changed(idMode).data[i] ||
+                                    !isWithinRounding(viewDepth, i) || !isWithinRounding(facet, i))) ||
+                        (blended && !isWithinRounding(lightMode, i));
+            result.aside += aside_[i];
+        }
+        result.most_aside = std::max(fewPixels, edges / edgesForOneAside);
+    }
+
+    void setTiesAside(FrameResult& result) {
+        for (std::size_t i = 0; i < aside_.size(); ++i) {
+            if (given(viewDepth).data[i] != changed(viewDepth).data[i]) continue;
+            aside_[i] = std::ranges::any_of(compared, [&](int mode) {
+                return mode != lightMode &&
+                       apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
+            });
+            result.aside += aside_[i];
+        }
+        result.most_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
+    }
+
+    void findFiltered(FrameResult& result) {
+        std::uint64_t textured = 0;
+        for (std::size_t i = 0; i < aside_.size(); ++i) {
+            if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
+            ++textured;
+            filtered_[i] = std::ranges::any_of(compared, [&](int mode) {
+                return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
+                       !isFilteredAlike(mode, i);
+            });
+            result.filtered += filtered_[i];
+        }
+        result.most_filtered = std::max(
+            fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * tolerance_.filtered_share));
+    }
+
+    double errorAt(int mode, std::size_t pixel, double& allowed) const {
+        const Image &a = given(mode), &b = changed(mode);
+        const float *p = a.pixel(pixel), *q = b.pixel(pixel);
+        allowed = 0;
+        if (tolerance_.equality == Equality::bits ||
+            (tolerance_.equality == Equality::sums && mode != lightMode)) {
+            allowed = tolerance_.ulps;
+            return ulpsApart(p, q, a.components);
+        }
+        if (tolerance_.equality == Equality::rounding) {
+            allowed = allowedByRounding(mode, pixel);
+            if (isTextured(pixel))
+                allowed += tolerance_.filter_step * (mode == normalMode ? 2 : 1) *
+                           std::max({1.0, largest(p, a.components), largest(q, a.components)});
+            return apart(p, q, a.components);
+        }
+        // Terms are at least 0, so each component's sum equals the sum of magnitudes.
+        double worst = 0, error = 0;
+        for (int c = 0; c < a.components; ++c) {
+            const double may =
+                tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
+                std::numeric_limits<float>::min();
+            const double is = apart(p + c, q + c, 1);
+            if (c > 0 && shareOf(is, may) <= worst) continue;
+            worst = shareOf(is, may);
+            error = is;
+            allowed = may;
+        }
+        return error;
+    }
+
+    ChannelResult channel(int mode, Image& used) {
+        const Image& image = given(mode);
+        used = Image(image.width, image.height, 1);
+        ChannelResult result{.mode = mode};
+        for (std::size_t i = 0; i < aside_.size(); ++i) {
+            if (aside_[i] || (filtered_[i] && mode == lightMode)) continue;
+            double allowed = 0;
+            const double error = errorAt(mode, i, allowed);
+            if (error == 0) continue;
+            const double part = shareOf(error, allowed);
+            used.data[i] = static_cast<float>(part);
+            result.beyond += part > 1;
+            if (part <= result.used && result.x >= 0) continue;
+            result.used = part;
+            result.error = error;
+            result.allowed = allowed;
+            result.x = static_cast<int>(i) % image.width;
+            result.y = static_cast<int>(i) / image.width;
+        }
+        return result;
+    }
+
+    const Frame &given_, &changed_;
+    const RelationTolerance& tolerance_;
+    const Coverage where_;
+    const double light_floor_ =
+        PixelError(Metric::relative, ChannelKind::color, given(lightMode), where_).floor();
+    std::vector<bool> aside_, filtered_;
+};
+
+void turnBack(Image& image, const glm::dmat3& back) {
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        float* const v = image.pixel(i);
+        const glm::dvec3 turned = back * glm::dvec3(v[0], v[1], v[2]);
+        for (int c = 0; c < 3; ++c) v[c] = static_cast<float>(turned[c]);
+    }
+}
+
+void divide(Image& image, double by) {
+    for (float& value : image.data) value = static_cast<float>(value / by);
+}
+
+Image cut(const Image& image, const PictureMap& map) {
+    Image part(image.width - 2 * map.border, image.height - 2 * map.border, image.components);
+    for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x) {
+            const int from = map.border + (map.mirrored ? part.width - 1 - x : x);
+            for (int c = 0; c < part.components; ++c) part.at(x, y, c) = image.at(from, y + map.border, c);
+        }
+    return part;
+}
+
+}  // namespace
+
+std::span<const int> relatedChannels() {
+    return compared;
+}
+
+std::string RelationTolerance::inWords() const {
+    switch (equality) {
+        case Equality::bits:
+            return ulps == 0 ? "bit for bit" : fmt::format("{} ULP of the largest component", ulps);
+        case Equality::sums:
+            return fmt::format("lit: {:.2g} of each component", relative);
+        case Equality::rounding:
+            return fmt::format(
+                "{:.2g} of the value{}", relative,
+                step > 0 ? fmt::format(" plus {:.2g} of its change to the next pixel", step) : "");
+    }
+    return {};
+}
+
+bool FrameResult::passes() const {
+    return failed.empty() && aside <= most_aside && filtered <= most_filtered &&
+           std::ranges::all_of(channels, [](const ChannelResult& of) { return of.beyond == 0; });
+}
+
+const ChannelResult* FrameResult::worst() const {
+    const auto found = std::ranges::max_element(channels, {}, &ChannelResult::used);
+    return found == channels.end() || found->x < 0 ? nullptr : &*found;
+}
+
+Frame mappedBack(const Frame& changed, const PictureMap& map) {
+    Frame back;
+    back.settings = changed.settings;
+    back.settings.size.width -= 2 * map.border;
+    back.settings.size.height -= 2 * map.border;
+    back.background = changed.background;
+    for (const int mode : compared) {
+        const auto found = changed.channels.find(mode);
+        if (found == changed.channels.end()) continue;
+        Image image = cut(found->second, map);
+        if (mode == lightMode || mode == static_cast<int>(gpu::DEBUG_emission)) divide(image, map.light);
+        if (mode == viewDepth) divide(image, map.length);
+        if (mode == normalMode || mode == facet)
+            if (map.turn != glm::dmat3(1)) turnBack(image, glm::transpose(map.turn));
+        if (mode == idMode && !map.ids.empty())
+            for (float& id : image.data)
+                if (id >= 0) id = static_cast<float>(map.ids.at(static_cast<std::size_t>(id)));
+        back.channels.emplace(mode, std::move(image));
+    }
+    return back;
+}
+
+FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance) {
+    return Evaluation(given, changed, tolerance).run();
+}
+
+}  // namespace diptych::audit

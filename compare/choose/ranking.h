@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Times a few finalists, interleaved, until the fastest is significantly faster or all count as equal.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace diptych::choose {
+
+// Renders finalists in the given order; returns one time per entry, ms.
+using DrawInOrder = std::function<std::vector<double>(std::span<const std::size_t>)>;
+
+struct FinalistTime {
+    double ms = 0;  // geometric mean
+    // Time over the winner's, with its confidence interval (rankingConfidence).
+    double ratio = 1, low = 1, high = 1;
+    int rounds = 0;
+    bool isSlower() const { return low > 1; }
+};
+
+// Per comparison. 99 % instead of 95 %, because the test repeats after every round.
+inline constexpr double rankingConfidence = 0.99;
+// Times within this ratio count as equal.
+inline constexpr double equalTimes = 1.02;
+
+struct Ranking {
+    std::vector<FinalistTime> finalists;  // by finalist
+    std::size_t winner = 0;
+    bool significant = false;  // all others are significantly slower
+    std::size_t draws = 0;
+};
+
+// Each round renders every remaining finalist in an order and its reverse, which cancels a drift of the
+// device's speed. Needs at least one finalist. Runs `least` to `most` rounds; the first call of `draw`
+// has `least` rounds.
+Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least = 2, int most = 8);
+
+// Student's t quantile: |t| exceeds it with `probability`, 0 to 1. `freedom` is at least 1. Uses the
+// finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4.
+double studentT(double probability, int freedom);
+
+}  // namespace diptych::choose

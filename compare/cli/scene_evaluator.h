@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Renders and times candidates on a device, for a choice.
+#pragma once
+
+#include "compare/choose/search.h"
+#include "compare/render/renderer.h"
+#include "compare/tradeoff/measure.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace diptych::cli {
+
+// Evaluates one scene over all cameras of the reference frames. Errors cover all pixels together, times
+// are the mean, memory is the maximum; passes are of the first camera.
+class SceneEvaluator final : public choose::Evaluator {
+public:
+    // `figure`: index in tradeoff::errorFigures. The renderer and the references must outlive the object.
+    SceneEvaluator(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
+                   const RenderOptions& options)
+        : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
+
+    choose::Judged judge(const Settings& settings) override;
+    std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
+    // Drops the prepared frames, which own images.
+    void release() {
+        drawn_.clear();
+        judged_.clear();
+    }
+    std::vector<PassTime> profile(const Settings& settings) override;
+
+private:
+    std::size_t cameras() const { return references_.frames.size(); }
+    bool isOfReferenceSize(const Settings& settings) const;
+    choose::Judged judgeCaptured(const Settings& settings);
+    // Errors of one camera's image. FLIP results are cached by the image's hash.
+    tradeoff::FrameErrors errorsOf(std::size_t camera, const Image& lit);
+
+    struct Drawn {
+        Settings settings;
+        PreparedFrames frames;
+        bool made_pipelines, is_drawn = false;
+    };
+    // Allocates frames of these Settings, cameras included, unless they exist. Evaluated candidates can
+    // then be timed without a new allocation. Keeps the latest mostKept others per camera.
+    void prepare(std::span<const Settings> seen);
+    Drawn& prepared(const Settings& seen);
+    PreparedFrames& drawn(const Settings& seen);  // prepared before, rendered at least once
+    // Prepared before. The next frame, which the caller renders, costs the same as later ones.
+    Drawn& readyForTimes(const Settings& seen);
+
+    Renderer& renderer_;
+    const tradeoff::ReferenceFrames& references_;
+    std::size_t figure_;
+    RenderOptions options_;
+    std::list<Drawn> drawn_;
+    // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
+    std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;
+};
+
+}  // namespace diptych::cli

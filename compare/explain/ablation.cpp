@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/ablation.h"
+
+#include "compare/explain/frame_images.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+std::vector<AblationCause> ablatedSettings(const Settings& baseline, const Settings& test,
+                                           std::span<const UndeclaredSetting> undeclared) {
+    const std::span<const std::string_view> in_channels = settingsInChannels();
+    std::vector<AblationCause> settings;
+    for (const Field& field : settingFields()) {
+        const std::string_view option = field.option;
+        if (std::ranges::count(in_channels, option) > 0 || baseline.valueOf(option) == test.valueOf(option))
+            continue;
+        const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
+        settings.push_back({AblationCause::Kind::setting, 0, std::string(option),
+                            found != undeclared.end() ? found->shows
+                                                      : fmt::format("{} instead of {}", test.valueOf(option),
+                                                                    baseline.valueOf(option))});
+    }
+    return settings;
+}
+
+}  // namespace
+
+Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
+                   std::span<const UndeclaredSetting> undeclared)
+    : sides_(sides), lighting_(lighting) {
+    findChannels();
+    const std::string residual = sides.residualName();
+    if (!residual.empty() && sides.residualsDiffer())
+        causes_.push_back({AblationCause::Kind::residual, 0, residual,
+                           "the part of lit that lighting a side's own channels does not reproduce"});
+    if (residual.empty() && sides.residualsDiffer() && sides.haveTerms()) findComponents(scene);
+    if (sides.exposure() != 1)
+        causes_.push_back({AblationCause::Kind::exposure, 0, "exposure",
+                           fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
+    // Last, so that subsets with equal Settings are consecutive: each change needs a frame.
+    std::ranges::move(ablatedSettings(sides.settings(0), sides.settings(1), undeclared),
+                      std::back_inserter(causes_));
+    if (causes_.size() > static_cast<std::size_t>(mostCauses))
+        throw std::runtime_error(
+            fmt::format("{} causes exceed the limit of {}: explain two images with more similar Settings",
+                        causes_.size(), mostCauses));
+}
+
+// Describes roughness widened by specular anti-aliasing, and normals changed by skinning.
+std::string Ablation::shownBy(const DebugMode& mode) const {
+    const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
+    if (widened && mode.name == "roughness")
+        return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
+                           nameOf(sides_.settings(1).spec_aa_kernel));
+    const SkinNormals normals = sides_.settings(1).skin_normals;
+    if (normals != sides_.settings(0).skin_normals && mode.name == "normals")
+        return fmt::format("{}, of skins as by --skin-normals {}", mode.shows, nameOf(normals));
+    return std::string(mode.shows);
+}
+
+void Ablation::findChannels() {
+    // Channels that change no pixel, alone or after all others.
+    std::vector<std::size_t> without_effect = lighting_.differing();
+    for (const std::size_t side : {1, 0}) {
+        const Settings& settings = sides_.settings(side);
+        const std::uint32_t all = allChannelsOf(side);
+        const Image whole = lighting_.lit(settings, all);
+        std::erase_if(without_effect, [&](std::size_t channel) {
+            return !sameBits(whole, lighting_.lit(settings, all ^ std::uint32_t{1} << channel));
+        });
+    }
+    for (const std::size_t c : lighting_.differing()) {
+        const DebugMode& mode = debugMode(surfaceChannels()[c]);
+        if (std::ranges::count(without_effect, c) > 0)
+            without_effect_.emplace_back(mode.name);
+        else
+            causes_.push_back({AblationCause::Kind::channel, c, std::string(mode.name), shownBy(mode)});
+    }
+}
+
+// Finds the lighting components of the residual, if both sides have terms.
+void Ablation::findComponents(const Scene& scene) {
+    std::array<LitSurfaces, 2> own;
+    for (std::size_t side = 0; side < 2; ++side)
+        own.at(side) = lighting_.surfaces(sides_.settings(side), allChannelsOf(side));
+    // Afterwards, because they need another frame.
+    const bool blended = std::ranges::any_of(scene.materials, blends);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!blended) {
+            own.at(side).unblended = own.at(side).lit;
+            continue;
+        }
+        Settings bare = sides_.settings(side);
+        bare.transparency = Transparency::off;
+        own.at(side).unblended = lighting_.lit(bare, allChannelsOf(side));
+    }
+    components_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
+    for (std::size_t i = 0; i < components_->components().size(); ++i)
+        causes_.push_back({AblationCause::Kind::component, i, components_->components()[i].name,
+                           components_->components()[i].shows});
+}
+
+const LightingComponents::Component* Ablation::componentOf(const AblationCause& cause) const {
+    return cause.kind == AblationCause::Kind::component ? &components_->components()[cause.index] : nullptr;
+}
+
+Image Ablation::lit(Subset subset) {
+    if (subset == 0) return channelOf(sides_.frame(1), gpu::DEBUG_lit);
+    std::uint32_t channels = allChannelsOf(1);
+    std::vector<bool> components(components_ ? components_->components().size() : 0);
+    std::size_t residual = 1;
+    Settings settings = sides_.settings(1);
+    float exposure = sides_.exposure();
+    for (std::size_t i = 0; i < causes_.size(); ++i) {
+        if ((subset >> i & 1) == 0) continue;
+        const AblationCause& cause = causes_[i];
+        if (cause.kind == AblationCause::Kind::channel) channels &= ~(std::uint32_t{1} << cause.index);
+        if (cause.kind == AblationCause::Kind::residual) residual = 0;
+        if (cause.kind == AblationCause::Kind::component) components[cause.index] = true;
+        if (cause.kind == AblationCause::Kind::setting)
+            settings.set(cause.name, sides_.settings(0).valueOf(cause.name));
+        if (cause.kind == AblationCause::Kind::exposure) exposure = 1;
+    }
+    Image lit = components_ ? components_->lit(lighting_.surfaces(settings, channels), components)
+                            : lighting_.lit(settings, channels);
+    if (!components_) {
+        const Image& added = sides_.residual(residual);
+        for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
+    }
+    if (exposure != 1)
+        for (float& value : lit.data) value *= exposure;
+    return lit;
+}
+
+}  // namespace diptych

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/lighting_components.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::size_t diffuseTerm = 0, specularTerm = 1, ambientTerm = 2, hazeTerm = 3, transmittanceTerm = 4,
+                      wholeTerm = 5;
+constexpr std::array<gpu::uint, 5> termModes{gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular,
+                                             gpu::DEBUG_lit_ambient, gpu::DEBUG_lit_haze,
+                                             gpu::DEBUG_transmittance};
+
+using Terms = std::array<const Image*, 5>;
+
+Terms termsOf(const ChannelTerms& terms) {
+    return {&terms.diffuse, &terms.specular, &terms.ambient, &terms.haze, &terms.transmittance};
+}
+
+Terms termsOf(const Frame& frame) {
+    Terms terms{};
+    for (std::size_t t = 0; t < termModes.size(); ++t)
+        terms.at(t) = &frame.channels.at(static_cast<int>(termModes.at(t)));
+    return terms;
+}
+
+const Image* channelIn(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    return found == frame.channels.end() ? nullptr : &found->second;
+}
+
+// The sum of terms, in the order of lit(Radiance) in shaders/lib/shading/radiance.glsl, so that another order
+// is detected.
+float sumOf(const std::array<float, 5>& t, float emission) {
+    return (((t[diffuseTerm] + t[specularTerm]) + t[ambientTerm]) + emission) * t[transmittanceTerm] +
+           t[hazeTerm];
+}
+
+std::array<float, 5> termsAt(const Terms& terms, std::size_t i) {
+    std::array<float, 5> values{};
+    for (std::size_t t = 0; t < values.size(); ++t) values.at(t) = terms.at(t)->data[i];
+    return values;
+}
+
+void forEach(std::size_t count, const auto& what) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) what(i);
+    });
+}
+
+// The part of a direct term's `change` due to a visibility change from `test` to `baseline`, where the
+// test's term is `value`. It scales the term by the ratio, and is never more than the whole change.
+float shadowPart(float change, float value, float baseline, float test) {
+    if (baseline == test || change == 0) return 0;
+    if (!(test > 0)) return change;
+    const float scaled = value * (baseline / test - 1);
+    if (scaled * change <= 0) return 0;
+    return std::abs(scaled) < std::abs(change) ? scaled : change;
+}
+
+// Pixels where our lighting of either side blends surfaces.
+std::vector<std::uint8_t> blendedIn(const std::array<LitSurfaces, 2>& own) {
+    std::vector<std::uint8_t> blended(own[0].lit.pixels());
+    for (const LitSurfaces& side : own)
+        for (std::size_t i = 0; i < side.lit.data.size(); ++i)
+            if (side.lit.data[i] != side.unblended.data[i]) blended[i / 3] = 1;
+    return blended;
+}
+
+// Components where a change beyond the sum of terms may come from adding emission differently: it is at
+// most a side's emission. Empty unless these are 99 % of the change at pixels without blending; if other
+// surfaces change too, emission is not the cause.
+std::vector<std::uint8_t> changesWithEmission(const Image& change, const std::vector<std::uint8_t>& blended,
+                                              const std::array<LitSurfaces, 2>& own,
+                                              const std::array<Terms, 2>& terms) {
+    constexpr float rounding = 1.001f;
+    std::vector<std::uint8_t> with(change.data.size());
+    double all = 0, part = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        if (blended[i / 3] != 0 || change.data[i] == 0) continue;
+        float emitted = 0;
+        for (std::size_t side = 0; side < 2; ++side)
+            emitted = std::max(emitted, std::as_const(*own.at(side).emission).data[i] *
+                                            terms.at(side).at(transmittanceTerm)->data[i]);
+        const float size = std::abs(change.data[i]);
+        all += double{size};
+        with[i] = emitted > 0 && size <= rounding * emitted ? 1 : 0;
+        if (with[i] != 0) part += double{size};
+    }
+    if (!(part > 0) || part < 0.99 * all) with.clear();
+    return with;
+}
+
+bool isNothing(const Image& image) {
+    return std::ranges::all_of(image.data, [](float value) { return value == 0; });
+}
+
+}  // namespace
+
+std::vector<int> termChannels() {
+    return {termModes.begin(), termModes.end()};
+}
+
+bool haveTerms(const Frame& baseline, const Frame& test) {
+    return std::ranges::all_of(termModes, [&](gpu::uint mode) {
+        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
+        return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
+               b->components == 3;
+    });
+}
+
+Image sumOfLobes(const LightChannels& of) {
+    Image sum = of.diffuse;
+    for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += std::as_const(of.specular).data[i];
+    return sum;
+}
+
+Image sumOfTerms(const Frame& frame) {
+    const Terms terms = termsOf(frame);
+    const Image &emission = *channelIn(frame, gpu::DEBUG_emission),
+                &ids = *channelIn(frame, gpu::DEBUG_material_id);
+    Image sum(terms[0]->width, terms[0]->height, 3);
+    float* const out = sum.data.data();
+    forEach(sum.data.size(), [&](std::size_t i) {
+        if (ids.pixel(i / 3)[0] >= 0) out[i] = sumOf(termsAt(terms, i), emission.data[i]);
+    });
+    return sum;
+}
+
+Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
+    const Terms all = termsOf(terms);
+    Image sum(emission.width, emission.height, 3);
+    float* const out = sum.data.data();
+    // Without a surface all terms are 0, including transmittance.
+    forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(all, i), emission.data[i]); });
+    return sum;
+}
+
+LightingComponents::LightingComponents(const Frame& baseline, const Frame& test, const Image& lit,
+                                       const std::array<LitSurfaces, 2>& own) {
+    const auto blank = [&] { return Image(lit.width, lit.height, 3); };
+    const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
+        ours{termsOf(own[0].terms), termsOf(own[1].terms)};
+    // The residual of each term, and of lit. The latter is lit minus the sum of a side's terms, minus the
+    // same for our lighting: the background and blended surfaces.
+    std::array<std::array<Image, 6>, 2> residual;
+    const std::vector<std::uint8_t> blended = blendedIn(own);
+    for (std::size_t side = 0; side < 2; ++side) {
+        for (Image& image : residual.at(side)) image = blank();
+        std::array<float*, 6> out{};
+        for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = residual.at(side).at(t).data.data();
+        const Image& seen = side == 0 ? *channelIn(baseline, gpu::DEBUG_lit) : lit;
+        forEach(seen.data.size(), [&](std::size_t i) {
+            const auto theirs = termsAt(files.at(side), i), mine = termsAt(ours.at(side), i);
+            const float emission = std::as_const(*own.at(side).emission).data[i];
+            const float beyond = seen.data[i] - sumOf(theirs, emission);
+            const float our_beyond = std::as_const(own.at(side).lit).data[i] - sumOf(mine, emission);
+            for (std::size_t t = 0; t < theirs.size(); ++t) {
+                const float left = theirs.at(t) - mine.at(t);
+                out.at(t)[i] = std::isfinite(left) ? left : 0.0f;
+            }
+            const float left = beyond - our_beyond;
+            out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
+        });
+    }
+    // The change of each term when taken from the baseline.
+    std::array<Image, 6> change;
+    for (std::size_t t = 0; t < change.size(); ++t) {
+        change.at(t) = blank();
+        float* const out = change.at(t).data.data();
+        const float *const a = std::as_const(residual[0].at(t)).data.data(),
+                           *const b = std::as_const(residual[1].at(t)).data.data();
+        forEach(change.at(t).data.size(), [&](std::size_t i) { out[i] = a[i] - b[i]; });
+    }
+    const auto add = [&](std::string name, std::string shows, std::array<Image, 6> adds) {
+        bool nothing = true;
+        for (Image& image : adds) {
+            if (!image.empty() && isNothing(image)) image = Image();
+            nothing = nothing && image.empty();
+        }
+        if (!nothing) components_.push_back({std::move(name), std::move(shows), std::move(adds)});
+    };
+    // Applies to the last added component.
+    const auto isOfLights = [&](const std::string& name, LightChange how) {
+        if (!components_.empty() && components_.back().name == name) components_.back().lights = how;
+    };
+    // Splits off direct light that changes with the visibility of lights, or where other lights are
+    // evaluated.
+    const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
+        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
+        if (!a || !b || a->pixels() != lit.pixels() || b->pixels() != lit.pixels()) return;
+        std::array<Image, 6> adds;
+        for (const std::size_t t : {diffuseTerm, specularTerm}) {
+            adds.at(t) = blank();
+            float *const out = adds.at(t).data.data(), *const left = change.at(t).data.data();
+            const float* const value = files[1].at(t)->data.data();
+            forEach(lit.data.size(), [&](std::size_t i) {
+                out[i] = part(left[i], value[i], a->pixel(i / 3)[0], b->pixel(i / 3)[0]);
+                left[i] -= out[i];
+            });
+        }
+        add(std::move(name), std::move(shows), std::move(adds));
+    };
+    share("shadow_visibility", "direct light that changes with the visibility of the sun",
+          gpu::DEBUG_shadow_visibility, shadowPart);
+    isOfLights("shadow_visibility", LightChange::seen);
+    share("local_visibility", "direct light that changes with the visibility of point and spot lights",
+          gpu::DEBUG_local_visibility, shadowPart);
+    isOfLights("local_visibility", LightChange::seen);
+    share("light_count", "direct light where the number of evaluated lights differs", gpu::DEBUG_light_count,
+          [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
+    isOfLights("light_count", LightChange::whole);
+    const auto term = [&](std::string name, std::string shows, std::size_t t) {
+        std::array<Image, 6> adds;
+        adds.at(t) = std::move(change.at(t));
+        add(std::move(name), std::move(shows), std::move(adds));
+    };
+    term("direct diffuse", "direct light reflected by the diffuse lobe", diffuseTerm);
+    isOfLights("direct diffuse", LightChange::factor);
+    term("direct specular", "direct light reflected by the specular lobe", specularTerm);
+    isOfLights("direct specular", LightChange::factor);
+    term("ambient light", "reflected ambient and environment light", ambientTerm);
+    std::array<Image, 6> air;
+    air.at(hazeTerm) = std::move(change.at(hazeTerm));
+    air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
+    add("haze in the air", "transmittance and scattered light of the haze", std::move(air));
+    std::array<Image, 6> behind, over, emitted, order;
+    for (std::array<Image, 6>* const component : {&behind, &over, &emitted, &order})
+        component->at(wholeTerm) = blank();
+    const std::array<const Image*, 2> ids{channelIn(baseline, gpu::DEBUG_material_id),
+                                          channelIn(test, gpu::DEBUG_material_id)};
+    const std::vector<std::uint8_t> emits = changesWithEmission(change.at(wholeTerm), blended, own, files);
+    for (std::size_t i = 0; i < lit.data.size(); ++i) {
+        const bool surface =
+            ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
+        std::array<Image, 6>& component = !surface                          ? behind
+                                          : blended[i / 3] != 0             ? over
+                                          : !emits.empty() && emits[i] != 0 ? emitted
+                                                                            : order;
+        component.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
+    }
+    add("background", "pixels without a surface and without blending", std::move(behind));
+    add("transparency", "fragments blended over surfaces and background", std::move(over));
+    add("sum with emission", "difference between lit and the sum of its terms, only where surfaces emit",
+        std::move(emitted));
+    add("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
+        std::move(order));
+    residual_ = std::move(residual[1]);
+}
+
+Image LightingComponents::directLight(const Component& component, const LightChannels& of) {
+    if (component.adds.at(diffuseTerm).empty()) return of.specular;
+    return component.adds.at(specularTerm).empty() ? of.diffuse : sumOfLobes(of);
+}
+
+LightChannels LightingComponents::change(const Component& component) {
+    return {component.adds.at(diffuseTerm), component.adds.at(specularTerm)};
+}
+
+Image LightingComponents::lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const {
+    Image lit(surfaces.lit.width, surfaces.lit.height, 3);
+    const Terms terms = termsOf(surfaces.terms);
+    std::array<std::vector<const float*>, 6> added;
+    for (std::size_t t = 0; t < added.size(); ++t) {
+        added.at(t).push_back(residual_.at(t).data.data());
+        for (std::size_t s = 0; s < components_.size(); ++s)
+            if (taken.at(s) && !components_[s].adds.at(t).empty())
+                added.at(t).push_back(components_[s].adds.at(t).data.data());
+    }
+    float* const out = lit.data.data();
+    forEach(lit.data.size(), [&](std::size_t i) {
+        const std::array<float, 5> mine = termsAt(terms, i);
+        std::array<float, 5> theirs = mine;
+        for (std::size_t t = 0; t < theirs.size(); ++t)
+            for (const float* const more : added.at(t)) theirs.at(t) += more[i];
+        const float emission = std::as_const(*surfaces.emission).data[i];
+        float value = sumOf(theirs, emission) + (std::as_const(surfaces.lit).data[i] - sumOf(mine, emission));
+        for (const float* const more : added.at(wholeTerm)) value += more[i];
+        out[i] = value;
+    });
+    return lit;
+}
+
+}  // namespace diptych

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Breakdown of one pixel's light in both paths: its surface channels in order of computation, the lights
+// of its list, each light's contribution in either path and in the reference, and the first step at which
+// the paths differ.
+#pragma once
+
+#include "compare/render/renderer.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/rules.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/scene_view.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// Number of lights rendered one by one: those of the pixel's lights that contribute most. The others are
+// rendered together.
+inline constexpr std::size_t lightsDrawnAlone = 32;
+
+struct PixelQuery {
+    int x = 0, y = 0;               // from the top left, within the image
+    Settings baseline, test;        // of the two paths, in any order
+    Settings reference;             // of the same view
+    ReportDevice device;            // that renders them
+    std::span<const Rule> rules{};  // replace the derived tolerances
+    std::string light_differs{};    // as CompareOptions::light_differs
+    Stage progress{};
+};
+
+// Components of a channel; empty if the side lacks it.
+using PixelValue = std::vector<double>;
+
+// A channel at the pixel.
+struct PixelStep {
+    const DebugMode* mode = nullptr;
+    std::array<PixelValue, 2> values;  // baseline, test
+    PixelValue reference;
+    double difference = 0;            // of the two paths, in the channel's metric
+    bool differs = false;             // beyond rounding: any bit on a CPU device, over 16 ULP on a GPU
+    Tolerance tolerance;              // at this pixel; infinite if a rule does not bound single pixels
+    bool beyond = false;              // out of tolerance, or not explained by the encoding
+    std::optional<bool> explained{};  // lit channels: deferred equals forward+ shading decoded surfaces
+
+    bool isCompared() const { return !values[0].empty() && !values[1].empty(); }
+};
+
+// A term of the pixel's light, W/(sr m^2).
+struct PixelTerm {
+    enum class Kind {
+        light,         // reflection of one light alone, with its shadow
+        other_lights,  // the lights not rendered alone, together
+        environment,
+        ambient,        // ambient light and lightmaps
+        emission,       // emitted light; for unlit surfaces their colour
+        transmittance,  // no summand: the fraction of all the above that haze transmits
+        haze,           // light that haze adds
+        blended,        // what blended surfaces in front add and hide
+        sum,            // of all the above, in double
+        lit,            // the image's value
+        residual        // lit minus the sum
+    };
+    Kind kind = Kind::light;
+    std::vector<std::size_t> lights{};  // its lights, as indices in SceneView::lights
+    std::array<std::array<double, 3>, 2> values{};
+    std::optional<std::array<double, 3>> reference{};
+    double uncertainty = 0;  // of the reference: half the 95 % confidence interval, largest component
+    double difference = 0;   // of the two paths, in the metric of lit
+    bool differs = false;    // as PixelStep::differs; always false for sum and residual
+};
+std::string_view nameOf(PixelTerm::Kind kind);  // "other_lights"
+
+// Description of a light of the scene.
+struct PixelLightFacts {
+    std::string name;  // as in the file, for one line; may be empty
+    std::string_view kind;
+    double distance = 0;  // m, from the pixel's position; infinite for a directional light
+    double range = 0;     // m; may be infinite
+    bool casts = false;   // whether it casts a shadow
+    std::array<bool, 2> listed{false, false};
+};
+
+struct PixelBreakdown {
+    std::string scene, camera;
+    int x = 0, y = 0;
+    Size size;
+    std::array<Settings, 2> settings;  // baseline, test
+    ReferenceMode mode = ReferenceMode::surface;
+    std::array<std::string, 2> names;  // "deferred"
+    bool shown = false;                // either path shows an opaque surface; else the background
+    bool blended = false;              // a blended surface changes lit in either path
+    int material = -1;                 // the baseline's, or else the test's
+    std::string material_name;         // for one line; may be empty
+    std::array<double, 3> position{};  // of the same surface, world, m
+    std::vector<PixelStep> steps;      // in order of computation
+    // By index in SceneView::lights. `lists_known`: by path, whether `listed` is valid.
+    std::vector<PixelLightFacts> lights;
+    std::array<bool, 2> lists_known{false, false};
+    std::vector<PixelTerm> terms;  // empty in the background; ends with sum, lit and residual
+    // Largest difference of the sums from those in double: float32 rounding for baseline and test,
+    // uncertainty for the reference.
+    std::array<double, 3> residual_rounding{};
+    std::size_t drawn_alone = 0;  // number of lights
+
+    // The first difference, in order: `steps` before the light terms, `terms`, then the remaining `steps`.
+    struct First {
+        const PixelStep* step = nullptr;
+        const PixelTerm* term = nullptr;
+    };
+    First first() const;            // neither set: no difference
+    std::size_t differing() const;  // number of steps and terms that differ
+};
+
+// Whether a channel is computed after the light terms: from them, or from what is in front of the surface.
+bool isAfterTerms(int mode);
+// Every channel's number, in order of computation.
+std::span<const int> pixelSteps();
+
+// Renders the view by both paths, the pixel by the reference, and up to `lightsDrawnAlone` lights alone.
+// `views`: those of the renderer. Throws std::runtime_error, one line, like Renderer.
+PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuery& query);
+
+}  // namespace diptych

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/checkpoint_folder.h"
+
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "shared/image/atomic_file.h"
+#include "shared/text/json.h"
+#include "shared/text/json_text.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* keyFile = "key.json";
+
+std::string pageOfJson(const Json& json) {
+    return jsonText(json) + "\n";
+}
+
+Json readJson(const fs::path& file) {
+    try {
+        Json json = orderedJsonIn(file);
+        return json.is_object() ? json : Json();
+    } catch (const std::runtime_error&) {  // missing or incomplete
+        return {};
+    }
+}
+
+OpenFolder made(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);  // also through a link, which OpenFolder rejects
+    if (error) throw std::runtime_error(writingFailed(folder, error.value()));
+    return OpenFolder(folder);
+}
+
+}  // namespace
+
+CheckpointFolder::CheckpointFolder(const fs::path& out, const std::string& what, const Json& key)
+    : folder_(made(besideOutput(out, what))) {
+    if (!folder_.lock())
+        throw std::runtime_error(fmt::format(
+            "{}: another diptych writes to the same -o; wait for it, or choose another -o", path().string()));
+    folder_.removeLinks();  // planted links cannot redirect reads and writes
+    const Json there = readJson(path() / keyFile);
+    if (there == key) return;
+    const bool holdsOthers = std::ranges::any_of(
+        folder_.names(), [](const std::string& name) { return !isTemporaryOf(keyFile, name); });
+    if (holdsOthers && !isOurManifest(path() / keyFile))
+        throw std::runtime_error(path().string() + ": exists and was not written by diptych; move it away");
+    renewed_ = holdsOthers;
+    clear();
+    writeFile(path() / keyFile, pageOfJson(key));
+}
+
+// Removes the key last: it marks the other files as ours.
+void CheckpointFolder::clear() {
+    for (const std::string& name : folder_.names())
+        if (name != keyFile) folder_.removeAll(name);
+    folder_.removeFile(keyFile);
+}
+
+Json CheckpointFolder::find(const std::string& name) const {
+    return readJson(path() / (name + ".json"));
+}
+
+void CheckpointFolder::keep(const std::string& name, const Json& part) const {
+    writeFile(path() / (name + ".json"), pageOfJson(part));
+}
+
+void CheckpointFolder::remove() {
+    clear();
+    ::rmdir(path().c_str());
+}
+
+}  // namespace diptych

@@ -1,0 +1,613 @@
+// SPDX-License-Identifier: MIT
+#include "tests/image/injected_faults.h"
+
+#include "compare/explain/lighting_components.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/lights/rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int modeOf(gpu::uint number) {
+    return static_cast<int>(number);
+}
+
+constexpr int pictureWidth = 48, pictureHeight = 27;
+
+std::vector<int> injectedChannels() {
+    std::vector<int> modes = explainedChannels();
+    for (const int term : termChannels()) modes.push_back(term);
+    for (const gpu::uint more :
+         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
+        modes.push_back(modeOf(more));
+    return modes;
+}
+
+double decoded(double x) {
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+double encoded(double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+using OfValue = std::function<double(double)>;
+
+std::function<void(float*)> each(const OfValue& of, int components = 3) {
+    return [of, components](float* p) {
+        for (int c = 0; c < components; ++c) p[c] = static_cast<float>(of(double{p[c]}));
+    };
+}
+
+void normalize(float* p) {
+    const double length = std::sqrt(double{p[0]} * p[0] + double{p[1]} * p[1] + double{p[2]} * p[2]);
+    for (int c = 0; c < 3 && length > 0; ++c) p[c] = static_cast<float>(p[c] / length);
+}
+
+float* dataOf(Frame& frame, gpu::uint number) {
+    return frame.channels.at(modeOf(number)).data.data();
+}
+
+// Changes terms, and lit accordingly.
+using OfTerm = std::function<float(float term, std::size_t pixel)>;
+std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, const OfTerm& of) {
+    return [terms, of](InjectedView& view, Frame& frame) {
+        const Image before = sumOfTerms(frame);
+        for (const gpu::uint number : terms) {
+            Image& image = frame.channels.at(modeOf(number));
+            for (std::size_t i = 0; i < image.data.size(); ++i)
+                if (view.covered(i / 3)) image.data[i] = of(image.data[i], i / 3);
+        }
+        const Image after = sumOfTerms(frame);
+        float* const lit_data = dataOf(frame, gpu::DEBUG_lit);
+        for (std::size_t i = 0; i < after.data.size(); ++i)
+            if (after.data[i] != before.data[i]) lit_data[i] = after.data[i];
+    };
+}
+
+// Changes lit alone.
+std::function<void(InjectedView&, Frame&)> output(
+    const std::function<void(float*, const float* emitted)>& of) {
+    return [of](InjectedView& view, Frame& frame) {
+        Image& image = frame.channels.at(lit);
+        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
+        for (std::size_t p = 0; p < image.pixels(); ++p)
+            if (view.covered(p)) of(image.pixel(p), emitted_light.pixel(p));
+    };
+}
+
+std::function<void(InjectedView&, Frame&)> exposed(float factor) {
+    return [factor](InjectedView&, Frame& frame) {
+        for (float& value : frame.channels.at(lit).data) value *= factor;
+    };
+}
+
+// The correct image, except that a tile of 24 x 16 pixels lacks the light with the largest effect there.
+void dropFromTile(InjectedView& view, Frame& frame) {
+    InjectedFault without{"a light is dropped", {}};
+    double most = 0;
+    Frame dropped;
+    for (std::size_t light = 0; light < view.scene.lights.size(); ++light) {
+        without.draw = [light](Settings&, Scene& scene) {
+            scene.lights.erase(scene.lights.begin() + static_cast<std::ptrdiff_t>(light));
+        };
+        without.means = fmt::format("light {} is dropped", light);
+        Frame other = view.with(without);
+        double sum = 0;
+        for (int y = 8; y < 24; ++y)
+            for (int x = 16; x < 40; ++x)
+                sum +=
+                    std::abs(double{other.channels.at(lit).at(x, y, 1)} - frame.channels.at(lit).at(x, y, 1));
+        if (sum > most) most = sum, dropped = std::move(other);
+    }
+    if (most == 0) return;
+    std::vector<int> modes = termChannels();
+    modes.push_back(lit);
+    modes.push_back(modeOf(gpu::DEBUG_light_count));
+    for (const int number : modes) {
+        Image& image = frame.channels.at(number);
+        for (int y = 8; y < 24; ++y)
+            for (int x = 16; x < 40; ++x)
+                for (int c = 0; c < image.components; ++c)
+                    image.at(x, y, c) = std::as_const(dropped).channels.at(number).at(x, y, c);
+    }
+}
+
+// Blended surfaces without haze, over opaque ones with haze: over = T under + B. T is the response to
+// additional light under them.
+void hazeOnOpaqueOnly(InjectedView& view, Frame& frame) {
+    Settings clear = view.settings, bare = view.settings;
+    clear.haze = false;
+    bare.transparency = Transparency::off;
+    Settings neither = clear;
+    neither.transparency = Transparency::off;
+    const auto more = [](float* p) {
+        for (int c = 0; c < 3; ++c) p[c] += 1;
+    };
+    const Image under = view.litUnder(bare), over_clear = view.litUnder(clear),
+                under_clear = view.litUnder(neither), brighter = view.litUnder(clear, "emission", more);
+    Image& image = frame.channels.at(lit);
+    for (std::size_t i = 0; i < image.data.size(); ++i) {
+        if (!view.covered(i / 3) || over_clear.data[i] == under_clear.data[i]) continue;
+        const float through = brighter.data[i] - over_clear.data[i];
+        image.data[i] = under.data[i] * through + (over_clear.data[i] - under_clear.data[i] * through);
+    }
+}
+
+void addChannelFaults(std::vector<InjectedFault>& all) {
+    const auto add = [&](std::string channel, const char* means, std::function<void(float*)> pixel) {
+        all.push_back({channel + " " + means, {channel}, ViewKind::opaque, false, channel, std::move(pixel)});
+    };
+    const auto bits = [](double steps) {
+        return [steps](double x) { return std::round(steps * x) / steps; };
+    };
+    const auto bgr = [](float* p) { std::swap(p[0], p[2]); };
+    add("normals", "of 8 bits", [=](float* p) { each(bits(127))(p), normalize(p); });
+    add("normals", "of 5 bits", [=](float* p) { each(bits(15))(p), normalize(p); });
+    add("normals", "with y and z swapped", [](float* p) { std::swap(p[1], p[2]); });
+    add("normals", "flattened", [](float* p) { p[0] *= 0.8f, normalize(p); });
+    add("roughness", "squared twice", each([](double x) { return x * x; }, 1));
+    add("roughness", "taken for its square", each([](double x) { return std::sqrt(x); }, 1));
+    add("roughness", "of 3 bits", each(bits(7), 1));
+    add("roughness", "inverted: glossiness", each([](double x) { return 1 - x; }, 1));
+    add("roughness", "at least 0.6", each([](double x) { return std::max(x, 0.6); }, 1));
+    add("metallic", "of plastic", each([](double) { return 0.0; }, 1));
+    add("metallic", "halved", each([](double x) { return 0.5 * x; }, 1));
+    add("metallic", "inverted", each([](double x) { return 1 - x; }, 1));
+    add("albedo", "sRGB taken for linear", each(encoded));
+    add("albedo", "decoded twice", each(decoded));
+    add("albedo", "of 4 bits", each(bits(15)));
+    add("albedo", "as BGR", bgr);
+    add("albedo", "without its texture", each([](double) { return 0.5; }));
+    add("emission", "clamped at 1", each([](double x) { return std::min(x, 1.0); }));
+    add("emission", "left out", each([](double) { return 0.0; }));
+    add("emission", "doubled", each([](double x) { return 2 * x; }));
+    add("emission", "as BGR", bgr);
+    add("occlusion", "left out", each([](double) { return 1.0; }, 1));
+    add("occlusion", "squared", each([](double x) { return x * x; }, 1));
+    add("occlusion", "inverted", each([](double x) { return 1 - x; }, 1));
+    add("dielectric_f0", "of water", each([](double x) { return 0.5 * x; }));
+    add("dielectric_f0", "doubled", each([](double x) { return 2 * x; }));
+    add("dielectric_f90", "0", each([](double) { return 0.0; }, 1));
+    add("position", "5 cm off", [](float* p) { p[1] += 0.05f; });
+    add("position", "of halves", each([](double x) { return std::round(512 * x / 8) * 8 / 512; }));
+}
+
+void addLightFaults(std::vector<InjectedFault>& all) {
+    const std::vector<std::string> direct{"direct diffuse", "direct specular"};
+    const auto lights = [&](const char* means, const std::vector<std::string>& named,
+                            const std::function<void(Light&)>& of, bool first_alone = false) {
+        all.push_back(
+            {means, named, ViewKind::opaque, first_alone, {}, {}, [of, first_alone](Settings&, Scene& scene) {
+                 for (Light& light : scene.lights) {
+                     of(light);
+                     if (first_alone) break;
+                 }
+             }});
+    };
+    all.push_back({"a light is dropped from one tile",
+                   {"light_count"},
+                   ViewKind::opaque,
+                   false,
+                   {},
+                   {},
+                   {},
+                   dropFromTile});
+    all.push_back(
+        {"a light is dropped", {"light_count"}, ViewKind::opaque, true, {}, {}, [](Settings&, Scene& scene) {
+             scene.lights.erase(scene.lights.begin());
+         }});
+    lights("suns are twice as bright", direct, [](Light& light) {
+        if (light.kind == LightKind::directional) light.intensity *= 2;
+    });
+    lights(
+        "one light's colour is BGR", direct, [](Light& light) { std::swap(light.color.r, light.color.b); },
+        true);
+    lights("spots are half as wide", direct, [](Light& light) {
+        if (light.kind == LightKind::spot) light.inner_cone *= 0.5f, light.outer_cone *= 0.5f;
+    });
+    lights("spots have hard edges", direct, [](Light& light) {
+        if (light.kind == LightKind::spot) light.inner_cone = light.outer_cone * 0.999f;
+    });
+    lights("ranges are half as long", direct, [](Light& light) { light.range *= 0.6f; });
+    lights("ranges are ignored", direct,
+           [](Light& light) { light.range = std::numeric_limits<float>::infinity(); });
+    lights("lights are 30 cm off", direct, [](Light& light) { light.position.x += 0.3; });
+    lights("candela are taken for lumen", direct, [](Light& light) {
+        if (light.kind != LightKind::directional) light.intensity /= static_cast<float>(4 * std::numbers::pi);
+    });
+    const std::vector<std::string> shadows{"shadow_visibility", "local_visibility"};
+    const auto setting = [&](const char* means, const std::vector<std::string>& named,
+                             const std::function<void(Settings&)>& of, ViewKind kind = ViewKind::opaque) {
+        all.push_back(
+            {means, named, kind, false, {}, {}, [of](Settings& settings, Scene&) { of(settings); }});
+    };
+    setting("shadow bias is tripled", shadows, [](Settings& s) { s.shadow_bias *= 3; });
+    // A coarser cascade is used, and filters cover more texels.
+    setting("cascade is one off", {"shadow_visibility"}, [](Settings& s) {
+        s.shadow_cascades -= 1;
+        s.shadow_distance = 60;
+        s.shadow_kernel = 5;
+    });
+    setting("the shadow filter is twice as wide", shadows, [](Settings& s) { s.shadow_kernel = 7; });
+    setting("shadow maps have half the texels", shadows, [](Settings& s) { s.shadow_size /= 2; });
+    setting("there are no shadows", shadows, [](Settings& s) {
+        s.shadows = Shadows::off;
+        s.shadow_lights = 0;
+        s.shadow_cascades = Settings().shadow_cascades;
+    });
+    setting("points and spots cast no shadows", {"local_visibility"},
+            [](Settings& s) { s.shadow_lights = 0; });
+    setting("light between microfacets is added", {"direct diffuse", "direct specular"},
+            [](Settings& s) { s.multiscatter = Multiscatter::energy; });
+    setting("ambient light is doubled", {"--ambient"}, [](Settings& s) {
+        s.ambient = {2 * s.ambient.r, 2 * s.ambient.g, 2 * s.ambient.b};
+    });
+    setting("ambient light is left out", {"--ambient"}, [](Settings& s) { s.ambient = {}; });
+    setting("haze is twice as dense", {"--haze-density"}, [](Settings& s) { s.haze_density *= 2; });
+    setting("haze is left out", {"--haze"}, [](Settings& s) { s.haze = false; });
+
+    setting(
+        "an environment is turned by 90 degrees", {"--env-rotation"},
+        [](Settings& s) { s.env_rotation += 90; }, ViewKind::blended);
+    setting(
+        "an environment is turned by 180 degrees", {"--env-rotation"},
+        [](Settings& s) { s.env_rotation += 180; }, ViewKind::blended);
+    setting(
+        "an environment is twice as bright", {"--ibl-intensity"}, [](Settings& s) { s.ibl_intensity *= 2; },
+        ViewKind::blended);
+    setting(
+        "blended surfaces are left out", {"transparency"},
+        [](Settings& s) { s.transparency = Transparency::off; }, ViewKind::blended);
+    setting(
+        "blended surfaces are weighted", {"transparency"},
+        [](Settings& s) { s.transparency = Transparency::weighted; }, ViewKind::blended);
+    all.push_back({"haze is on opaque surfaces only",
+                   {"transparency"},
+                   ViewKind::blended,
+                   false,
+                   {},
+                   {},
+                   {},
+                   hazeOnOpaqueOnly});
+    all.push_back({"the background is left out",
+                   {"background"},
+                   ViewKind::blended,
+                   false,
+                   {},
+                   {},
+                   {},
+                   [](InjectedView& view, Frame& frame) {
+                       Settings bare = view.settings;
+                       bare.transparency = Transparency::off;
+                       const Image under = view.litUnder(bare);
+                       Image& image = frame.channels.at(lit);
+                       for (std::size_t i = 0; i < image.data.size(); ++i)
+                           if (!view.covered(i / 3) && image.data[i] == under.data[i]) image.data[i] = 0;
+                   }});
+}
+
+void addTermFaults(std::vector<InjectedFault>& all) {
+    const auto add = [&](const char* means, std::vector<std::string> named,
+                         std::function<void(InjectedView&, Frame&)> after) {
+        all.push_back({means, std::move(named), ViewKind::opaque, false, {}, {}, {}, std::move(after)});
+    };
+    const auto by = [](float factor) {
+        return [factor](float value, std::size_t) { return factor * value; };
+    };
+    constexpr float pi = std::numbers::pi_v<float>;
+    add("the specular lobe is left out", {"direct specular"}, term({gpu::DEBUG_lit_specular}, by(0)));
+    add("the specular lobe lacks its 4", {"direct specular"}, term({gpu::DEBUG_lit_specular}, by(4)));
+    add("the diffuse lobe lacks its pi", {"direct diffuse"}, term({gpu::DEBUG_lit_diffuse}, by(pi)));
+    add("the diffuse lobe is divided by pi twice", {"direct diffuse"},
+        term({gpu::DEBUG_lit_diffuse}, by(1 / pi)));
+    add("diffuse light in three steps", {"direct diffuse"},
+        term({gpu::DEBUG_lit_diffuse}, [](float value, std::size_t) { return std::floor(8 * value) / 8; }));
+    add("occlusion is left out of ambient light", {"ambient light"}, [](InjectedView& view, Frame& frame) {
+        const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
+        term({gpu::DEBUG_lit_ambient}, [&](float value, std::size_t pixel) {
+            return occluded.pixel(pixel)[0] > 0 ? value / occluded.pixel(pixel)[0] : value;
+        })(view, frame);
+    });
+    add("occlusion darkens lights as well", {"direct diffuse", "direct specular"},
+        [](InjectedView& view, Frame& frame) {
+            const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
+            term({gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular}, [&](float value, std::size_t pixel) {
+                return value * occluded.pixel(pixel)[0];
+            })(view, frame);
+        });
+    add("haze adds no light", {"haze in the air"}, term({gpu::DEBUG_lit_haze}, by(0)));
+    add("haze takes no light", {"haze in the air"},
+        term({gpu::DEBUG_transmittance}, [](float, std::size_t) { return 1.0f; }));
+    add("emission is missing from the sum", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
+        const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
+        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
+        Image& image = frame.channels.at(lit);
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            if (view.covered(i / 3)) image.data[i] -= emitted_light.data[i] * through.data[i];
+    });
+    add("emission is in the sum twice", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
+        const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
+        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
+        Image& image = frame.channels.at(lit);
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            if (view.covered(i / 3)) image.data[i] += emitted_light.data[i] * through.data[i];
+    });
+    add("lit is BGR", {"sum of terms"}, output([](float* p, const float*) { std::swap(p[0], p[2]); }));
+    add("lit is encoded as sRGB", {"sum of terms"}, output([](float* p, const float*) { each(encoded)(p); }));
+    add("lit is clamped at 0.3", {"sum of terms"},
+        output([](float* p, const float*) { each([](double x) { return std::min(x, 0.3); })(p); }));
+    add("exposure is doubled", {"exposure"}, exposed(2));
+    add("exposure is halved", {"exposure"}, exposed(0.5f));
+    add("exposure is a third of a stop off", {"exposure"}, exposed(1.2599f));
+}
+
+// A view's own random numbers.
+class Draws {
+public:
+    explicit Draws(std::uint32_t seed) : random_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
+    }
+    bool chance(double p) { return between(0, 1) < p; }
+
+private:
+    std::mt19937 random_;
+};
+
+// A sky with a bright sun, above a ground.
+Environment sky(Draws& draws) {
+    Environment made{"sky", Image(32, 16, 3)};
+    const double azimuth = draws.between(0, 32), height = draws.between(2, 6),
+                 warmth = draws.between(0.5, 1.5);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const double around = std::remainder(x - azimuth, 32.0), up = y - height;
+            const double sun = 3 * std::exp(-(around * around + up * up) / 18);
+            const double base = y < 8 ? 0.4 : 0.12;
+            made.radiance.at(x, y, 0) = static_cast<float>(0.6 * base + warmth * sun);
+            made.radiance.at(x, y, 1) = static_cast<float>(0.8 * base + sun);
+            made.radiance.at(x, y, 2) = static_cast<float>(base + 0.7 * sun);
+        }
+    return made;
+}
+
+// A scene with randomized materials and lights.
+Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
+    Scene scene = loadScene(name);
+    Draws draws(seed);
+    for (Material& material : scene.materials) {
+        if (blends(material)) continue;
+        material.roughness = static_cast<float>(draws.between(0.15, 0.95));
+        material.metallic = draws.chance(0.4) ? static_cast<float>(draws.between(0.4, 1)) : 0.0f;
+        for (int c = 0; c < 3; ++c) material.base_color[c] = static_cast<float>(draws.between(0.1, 0.9));
+        if (draws.chance(0.5))
+            material.emissive = {draws.between(0, 3), draws.between(0, 1), draws.between(0, 0.5)};
+    }
+    if (kind == ViewKind::blended) scene.environment = sky(draws);
+    ViewRequest request;
+    request.width = pictureWidth, request.height = pictureHeight;
+    request.lights = "point:3,spot:3";
+    request.seed = seed;
+    scene.lights = makeSceneView(scene, request).lights;
+    for (Light& light : scene.lights) light.node = -1, light.name.clear();
+    const bool has_sun = std::ranges::any_of(
+        scene.lights, [](const Light& light) { return light.kind == LightKind::directional; });
+    if (!has_sun) {
+        Light sun;
+        sun.kind = LightKind::directional;
+        sun.intensity = 1;
+        sun.direction = glm::normalize(glm::dvec3(draws.between(0.6, 1.2), -0.7, draws.between(-0.5, -0.1)));
+        scene.lights.push_back(sun);
+    }
+    // Faults of a single light affect the first one.
+    std::rotate(scene.lights.begin(),
+                scene.lights.begin() + static_cast<std::ptrdiff_t>(seed % scene.lights.size()),
+                scene.lights.end());
+    scene.lights.front().name = firstLight;
+    return scene;
+}
+
+Settings settingsOf(const std::string& name, const std::string& camera, ViewKind kind, std::uint32_t seed) {
+    Draws draws(seed + 1000);
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::forward_plus;
+    settings.assign = Assignment::every;
+    settings.size = {pictureWidth, pictureHeight};
+    settings.camera = camera;
+    const auto ambient = static_cast<float>(draws.between(0.05, 0.3));
+    settings.ambient = {ambient, 0.9f * ambient, 1.1f * ambient};
+    settings.haze = true;
+    settings.haze_density = static_cast<float>(draws.between(300, 1500));
+    if (name == "builtin:far_away") settings.haze_ground = 2e5f;  // the scene's height
+    if (kind == ViewKind::blended) {
+        settings.env = "scene";
+        settings.ibl_samples = 16;
+    } else {
+        settings.shadows = Shadows::pcf;
+        settings.shadow_size = 128;
+        settings.shadow_lights = 1;
+        settings.shadow_cascades = 3;
+        settings.shadow_bias = 1;
+    }
+    return settings;
+}
+
+}  // namespace
+
+const std::vector<InjectedFault>& injectedFaults() {
+    static const std::vector<InjectedFault> faults = [] {
+        std::vector<InjectedFault> all;
+        addChannelFaults(all);
+        addLightFaults(all);
+        addTermFaults(all);
+        return all;
+    }();
+    return faults;
+}
+
+const InjectedFault& injectedFault(std::string_view means) {
+    for (const InjectedFault& fault : injectedFaults())
+        if (fault.means == means) return fault;
+    throw std::out_of_range("no fault is called " + std::string(means));
+}
+
+bool differsVisibly(const Image& a, const Image& b) {
+    double difference = 0, all = 0;
+    for (std::size_t i = 0; i < a.data.size(); ++i) {
+        difference += std::abs(double{a.data[i]} - b.data[i]);
+        all += std::abs(double{a.data[i]});
+    }
+    return difference > 1e-5 * all;
+}
+
+InjectedView::InjectedView(const std::string& scene_name, const std::string& camera, std::uint32_t seed,
+                           ViewKind view_kind)
+    : name(fmt::format("{}, {}, seed {}", scene_name, camera, seed)),
+      kind(view_kind),
+      scene(seeded(scene_name, seed, view_kind)),
+      views(scene),
+      renderer(device(), views, pipelines()),
+      settings(settingsOf(scene_name, camera, view_kind, seed)),
+      right(drawnBy(Path::forward_plus, renderer, settings, injectedChannels())),
+      images_(device(), settings.size) {
+    right.settings = settings;
+    // Varies occlusion: few scenes have any.
+    Image& occluded = right.channels.at(modeOf(gpu::DEBUG_occlusion));
+    const double turn = 0.7 * seed;
+    for (int y = 0; y < pictureHeight; ++y)
+        for (int x = 0; x < pictureWidth; ++x)
+            if (covered(occluded.offset(x, y)))
+                occluded.at(x, y) *=
+                    static_cast<float>(0.6 + 0.35 * std::sin(0.4 * x + turn) * std::cos(0.3 * y - turn));
+    shadeInto(right, settings);
+}
+
+bool InjectedView::covered(std::size_t pixel) const {
+    return right.channels.at(modeOf(gpu::DEBUG_material_id)).pixel(pixel)[0] >= 0;
+}
+
+// Computes lit and its terms from the Frame's channels.
+void InjectedView::shadeInto(Frame& frame, const Settings& drawn) {
+    for (std::size_t c = 0; c < surfaceChannels().size(); ++c) images_.set(0, c, frame);
+    std::optional<ChannelShading> other;
+    if (!shading_)
+        shading_.emplace(renderer.shadeChannels(settings, images_));
+    else if (!(drawn == settings))
+        other.emplace(renderer.shadeChannels(drawn, images_));
+    ChannelShading& shading = other ? *other : *shading_;
+    frame.channels.at(lit) = shading.shade(0);
+    ChannelTerms terms = shading.terms(0);
+    frame.channels.at(modeOf(gpu::DEBUG_lit_diffuse)) = std::move(terms.diffuse);
+    frame.channels.at(modeOf(gpu::DEBUG_lit_specular)) = std::move(terms.specular);
+    frame.channels.at(modeOf(gpu::DEBUG_lit_ambient)) = std::move(terms.ambient);
+    frame.channels.at(modeOf(gpu::DEBUG_lit_haze)) = std::move(terms.haze);
+    frame.channels.at(modeOf(gpu::DEBUG_transmittance)) = std::move(terms.transmittance);
+}
+
+Image InjectedView::litUnder(const Settings& other, const std::string& channel,
+                             const std::function<void(float*)>& pixel) {
+    Frame frame = right;
+    for (const int number : surfaceChannels())
+        if (debugMode(number).name == channel)
+            for (std::size_t p = 0; p < right.channels.at(lit).pixels(); ++p)
+                if (covered(p)) pixel(frame.channels.at(number).pixel(p));
+    shadeInto(frame, other);
+    return frame.channels.at(lit);
+}
+
+Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
+    Frame frame = right;
+    Settings drawn = settings;
+    const std::vector<Light> lights = scene.lights;
+    bool drawn_otherwise = false, surfaces_differ = false;
+    for (const InjectedFault* const fault : faults) {
+        if (fault->draw) {
+            fault->draw(drawn, scene);
+            drawn_otherwise = true;
+        }
+        for (const int number : surfaceChannels())
+            if (debugMode(number).name == fault->channel) {
+                surfaces_differ = true;
+                for (std::size_t p = 0; p < frame.channels.at(lit).pixels(); ++p)
+                    if (covered(p)) fault->pixel(frame.channels.at(number).pixel(p));
+            }
+    }
+    // Settings without effect on visibility: environment light, haze and blending.
+    Settings seen_by = drawn;
+    for (const std::string_view option :
+         {"ambient", "haze", "haze-density", "env-rotation", "ibl-intensity", "transparency", "multiscatter"})
+        seen_by.set(option, settings.valueOf(option));
+    const auto alike = [](const Light& a, const Light& b) {
+        return a.intensity == b.intensity && a.color == b.color && a.range == b.range &&
+               a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone && a.position == b.position;
+    };
+    const bool same_lights = std::ranges::equal(lights, scene.lights, alike);
+    if (!same_lights || !(seen_by == settings)) {
+        // Nothing in these views moves: another time yields another view, with the current lights.
+        static int otherwise = 0;
+        drawn.time = ++otherwise;
+        const std::vector<int> seen{modeOf(gpu::DEBUG_shadow_visibility), modeOf(gpu::DEBUG_local_visibility),
+                                    modeOf(gpu::DEBUG_light_count)};
+        Frame other = drawnBy(Path::forward_plus, renderer, drawn, seen);
+        for (const int number : seen) frame.channels.at(number) = std::move(other.channels.at(number));
+    }
+    if (drawn_otherwise || surfaces_differ) shadeInto(frame, drawn);
+    scene.lights = lights;
+    for (const InjectedFault* const fault : faults)
+        if (fault->after) fault->after(*this, frame);
+    return frame;
+}
+
+Frame InjectedView::with(const InjectedFault& fault) {
+    const InjectedFault* const one = &fault;
+    return with(std::span(&one, 1));
+}
+
+Explanation InjectedView::explained(const Frame& test) {
+    return explain(device(), renderer, scene, right, test);
+}
+
+bool InjectedView::feels(const InjectedFault& fault) {
+    const auto known = felt_.find(fault.means);
+    if (known != felt_.end()) return known->second;
+    return felt_[fault.means] = differsVisibly(right.channels.at(lit), with(fault).channels.at(lit));
+}
+
+std::vector<InjectedView*> injectedViews(ViewKind kind) {
+    struct Place {
+        const char* scene;
+        std::vector<const char*> cameras;
+    };
+    static const std::vector<Place> opaque{
+        {"builtin:points", {"front", "eye=2,1.6,4.6 target=-0.3,0.6,0 fov=44"}},
+        {"builtin:suns", {"front", "eye=-2.5,2.6,4.5 target=0,0.4,0 fov=40"}},
+        {"builtin:spots", {"front", "eye=1,2.8,5 target=0.2,0.2,0 fov=46"}},
+        {"builtin:far_away",
+         {"there", "eye=1000001.2,200001.1,-999996.8 target=1000000,200000.3,-1000000 fov=44"}}};
+    static const std::vector<Place> blended{
+        {"builtin:glass", {"front", "inside", "eye=-1.4,1.3,4.5 target=0,0.9,0 fov=46"}},
+        {"builtin:crossed", {"front", "eye=1.2,0.9,3.2 target=0,0.6,0 fov=46"}}};
+    pipelines();  // before the views: must outlive them
+    static std::map<ViewKind, std::vector<std::unique_ptr<InjectedView>>> made;
+    std::vector<std::unique_ptr<InjectedView>>& views = made[kind];
+    if (views.empty())
+        for (std::uint32_t seed = 1; seed <= (kind == ViewKind::opaque ? 4u : 5u); ++seed)
+            for (const Place& place : kind == ViewKind::opaque ? opaque : blended)
+                for (const char* camera : place.cameras)
+                    views.push_back(std::make_unique<InjectedView>(place.scene, camera, seed, kind));
+    std::vector<InjectedView*> all;
+    for (const auto& view : views) all.push_back(view.get());
+    return all;
+}
+
+}  // namespace diptych::tests

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Area lights for the probe area.comp, with expected results from the reference and from the table alone.
+#pragma once
+
+#include "compare/reference/lighting.h"
+#include "shared/contract/features.h"
+#include "shared/light/fit/lobe.h"
+#include "shared/light/lights.h"
+#include "shared/light/ltc.h"
+#include "tests/probe/probe.h"
+#include "tests/support/reference_builder.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych::tests {
+
+constexpr std::size_t areaWidth = 35;
+
+// Surface at the origin with normal +Z.
+struct Receiver {
+    double roughness = 0.5, metallic = 1, albedo = 1, f0 = 0.04, f90 = 1;
+    glm::dvec3 to_viewer{0, 0, 1};
+    double nDotV() const { return std::max(to_viewer.z, double{gpu::MIN_N_DOT_V}); }
+};
+inline glm::dvec3 viewAt(double degrees, double azimuth = 0) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)};
+}
+
+inline void pushArea(std::vector<float>& input, const Light& light, const Receiver& r) {
+    const GpuLights lights = gpuLights(std::span(&light, 1), {0, 0, 0});
+    const gpu::Light& l = lights.lights.at(0);
+    const gpu::AreaLight& s = lights.area_lights.at(0);
+    const auto push = [&](const auto&... values) { (input.push_back(static_cast<float>(values)), ...); };
+    const auto push3 = [&](const auto& v) { push(v.x, v.y, v.z); };
+    push(light.kind == LightKind::rect ? 0 : light.kind == LightKind::disc ? 1 : 2);
+    push3(l.position), push3(s.x), push(s.radius), push3(s.y), push(s.extent), push3(s.direction);
+    push(s.two_sided, l.inverse_range_squared);
+    push3(r.to_viewer), push(r.roughness, r.metallic, r.albedo, r.f0, r.f90);
+    const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
+    for (const LtcLobe& lobe : {cell.even, cell.layer})
+        push(lobe.in_plane, lobe.across, lobe.unsheared, lobe.tilt);
+    push(cell.magnitude, cell.fresnel);
+}
+
+// {diffuse, specular} radiance of each row for a light of radiance 1.
+inline std::vector<std::array<double, 2>> shadeArea(Probes& probes, const std::vector<float>& input,
+                                                    bool points = false, gpu::uint multiscatter = 0) {
+    const std::vector<float> out =
+        probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0},
+                   {gpu::FEATURE_multiscatter, multiscatter});
+    std::vector<std::array<double, 2>> rows;
+    for (std::size_t i = 0; i + 1 < out.size(); i += 2) rows.push_back({double{out[i]}, double{out[i + 1]}});
+    return rows;
+}
+
+inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r) {
+    reference::Surface s;
+    s.to_viewer = r.to_viewer;
+    s.albedo = glm::dvec3(r.albedo);
+    s.metallic = r.metallic;
+    s.roughness = r.roughness;
+    s.dielectric_f0 = glm::dvec3(r.f0);
+    s.dielectric_f90 = r.f90;
+    Light white = light;
+    white.color = glm::vec3(1);
+    white.intensity = 1;
+    const reference::Shading shading =
+        reference::Lighting(std::span(&white, 1), nullptr, 1, {0, 0, 0})(s, {}, 1);
+    return {shading.reflected.diffuse.g, shading.reflected.specular.g};
+}
+
+// Outline of an area light seen from the origin. A tube's outline has two lines along its side and, at
+// each end, half a rim: the far half if the end's face is visible, otherwise the near half. From beyond an
+// end, within the tube's radius, it is that end's rim.
+inline std::vector<glm::dvec3> outlineOf(const Light& light) {
+    if (light.kind == LightKind::rect) return reference::cornersOf(light);
+    std::vector<glm::dvec3> outline;
+    const auto addRim = [&](const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, double from,
+                            double to) {
+        reference::addArc(outline, centre, x * double{light.radius}, y * double{light.radius}, from, to);
+    };
+    if (light.kind == LightKind::disc) {
+        const glm::dvec3 x = reference::lightOf(LightKind::disc, {}, light.direction).axis;
+        addRim(light.position, x, glm::cross(light.direction, x), 0, 2 * reference::pi);
+        return outline;
+    }
+    const glm::dvec3 axis = light.axis, half = axis * (double{light.length} / 2);
+    const double along = -glm::dot(light.position, axis);
+    const glm::dvec3 towards = -light.position - axis * along, x = glm::normalize(towards),
+                     y = glm::cross(axis, x);
+    const bool above = along > double{light.length} / 2, below = -along > double{light.length} / 2;
+    if (glm::length(towards) <= double{light.radius}) {
+        if (above) addRim(light.position + half, x, y, 0, 2 * reference::pi);
+        if (below) addRim(light.position - half, x, y, 0, 2 * reference::pi);
+        return outline;
+    }
+    const double angle = std::acos(double{light.radius} / glm::length(towards)), whole = 2 * reference::pi;
+    addRim(light.position + half, x, y, above ? whole - angle : -angle, angle);
+    addRim(light.position - half, x, y, angle, below ? whole - angle : -angle);
+    return outline;
+}
+
+// Integral of p / pi over the light's directions p under the transformed cosine, in its frame. Lambert's
+// formula in double: the outline is transformed vertex by vertex and clipped at the horizon.
+inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
+    const bool flat = light.kind != LightKind::tube;
+    if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return {};
+    const double sine = std::hypot(to_viewer.x, to_viewer.y);
+    const double cx = sine > 1e-9 ? -to_viewer.x / sine : 1, cy = sine > 1e-9 ? -to_viewer.y / sine : 0;
+    std::vector<glm::dvec3> outline = outlineOf(light), above;
+    for (glm::dvec3& p : outline)
+        p = glm::normalize(t.toCosine({cx * p.x + cy * p.y, cx * p.y - cy * p.x, p.z}));
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec3 p = outline[i], q = outline[(i + 1) % outline.size()];
+        if (p.z >= 0) above.push_back(p);
+        if ((p.z < 0) != (q.z < 0)) above.push_back((p * q.z - q * p.z) / (q.z - p.z));
+    }
+    glm::dvec3 sum{};
+    for (std::size_t i = 0; i < above.size(); ++i) {
+        const glm::dvec3 p = above[i], q = above[(i + 1) % above.size()], across = glm::cross(p, q);
+        const double size = glm::length(across);
+        if (size > 0) sum += across * (std::atan2(size, glm::dot(p, q)) / size);
+    }
+    return sum * ((sum.z < 0 ? -1 : 1) / (2 * reference::pi));
+}
+// Fraction of the transformed cosine that the light covers.
+inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
+    const glm::dvec3 factor = factorOf(light, t, to_viewer);
+    return std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
+}
+
+// F0 and F90, interpolated by `metallic`.
+inline glm::dvec2 fresnelOf(const Receiver& r) {
+    return {std::lerp(r.f0, r.albedo, r.metallic), std::lerp(r.f90, 1.0, r.metallic)};
+}
+inline ltc::Transform transformOf(const LtcCell& cell, const Receiver& r) {
+    const glm::dvec2 f = fresnelOf(r);
+    return ltc::transformOf(cell.lobe(f.x, f.y), r.roughness * r.roughness, r.nDotV());
+}
+// Specular result of the shader for a covered fraction, with mean direction l under the transformed cosine
+// (in the lobe's frame): the lobe's own value for a small light, the sky's reflection for a large one.
+inline double specularOf(double share, const glm::dvec3& l, const LtcCell& cell, const Receiver& r) {
+    const glm::dvec2 f = fresnelOf(r);
+    const ltc::Lobe::Value value = ltc::Lobe(r.roughness * r.roughness, r.nDotV())(l);
+    const double sky = cell.reflected(f.x, f.y), density = std::max(transformOf(cell, r).density(l), 1e-20);
+    const double there = std::min(value.lobe * std::lerp(f.x, f.y, value.schlick) / density, 4 * sky);
+    return std::min(std::lerp(there, sky, std::pow(share, 0.25)) * share, sky);
+}
+inline double specularOf(const Light& light, const LtcCell& cell, const Receiver& r) {
+    const ltc::Transform t = transformOf(cell, r);
+    const glm::dvec3 factor = factorOf(light, t, r.to_viewer);
+    if (!(factor.z > 0)) return 0;
+    const double share = std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
+    return specularOf(share, glm::normalize(t.fromCosine(factor)), cell, r);
+}
+
+}  // namespace diptych::tests
