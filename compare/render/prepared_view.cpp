@@ -133,8 +133,9 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       environment(device, shared.uploader, shared.environments, scene.environment, scene.background,
                   buffers.sets(), settings),
       haze(device, shared.uploader, settings, sunOf(scene.lights), scene.view.eye(), buffers.sets()),
-      shadow(device, shared.uploader, scene.pose, shared.geometry, materials, scene.view, draws, lights,
-             scene.lights, buffers.sets(), settings),
+      shadow(device, shared.uploader,
+             {scene.pose, shared.geometry, materials, scene.view, draws, lights, scene.lights},
+             buffers.sets(), settings),
       fragments(device, draws, settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs, settings.msaa > 1)),
       inputs{
