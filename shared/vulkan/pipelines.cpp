@@ -4,6 +4,7 @@
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/flatten.h"
 #include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/shader_interface.h"
 #include "shared/vulkan/specialize.h"
 
 #include <fmt/format.h>
