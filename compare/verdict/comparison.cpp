@@ -264,8 +264,8 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
 
 // Adds the requested channels of both sides, not yet compared. Returns the names of those that at least one
 // side has.
-std::vector<std::string> matchChannels(const Frame& left, const Frame& right, const CompareOptions& options,
-                                       Comparison& comparison) {
+std::vector<std::string> pairChannels(const Frame& left, const Frame& right, const CompareOptions& options,
+                                      Comparison& comparison) {
     const bool lit_alone = comparesLitAlone(left, right);
     if (lit_alone)
         comparison.notes.push_back(
@@ -399,7 +399,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         leaveOutOtherSurfaces(pair, comparison);
     }
 
-    const std::vector<std::string> names = matchChannels(left, right, options, comparison);
+    const std::vector<std::string> names = pairChannels(left, right, options, comparison);
     diffChannels(pair, options, comparison);
     // Two devices blend surfaces that each has sampled and placed in its own way.
     if (!options.across) readBlending(pair, options.rules, comparison);
