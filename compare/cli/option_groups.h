@@ -2,7 +2,9 @@
 // Groups of options that several commands share, or that one command alone has many of.
 #pragma once
 
-#include "compare/cli/command_options.h"
+#include "compare/cli/parsed_options.h"
+
+#include <CLI/CLI.hpp>
 
 #include <string>
 
