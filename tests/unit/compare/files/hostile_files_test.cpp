@@ -7,7 +7,7 @@
 #include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
 #include "compare/plot/log_axis.h"
-#include "compare/report/parts.h"
+#include "compare/report/whole_report.h"
 #include "compare/report/trends.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/html.h"
