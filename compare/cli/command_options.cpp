@@ -14,7 +14,7 @@
 namespace diptych::cli {
 namespace {
 
-const Command commands[] = {
+const Command command_table[] = {
     {"compare", "Renders a scene with both paths and compares every channel: table, pictures, verdict",
      "diptych compare helmet.glb --lights point:32 -o helmet-report",
      "gbuffer assign shadows lights camera size baseline tolerances out json"},
@@ -313,7 +313,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
 }  // namespace
 
 std::span<const Command> allCommands() {
-    return commands;
+    return command_table;
 }
 
 std::size_t hideSeldomUsed(CLI::App& app, const Command& command) {
