@@ -114,7 +114,7 @@ std::vector<gpu::PosedDelta> takePose(gpu::PosedInstance& i, const Deformations:
     const TextureSlot& map = normalMapOf(scene, pose, instance);
     const bool moves_texcoords =
         map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
-    if (i.normals_end == 0 && !moves_texcoords && !instance.map_turned) i.groups = 0;
+    if (i.normals_end == 0 && !moves_texcoords && !instance.map_rotated) i.groups = 0;
     if (i.groups > 0) {
         const int material = primitiveOf(scene, instance).material;
         i.bitangents = static_cast<float>(
